@@ -33,6 +33,21 @@ inline tl::unexpected<Error> failure(ErrorKind kind, std::string message, std::s
 
 inline tl::unexpected<Error> failure(Error error) { return tl::unexpected<Error>(std::move(error)); }
 
+// TRY(saved(file)); goes on where that succeeded, else returns its error from this function.
+// TRY_ASSIGN(auto model, read(file)); does the same and keeps the value.
+#define TRY(...)                                                                      \
+  do {                                                                                \
+    if (auto tried = (__VA_ARGS__); !tried) return failure(std::move(tried).error()); \
+  } while (false)
+#define TRY_ASSIGN(declaration, ...) \
+  STANDPOINT_TRY_ASSIGN(STANDPOINT_JOINED(tried_, __COUNTER__), declaration, __VA_ARGS__)
+#define STANDPOINT_TRY_ASSIGN(tried, declaration, ...)  \
+  auto tried = (__VA_ARGS__);                           \
+  if (!tried) return failure(std::move(tried).error()); \
+  declaration = *std::move(tried)
+#define STANDPOINT_JOINED(a, b) STANDPOINT_JOINED_NOW(a, b)
+#define STANDPOINT_JOINED_NOW(a, b) a##b
+
 // "house.ifc #12: message"
 inline std::string describe(const Error& error) {
   return error.source.empty() ? error.message : error.source + ": " + error.message;

@@ -194,7 +194,7 @@ Result<SurfaceFit> fitToSurface(std::span<const Vector3d> points, const Pose& st
   Equations equations;
   Solution solution;
   while (fit.iterations < options.max_iterations && !fit.settled) {
-    if (auto go_on = progress.check(); !go_on) return failure(go_on.error());
+    TRY(progress.check());
     progress.advance(static_cast<double>(fit.iterations) / options.max_iterations);
     place(round, points, fit.to_from);
     if (touch(round, search, reach) < kFewest)

@@ -164,17 +164,16 @@ Result<NetworkFit> fitNetwork(const TargetNetwork& network, NetworkProblem* prob
     return failure(ErrorKind::usage, "a sighting is not finite, has no σ, or refers to an unknown target");
   if (!network.held && network.known.size() < 3)
     return failure(ErrorKind::usage, "the network is not fixed: hold one station, or provide three known positions");
-  auto chain = chained(network, problem);
-  if (!chain) return failure(chain.error());
-  const Unknowns unknowns = unknownsOf(network, *chain);
+  TRY_ASSIGN(auto chain, chained(network, problem));
+  const Unknowns unknowns = unknownsOf(network, chain);
   NetworkFit fit;
-  NetworkEquations e = equationsOf(network, *chain, unknowns);
+  NetworkEquations e = equationsOf(network, chain, unknowns);
   Eigen::LDLT<Eigen::MatrixXd> factor(e.normal);
   while (fit.iterations++ < kMostIterations) {
     const Eigen::VectorXd step = factor.solve(e.right);
     if (!step.allFinite()) return failure(ErrorKind::unusable, "the targets do not determine the station poses");
-    move(*chain, unknowns, step);
-    e = equationsOf(network, *chain, unknowns);
+    move(chain, unknowns, step);
+    e = equationsOf(network, chain, unknowns);
     factor.compute(e.normal);
     if (step.cwiseAbs().maxCoeff() < kSettled) break;
   }
@@ -185,11 +184,11 @@ Result<NetworkFit> fitNetwork(const TargetNetwork& network, NetworkProblem* prob
       factor.solve(Eigen::MatrixXd::Identity(unknowns.count, unknowns.count)).diagonal().cwiseMax(0).cwiseSqrt();
   for (std::size_t i = 0; i < network.stations; ++i) {
     const Index at = unknowns.station[i];
-    fit.pose.push_back(*chain->pose[i]);
+    fit.pose.push_back(*chain.pose[i]);
     fit.sigma_shift_m.push_back(at < 0 ? Vector3d::Zero() : Vector3d(sigma.segment<3>(at)));
     fit.sigma_turn_rad.push_back(at < 0 ? Vector3d::Zero() : Vector3d(sigma.segment<3>(at + 3)));
   }
-  fit.target = chain->target;
+  fit.target = chain.target;
   for (const auto& s : network.sightings)
     fit.residual_m.push_back(fit.pose[s.station] * s.place_m - *fit.target[s.target]);
   return fit;

@@ -51,7 +51,7 @@ Result<std::vector<SurfaceOfProduct>> measuredSurfaces(const Environment& enviro
     for (const auto& [surface, area_m2] : scale ? kept : placedAreas(mesh, linear))
       pairs.push_back({instance.product, surface, scale ? area_m2 * *scale * *scale : area_m2});
     if (i % 256 == 0) {
-      if (auto going = progress.check(); !going) return failure(going.error());
+      TRY(progress.check());
       progress.advance(static_cast<double>(i) / static_cast<double>(environment.instances.size()));
     }
   }

@@ -260,18 +260,17 @@ Result<MaterialResult> assignMaterials(const Environment& environment, const std
                                        const RuleSet& rules, const std::vector<MaterialOverride>& overrides,
                                        const AssignOptions& options, Progress& progress) {
   progress.stage("Measuring surfaces", 0, 0.7);
-  const auto pairs = measuredSurfaces(environment, progress);
-  if (!pairs) return failure(pairs.error());
+  TRY_ASSIGN(const auto pairs, measuredSurfaces(environment, progress));
   Assigner assigner(environment, library, rules, overrides, options.shift_m);
-  if (auto checked = assigner.checkIds(); !checked) return failure(checked.error());
+  TRY(assigner.checkIds());
   assigner.prepare();
   progress.stage("Assigning materials", 0.7, 1);
-  for (std::size_t i = 0; i < pairs->size(); ++i) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (i % 256 == 0) {
-      if (auto going = progress.check(); !going) return failure(going.error());
-      progress.advance(static_cast<double>(i) / static_cast<double>(pairs->size()));
+      TRY(progress.check());
+      progress.advance(static_cast<double>(i) / static_cast<double>(pairs.size()));
     }
-    assigner.assign((*pairs)[i]);
+    assigner.assign(pairs[i]);
   }
   progress.advance(1);
   return assigner.finish(options);

@@ -60,9 +60,8 @@ Result<std::string> readWholeFile(const std::filesystem::path& file, std::uintma
 }
 
 Result<nlohmann::json> readJsonFile(const std::filesystem::path& file) {
-  const auto text = readWholeFile(file, kLargestFile);
-  if (!text) return failure(text.error());
-  return parseJson(*text, file.filename().string());
+  TRY_ASSIGN(const auto text, readWholeFile(file, kLargestFile));
+  return parseJson(text, file.filename().string());
 }
 
 Result<nlohmann::json> readJsonArray(const std::filesystem::path& file) {

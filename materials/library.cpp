@@ -32,9 +32,8 @@ Result<std::vector<std::filesystem::path>> jsonFiles(const std::filesystem::path
 }
 
 Result<LibraryFile> readFile(const std::filesystem::path& path) {
-  auto content = readJsonFile(path);
-  if (!content) return failure(content.error());
-  LibraryFile file{path.filename().string(), std::move(*content)};
+  TRY_ASSIGN(auto content, readJsonFile(path));
+  LibraryFile file{path.filename().string(), std::move(content)};
   const JsonPlace at{file.name, {}};
   if (auto checked = checkKeys(file.content, at, {"sources", "materials"}); !checked) return failure(checked.error());
   for (const char* key : {"sources", "materials"})
@@ -50,11 +49,9 @@ Result<void> readSources(const LibraryFile& file, SourceTable& sources) {
     if (auto checked = checkKeys(list[i], at, {"id", "text", "licence"}); !checked) return checked;
     const auto id = readId(list[i], at);
     if (!id) return failure(id.error());
-    const auto text = readText(list[i], at, "text");
-    if (!text) return failure(text.error());
-    const auto licence = readText(list[i], at, "licence");
-    if (!licence) return failure(licence.error());
-    if (!sources.try_emplace(*id, FigureSource{*text, *licence}).second)
+    TRY_ASSIGN(const auto text, readText(list[i], at, "text"));
+    TRY_ASSIGN(const auto licence, readText(list[i], at, "licence"));
+    if (!sources.try_emplace(*id, FigureSource{text, licence}).second)
       return (at / "id").unusable("the source '" + *id + "' already exists");
   }
   return {};
@@ -65,10 +62,9 @@ Result<void> readMaterials(const LibraryFile& file, const SourceTable& sources, 
   const auto& list = file.content["materials"];
   for (std::size_t i = 0; i < list.size(); ++i) {
     const auto at = JsonPlace{file.name, {}} / "materials" / i;
-    auto material = readMaterial(list[i], at, sources);
-    if (!material) return failure(material.error());
-    const auto id = material->id;
-    const auto [place, is_new] = entries.try_emplace(id, Entry{std::move(*material), at});
+    TRY_ASSIGN(auto material, readMaterial(list[i], at, sources));
+    const auto id = material.id;
+    const auto [place, is_new] = entries.try_emplace(id, Entry{std::move(material), at});
     if (!is_new)
       return (at / "id").unusable("'" + id + "' is already defined in " + place->second.at.file + ' ' +
                                   place->second.at.pointer);
@@ -85,8 +81,7 @@ Result<std::vector<PhysicalMaterial>> finished(EntryTable entries, const std::ve
   for (auto& [id, entry] : entries) {
     if (!entry.material.wet_of.empty()) {
       const auto found = dry.find(entry.material.wet_of);
-      if (auto done = wet(entry.material, found == dry.end() ? nullptr : &found->second, entry.at); !done)
-        return failure(done.error());
+      TRY(wet(entry.material, found == dry.end() ? nullptr : &found->second, entry.at));
     }
     library.push_back(std::move(entry.material));
   }
@@ -96,49 +91,40 @@ Result<std::vector<PhysicalMaterial>> finished(EntryTable entries, const std::ve
 Result<std::vector<LibraryFile>> readFiles(const std::vector<std::filesystem::path>& paths) {
   std::vector<LibraryFile> files;
   for (const auto& path : paths) {
-    auto file = readFile(path);
-    if (!file) return failure(file.error());
-    files.push_back(std::move(*file));
+    TRY_ASSIGN(auto file, readFile(path));
+    files.push_back(std::move(file));
   }
   return files;
 }
 
 Result<std::vector<LibraryFile>> readFolder(const std::filesystem::path& folder) {
-  const auto paths = jsonFiles(folder);
-  if (!paths) return failure(paths.error());
-  return readFiles(*paths);
+  TRY_ASSIGN(const auto paths, jsonFiles(folder));
+  return readFiles(paths);
 }
 
 }  // namespace
 
 Result<std::vector<PhysicalMaterial>> readMaterialLibrary(const std::filesystem::path& folder) {
-  const auto files = readFolder(folder);
-  if (!files) return failure(files.error());
+  TRY_ASSIGN(const auto files, readFolder(folder));
   SourceTable sources;
-  for (const auto& file : *files)
-    if (auto read = readSources(file, sources); !read) return failure(read.error());
+  for (const auto& file : files) TRY(readSources(file, sources));
   EntryTable entries;
-  for (const auto& file : *files)
-    if (auto read = readMaterials(file, sources, entries); !read) return failure(read.error());
+  for (const auto& file : files) TRY(readMaterials(file, sources, entries));
   return finished(std::move(entries), {});
 }
 
 Result<std::vector<PhysicalMaterial>> readOwnMaterials(const std::filesystem::path& file,
                                                        const std::filesystem::path& shipped_folder) {
-  const auto shipped = readMaterialLibrary(shipped_folder);
-  if (!shipped) return failure(shipped.error());
-  const auto shipped_files = readFolder(shipped_folder);
-  if (!shipped_files) return failure(shipped_files.error());
-  const auto own = readFile(file);
-  if (!own) return failure(own.error());
+  TRY_ASSIGN(const auto shipped, readMaterialLibrary(shipped_folder));
+  TRY_ASSIGN(const auto shipped_files, readFolder(shipped_folder));
+  TRY_ASSIGN(const auto own, readFile(file));
   SourceTable sources;
-  for (const auto& each : *shipped_files)
-    if (auto read = readSources(each, sources); !read) return failure(read.error());
-  if (auto read = readSources(*own, sources); !read) return failure(read.error());
+  for (const auto& each : shipped_files) TRY(readSources(each, sources));
+  TRY(readSources(own, sources));
   EntryTable entries;
-  if (auto read = readMaterials(*own, sources, entries); !read) return failure(read.error());
-  if (entries.empty()) return JsonPlace{own->name, {}}.unusable("contains no material");
-  return finished(std::move(entries), *shipped);
+  TRY(readMaterials(own, sources, entries));
+  if (entries.empty()) return JsonPlace{own.name, {}}.unusable("contains no material");
+  return finished(std::move(entries), shipped);
 }
 
 std::vector<PhysicalMaterial> withOwn(std::vector<PhysicalMaterial> library, const std::vector<PhysicalMaterial>& own) {

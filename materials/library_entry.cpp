@@ -41,13 +41,11 @@ Result<Spectrum> readSpectrum(const nlohmann::json& value, const JsonPlace& at) 
   for (std::size_t i = 0; i < value.size(); ++i) {
     const auto here = at / i;
     if (!value[i].is_array() || value[i].size() != 2) return here.unusable("must be [wavelength_nm, fraction]");
-    const auto wavelength = readNumber(value[i][0], here / std::size_t{0}, 200, 20000);
-    if (!wavelength) return failure(wavelength.error());
-    const auto fraction = readNumber(value[i][1], here / std::size_t{1}, 0, 1);
-    if (!fraction) return failure(fraction.error());
-    if (!result.empty() && *wavelength <= result.back().first)
+    TRY_ASSIGN(const auto wavelength, readNumber(value[i][0], here / std::size_t{0}, 200, 20000));
+    TRY_ASSIGN(const auto fraction, readNumber(value[i][1], here / std::size_t{1}, 0, 1));
+    if (!result.empty() && wavelength <= result.back().first)
       return (here / std::size_t{0}).unusable("wavelengths must increase");
-    result.emplace_back(*wavelength, *fraction);
+    result.emplace_back(wavelength, fraction);
   }
   return result;
 }
@@ -63,9 +61,8 @@ Result<std::vector<ComplexIndex>> readComplexIndex(const nlohmann::json& value, 
          {std::tuple{std::size_t{0}, &ComplexIndex::wavelength_nm, 200.0, 20000.0},
           {std::size_t{1}, &ComplexIndex::n, 0.001, 1000.0},
           {std::size_t{2}, &ComplexIndex::k, 0.0, 1000.0}}) {
-      const auto number = readNumber(value[i][column], here / column, minimum, maximum);
-      if (!number) return failure(number.error());
-      row.*field = *number;
+      TRY_ASSIGN(const auto number, readNumber(value[i][column], here / column, minimum, maximum));
+      row.*field = number;
     }
     if (!result.empty() && row.wavelength_nm <= result.back().wavelength_nm)
       return (here / std::size_t{0}).unusable("wavelengths must increase");
@@ -116,11 +113,9 @@ Result<void> readCitations(const nlohmann::json& entry, const JsonPlace& at, con
       return (here / item.key()).unusable("is the source of a value that the entry does not have");
   for (const char* key : kSourced) {
     if (!entry.contains(key)) continue;
-    auto text = readText(texts, here, key);
-    if (!text) return failure(text.error());
-    auto citation = readCitation(key, *text, here / key, sources);
-    if (!citation) return failure(citation.error());
-    material.sources.push_back(std::move(*citation));
+    TRY_ASSIGN(auto text, readText(texts, here, key));
+    TRY_ASSIGN(auto citation, readCitation(key, text, here / key, sources));
+    material.sources.push_back(std::move(citation));
   }
   return {};
 }
@@ -172,9 +167,8 @@ Result<void> readGaps(const nlohmann::json& entry, const JsonPlace& at, Physical
   if (found == entry.end()) return {};
   if (!found->is_array() || found->empty()) return (at / "gaps").unusable("must be a list of texts");
   for (std::size_t i = 0; i < found->size(); ++i) {
-    auto text = textOf((*found)[i], at / "gaps" / i);
-    if (!text) return failure(text.error());
-    material.gaps.push_back(std::move(*text));
+    TRY_ASSIGN(auto text, textOf((*found)[i], at / "gaps" / i));
+    material.gaps.push_back(std::move(text));
   }
   return {};
 }
@@ -183,23 +177,20 @@ Result<void> readSpectra(const nlohmann::json& entry, const JsonPlace& at, Physi
   for (const auto& [key, field] : {std::pair{"reflectance", &PhysicalMaterial::reflectance},
                                    std::pair{"transmittance", &PhysicalMaterial::transmittance}}) {
     if (!entry.contains(key)) continue;
-    auto spectrum = readSpectrum(entry[key], at / key);
-    if (!spectrum) return failure(spectrum.error());
-    material.*field = std::move(*spectrum);
+    TRY_ASSIGN(auto spectrum, readSpectrum(entry[key], at / key));
+    material.*field = std::move(spectrum);
   }
   if (!entry.contains("complex_index")) return {};
-  auto index = readComplexIndex(entry["complex_index"], at / "complex_index");
-  if (!index) return failure(index.error());
-  material.complex_index = std::move(*index);
+  TRY_ASSIGN(auto index, readComplexIndex(entry["complex_index"], at / "complex_index"));
+  material.complex_index = std::move(index);
   return {};
 }
 
 Result<void> readNumbers(const nlohmann::json& entry, const JsonPlace& at, PhysicalMaterial& material) {
   for (const auto& figure : kFigures) {
     if (!entry.contains(figure.key)) continue;
-    const auto number = readNumber(entry[figure.key], at / figure.key, figure.minimum, figure.maximum);
-    if (!number) return failure(number.error());
-    material.*figure.field = *number;
+    TRY_ASSIGN(const auto number, readNumber(entry[figure.key], at / figure.key, figure.minimum, figure.maximum));
+    material.*figure.field = number;
   }
   if (!entry.contains("panes")) return {};
   const auto panes = readNumber(entry["panes"], at / "panes", 2, 4);
@@ -212,10 +203,9 @@ Result<void> readNumbers(const nlohmann::json& entry, const JsonPlace& at, Physi
 // What the figures rest on: measured ones, a dry material's, or none at all.
 Result<void> readBasis(const nlohmann::json& entry, const JsonPlace& at, PhysicalMaterial& material) {
   if (entry.contains("wet_of")) {
-    auto dry = readText(entry, at, "wet_of");
-    if (!dry) return failure(dry.error());
+    TRY_ASSIGN(auto dry, readText(entry, at, "wet_of"));
     if (!isGap(material)) return (at / "wet_of").unusable("defines the reflectance: leave out other optical values");
-    material.wet_of = std::move(*dry);
+    material.wet_of = std::move(dry);
     return {};
   }
   if (isGap(material) && material.gaps.empty())
@@ -250,17 +240,13 @@ Result<PhysicalMaterial> readMaterial(const nlohmann::json& entry, const JsonPla
                                 "gap_m", "variation", "texture_scale_m", "retro_gain", "source"});
       !checked)
     return failure(checked.error());
-  const auto id = readId(entry, at);
-  if (!id) return failure(id.error());
-  const auto label = readText(entry, at, "label");
-  if (!label) return failure(label.error());
-  material.id = *id;
-  material.label = *label;
-  for (const auto read : {readGaps, readSpectra, readNumbers, readBasis})
-    if (const auto done = read(entry, at, material); !done) return failure(done.error());
-  for (const auto check : {checkParts, checkEnergy})
-    if (const auto checked = check(material, at); !checked) return failure(checked.error());
-  if (const auto done = readCitations(entry, at, sources, material); !done) return failure(done.error());
+  TRY_ASSIGN(const auto id, readId(entry, at));
+  TRY_ASSIGN(const auto label, readText(entry, at, "label"));
+  material.id = id;
+  material.label = label;
+  for (const auto read : {readGaps, readSpectra, readNumbers, readBasis}) TRY(read(entry, at, material));
+  for (const auto check : {checkParts, checkEnergy}) TRY(check(material, at));
+  TRY(readCitations(entry, at, sources, material));
   return material;
 }
 

@@ -39,7 +39,7 @@ class RulesReader {
     RuleSet set;
     if (auto checked = checkKeys(content, root_, {"words", "rules", "implausible", "then"}); !checked)
       return failure(checked.error());
-    if (auto done = readWords(content); !done) return failure(done.error());
+    TRY(readWords(content));
     if (!content.contains("rules")) return (root_ / "rules").unusable("is missing");
     for (const char* key : {"rules", "implausible"})
       if (content.contains(key) && !content[key].is_array()) return (root_ / key).unusable("must be a list");
@@ -54,9 +54,8 @@ class RulesReader {
     }
     if (content.contains("implausible"))
       for (std::size_t i = 0; i < content["implausible"].size(); ++i) {
-        auto entry = readImplausible(content["implausible"][i], root_ / "implausible" / i);
-        if (!entry) return failure(entry.error());
-        set.implausible.push_back(std::move(*entry));
+        TRY_ASSIGN(auto entry, readImplausible(content["implausible"][i], root_ / "implausible" / i));
+        set.implausible.push_back(std::move(entry));
       }
     set.words = std::move(words_);
     return set;
@@ -98,11 +97,9 @@ class RulesReader {
     const auto found = entry.find(key);
     if (found == entry.end()) return std::optional<ValueRange>();
     if (!found->is_array() || found->size() != 2) return (at / key).unusable("must be [from, to]");
-    const auto from = readNumber((*found)[0], at / key / std::size_t{0}, 0, 1);
-    if (!from) return failure(from.error());
-    const auto to = readNumber((*found)[1], at / key / std::size_t{1}, *from, 1);
-    if (!to) return failure(to.error());
-    return std::optional(ValueRange{static_cast<float>(*from), static_cast<float>(*to)});
+    TRY_ASSIGN(const auto from, readNumber((*found)[0], at / key / std::size_t{0}, 0, 1));
+    TRY_ASSIGN(const auto to, readNumber((*found)[1], at / key / std::size_t{1}, from, 1));
+    return std::optional(ValueRange{static_cast<float>(from), static_cast<float>(to)});
   }
 
   Result<std::string> readAssigned(const nlohmann::json& entry, const JsonPlace& at) const {
@@ -127,33 +124,29 @@ class RulesReader {
                                      {"group", &AssignmentRule::group},
                                      {"layer", &AssignmentRule::layer},
                                      {"colour", &AssignmentRule::colour}}) {
-      auto pattern = readPattern(entry, at, key);
-      if (!pattern) return failure(pattern.error());
-      asks = asks || !pattern->empty();
-      rule.*field = std::move(*pattern);
+      TRY_ASSIGN(auto pattern, readPattern(entry, at, key));
+      asks = asks || !pattern.empty();
+      rule.*field = std::move(pattern);
     }
-    if (auto checked = checkColours(rule.colour, at / "colour"); !checked) return failure(checked.error());
+    TRY(checkColours(rule.colour, at / "colour"));
     for (const auto& [key, field] : {std::pair{"metallic", &AssignmentRule::metallic},
                                      {"roughness", &AssignmentRule::roughness},
                                      {"transmission", &AssignmentRule::transmission}}) {
-      auto range = readRange(entry, at, key);
-      if (!range) return failure(range.error());
-      asks = asks || range->has_value();
-      rule.*field = *range;
+      TRY_ASSIGN(auto range, readRange(entry, at, key));
+      asks = asks || range.has_value();
+      rule.*field = range;
     }
     if (!asks) return at.unusable("has no pattern and would match everything");
-    auto assign = readAssigned(entry, at);
-    if (!assign) return failure(assign.error());
-    rule.assign = std::move(*assign);
+    TRY_ASSIGN(auto assign, readAssigned(entry, at));
+    rule.assign = std::move(assign);
     if (const auto hidden = entry.find("hidden"); hidden != entry.end()) {
       if (!hidden->is_boolean()) return (at / "hidden").unusable("must be true or false");
       if (rule.material.empty()) return (at / "hidden").unusable("requires a pattern for the material");
       rule.hidden = hidden->get<bool>();
     }
     if (entry.contains("confidence")) {
-      const auto confidence = readNumber(entry["confidence"], at / "confidence", 0, 1);
-      if (!confidence) return failure(confidence.error());
-      rule.confidence = *confidence;
+      TRY_ASSIGN(const auto confidence, readNumber(entry["confidence"], at / "confidence", 0, 1));
+      rule.confidence = confidence;
     }
     return rule;
   }
@@ -161,14 +154,11 @@ class RulesReader {
   Result<Implausible> readImplausible(const nlohmann::json& entry, const JsonPlace& at) const {
     if (auto checked = checkKeys(entry, at, {"ifc_class", "assigned", "why"}); !checked)
       return failure(checked.error());
-    auto ifc_class = readPattern(entry, at, "ifc_class");
-    if (!ifc_class) return failure(ifc_class.error());
+    TRY_ASSIGN(auto ifc_class, readPattern(entry, at, "ifc_class"));
     if (!entry.contains("assigned")) return (at / "assigned").unusable("is missing");
-    auto assigned = readPattern(entry, at, "assigned");
-    if (!assigned) return failure(assigned.error());
-    auto why = readText(entry, at, "why");
-    if (!why) return failure(why.error());
-    return Implausible{std::move(*ifc_class), std::move(*assigned), std::move(*why)};
+    TRY_ASSIGN(auto assigned, readPattern(entry, at, "assigned"));
+    TRY_ASSIGN(auto why, readText(entry, at, "why"));
+    return Implausible{std::move(ifc_class), std::move(assigned), std::move(why)};
   }
 
   JsonPlace root_;
@@ -190,9 +180,8 @@ Result<std::string> readRulesText(const std::filesystem::path& file) { return re
 Result<RuleSet> parseAssignmentRules(const std::string& text, const std::string& file_name,
                                      const std::vector<PhysicalMaterial>& library,
                                      const std::filesystem::path& default_file) {
-  const auto content = parseJson(text, file_name);
-  if (!content) return failure(content.error());
-  const auto more = wantsDefault(*content, JsonPlace{file_name, {}});
+  TRY_ASSIGN(const auto content, parseJson(text, file_name));
+  const auto more = wantsDefault(content, JsonPlace{file_name, {}});
   if (!more) return failure(more.error());
   RuleSet defaults;
   if (*more) {
@@ -200,7 +189,7 @@ Result<RuleSet> parseAssignmentRules(const std::string& text, const std::string&
     if (!read) return read;
     defaults = std::move(*read);
   }
-  auto set = RulesReader(file_name, library, defaults.words).read(*content);
+  auto set = RulesReader(file_name, library, defaults.words).read(content);
   if (!set) return set;
   set->own = default_file.empty() ? 0 : set->rules.size();  // else they are the default rules themselves
   if (!*more) return set;
@@ -216,9 +205,8 @@ Result<RuleSet> parseAssignmentRules(const std::string& text, const std::string&
 
 Result<RuleSet> readAssignmentRules(const std::filesystem::path& file, const std::vector<PhysicalMaterial>& library,
                                     const std::filesystem::path& default_file) {
-  const auto text = readRulesText(file);
-  if (!text) return failure(text.error());
-  return parseAssignmentRules(*text, file.filename().string(), library, default_file);
+  TRY_ASSIGN(const auto text, readRulesText(file));
+  return parseAssignmentRules(text, file.filename().string(), library, default_file);
 }
 
 }  // namespace standpoint

@@ -36,9 +36,8 @@ class Distributor final : public PointSink {
       : writer_of_(writer_of), out_(std::move(out)), one_each_(one_each) {}
 
   Result<void> open(const std::filesystem::path& file) {
-    auto writer = writer_of_(file);
-    if (!writer) return failure(writer.error());
-    writer_ = std::move(*writer);
+    TRY_ASSIGN(auto writer, writer_of_(file));
+    writer_ = std::move(writer);
     pending_ = file;
     return {};
   }
@@ -137,17 +136,14 @@ const CloudFormat* readableCloudFormat(const std::filesystem::path& file) {
 }
 
 Result<CloudExtent> measureCloud(const std::filesystem::path& file, Progress& progress) {
-  const auto format = known(file);
-  if (!format) return failure(format.error());
-  if (!(*format)->read)
-    return failure(ErrorKind::usage, std::string((*format)->name) + " files can only be written", file.string());
-  const auto info = (*format)->info(file);
-  if (!info) return failure(info.error());
-  CloudExtent extent{.format = info->format, .crs = info->crs};
+  TRY_ASSIGN(const auto format, known(file));
+  if (!format->read)
+    return failure(ErrorKind::usage, std::string(format->name) + " files can only be written", file.string());
+  TRY_ASSIGN(const auto info, format->info(file));
+  CloudExtent extent{.format = info.format, .crs = info.crs};
   ExtentSink sink(extent);
-  auto report = (*format)->read(file, sink, progress);
-  if (!report) return failure(report.error());
-  extent.report = *std::move(report);
+  TRY_ASSIGN(auto report, format->read(file, sink, progress));
+  extent.report = std::move(report);
   return extent;
 }
 
@@ -161,23 +157,19 @@ Result<std::vector<std::filesystem::path>> convertCloud(const std::filesystem::p
     return failure(ErrorKind::usage, std::string((*from)->name) + " files can only be written", in.string());
   if (!(*to)->writer)
     return failure(ErrorKind::usage, std::string((*to)->name) + " files can only be read", out.string());
-  const auto writer = writerOf(**to, as);
-  if (!writer) return failure(writer.error());
+  TRY_ASSIGN(const auto writer, writerOf(**to, as));
   bool one_each = false;
   if (!(*to)->many_scans) {
-    const auto info = (*from)->info(in);
-    if (!info) return failure(info.error());
-    one_each = info->scans.size() > 1;
+    TRY_ASSIGN(const auto info, (*from)->info(in));
+    one_each = info.scans.size() > 1;
   }
-  Distributor distributor(*writer, out, one_each);
-  if (!one_each)
-    if (auto opened = distributor.open(out); !opened) return failure(opened.error());
+  Distributor distributor(writer, out, one_each);
+  if (!one_each) TRY(distributor.open(out));
   const std::unique_ptr<PointSink> before = through ? through(distributor) : nullptr;
   PointSink& sink = before ? *before : distributor;
-  const auto lost = (*from)->read(in, sink, progress);
-  if (!lost) return failure(lost.error());
-  if (auto closed = sink.close(); !closed) return failure(closed.error());
-  report.append(*lost);
+  TRY_ASSIGN(const auto lost, (*from)->read(in, sink, progress));
+  TRY(sink.close());
+  report.append(lost);
   report.append(distributor.report);
   return distributor.files;
 }

@@ -66,7 +66,7 @@ Result<std::string> FileBytes::all(std::uint64_t at_most) const {
     return failure(ErrorKind::unusable,
                    "has " + std::to_string(size_) + " bytes; the limit is " + std::to_string(at_most), path_.string());
   std::string text(static_cast<std::size_t>(size_), '\0');
-  if (auto ok = read(0, text.data(), text.size()); !ok) return failure(ok.error());
+  TRY(read(0, text.data(), text.size()));
   return text;
 }
 

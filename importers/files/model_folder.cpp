@@ -98,20 +98,18 @@ Result<ModelFolder::Found> ModelFolder::find(const std::string& name, const fs::
 
 Result<std::int32_t> ImageFiles::add(const fs::path& file) {
   if (const auto known = known_.find(file); known != known_.end()) return known->second;
-  const auto bytes = FileBytes::open(file);
-  if (!bytes) return failure(bytes.error());
-  auto text = bytes->all(kMaxImageBytes);
-  if (!text) return failure(text.error());
+  TRY_ASSIGN(const auto bytes, FileBytes::open(file));
+  TRY_ASSIGN(auto text, bytes.all(kMaxImageBytes));
   Image image;
   image.name = file.filename().string();
-  if (text->starts_with("\x89PNG\r\n\x1A\n"))
+  if (text.starts_with("\x89PNG\r\n\x1A\n"))
     image.media_type = "image/png";
-  else if (text->starts_with("\xFF\xD8\xFF"))
+  else if (text.starts_with("\xFF\xD8\xFF"))
     image.media_type = "image/jpeg";
   else
     return failure(ErrorKind::unusable, "is neither PNG nor JPEG; convert it to one of these formats", image.name);
-  image.bytes.resize(text->size());
-  std::memcpy(image.bytes.data(), text->data(), text->size());
+  image.bytes.resize(text.size());
+  std::memcpy(image.bytes.data(), text.data(), text.size());
   images_.push_back(std::make_shared<const Image>(std::move(image)));
   return known_[file] = static_cast<std::int32_t>(images_.size()) - 1;
 }

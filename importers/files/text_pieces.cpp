@@ -39,7 +39,7 @@ Result<std::string> textPiece(const FileBytes& bytes, std::uint64_t from, std::s
   const std::uint64_t before = std::min<std::uint64_t>(from, kBefore);
   std::uint64_t end = std::min<std::uint64_t>(from + size, bytes.size());
   std::string text(static_cast<std::size_t>(end - from + before), '\0');
-  if (auto ok = bytes.read(from - before, text.data(), text.size()); !ok) return failure(ok.error());
+  TRY(bytes.read(from - before, text.data(), text.size()));
   const std::size_t nominal_end = text.size();
   const auto begin = from == 0 ? 0 : cutAfter(text, static_cast<std::size_t>(before), end == bytes.size());
   if (begin == std::string::npos || begin >= nominal_end) return std::string();
@@ -49,7 +49,7 @@ Result<std::string> textPiece(const FileBytes& bytes, std::uint64_t from, std::s
     const auto more = static_cast<std::size_t>(
         std::min<std::uint64_t>(std::max<std::size_t>(kMore, text.size() / 2), bytes.size() - end));
     text.resize(text.size() + more);
-    if (auto ok = bytes.read(end, text.data() + text.size() - more, more); !ok) return failure(ok.error());
+    TRY(bytes.read(end, text.data() + text.size() - more, more));
     end += more;
     cut = cutAfter(text, look, end == bytes.size());
     if (cut != std::string::npos) break;

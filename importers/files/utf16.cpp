@@ -30,20 +30,19 @@ bool isUtf16(const FileBytes& bytes) {
 }
 
 Result<std::string> utf8FromUtf16(const FileBytes& bytes) {
-  const auto all = bytes.all(kMaxBytes);
-  if (!all) return failure(all.error());
-  const bool little = all->front() == '\xFF';
+  TRY_ASSIGN(const auto all, bytes.all(kMaxBytes));
+  const bool little = all.front() == '\xFF';
   const auto unit = [&](std::size_t i) {
-    const auto a = static_cast<unsigned char>((*all)[i]), b = static_cast<unsigned char>((*all)[i + 1]);
+    const auto a = static_cast<unsigned char>(all[i]), b = static_cast<unsigned char>(all[i + 1]);
     return static_cast<std::uint32_t>(little ? a | b << 8U : b | a << 8U);
   };
   std::string text;
-  for (std::size_t i = 2; i + 1 < all->size(); i += 2) {
+  for (std::size_t i = 2; i + 1 < all.size(); i += 2) {
     const std::uint32_t c = unit(i);
     const bool high = c >= 0xD800 && c < 0xDC00, low = c >= 0xDC00 && c < 0xE000;
     if (!high && !low) {
       append(text, c);
-    } else if (high && i + 3 < all->size() && unit(i + 2) >= 0xDC00 && unit(i + 2) < 0xE000) {
+    } else if (high && i + 3 < all.size() && unit(i + 2) >= 0xDC00 && unit(i + 2) < 0xE000) {
       append(text, 0x10000 + ((c - 0xD800) << 10U) + (unit(i + 2) - 0xDC00));
       i += 2;
     } else {

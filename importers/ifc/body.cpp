@@ -59,10 +59,10 @@ class Builder {
   Result<Bodies> run() {
     progress_.stage("Placements", 0.2, 0.25);
     for (const Entity& e : products_) plans_.push_back(plan(e));
-    if (auto go = progress_.check(); !go) return failure(go.error());
+    TRY(progress_.check());
     chooseShared();
-    if (auto go = evaluate(); !go) return failure(go.error());
-    if (auto go = cutOpenings(); !go) return failure(go.error());
+    TRY(evaluate());
+    TRY(cutOpenings());
     collect();
     return std::move(result_);
   }

@@ -65,36 +65,34 @@ std::vector<Product> describeAll(const std::vector<Entity>& entities, const Rela
 Result<ImportedModel> readIfc(const std::filesystem::path& path, const ImportOptions& options, Progress& progress) {
   ImportedModel result;
   progress.stage("Reading", 0, 0.2);
-  auto file = StepFile::read(path, result.report);
-  if (!file) return failure(file.error());
-  if (auto go = progress.check(); !go) return failure(go.error());
-  const TextureMaps textures(*file);
-  const Model model{*file,
-                    readUnits(*file, options.metres_per_unit, result.report),
+  TRY_ASSIGN(auto file, StepFile::read(path, result.report));
+  TRY(progress.check());
+  const TextureMaps textures(file);
+  const Model model{file,
+                    readUnits(file, options.metres_per_unit, result.report),
                     {options.chord_error_m, options.max_segment_angle_rad},
-                    mappingOfTypes(*file),
+                    mappingOfTypes(file),
                     textures,
-                    ShapeAspects(*file),
-                    stylesOfItems(*file, textures),
-                    colourMaps(*file),
+                    ShapeAspects(file),
+                    stylesOfItems(file, textures),
+                    colourMaps(file),
                     newCurveCache()};
-  const Relations relations(*file);
-  const std::vector<Entity> entities = productEntities(*file);
-  auto bodies = buildBodies(entities, relations, model, progress);
-  if (!bodies) return failure(bodies.error());
+  const Relations relations(file);
+  const std::vector<Entity> entities = productEntities(file);
+  TRY_ASSIGN(auto bodies, buildBodies(entities, relations, model, progress));
   progress.stage("Properties", 0.95, 1);
   Environment& environment = result.environment;
   environment.products = describeAll(entities, relations, model, result.report);
   environment.spatial = spatialTree(model, relations, result.report);
-  linkProducts(environment.products, entities, environment.spatial, relations, *file);
+  linkProducts(environment.products, entities, environment.spatial, relations, file);
   result.georeference = readGeoreference(model, relations, result.report);
   result.metres_per_unit = model.units.length_m;
-  result.georeference.shift_m = chooseShift(options, placedBounds(*bodies, standing(options)));
+  result.georeference.shift_m = chooseShift(options, placedBounds(bodies, standing(options)));
   Assembly assembly(model, relations, environment, standing(options), path.parent_path(), result.report);
   for (std::size_t i = 0; i < entities.size(); ++i)
-    assembly.add(static_cast<std::uint32_t>(i), entities[i], bodies->of_product[i], result.georeference.shift_m);
-  result.report.append(bodies->report);
-  if (auto go = progress.check(); !go) return failure(go.error());
+    assembly.add(static_cast<std::uint32_t>(i), entities[i], bodies.of_product[i], result.georeference.shift_m);
+  result.report.append(bodies.report);
+  TRY(progress.check());
   if (const std::string wrong = validate(environment); !wrong.empty())
     return failure(ErrorKind::internal, wrong, path.filename().string());
   return result;

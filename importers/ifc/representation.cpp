@@ -107,8 +107,7 @@ Result<std::vector<Part>> partsOfShape(const Entity& shape, Scope& scope) {
   Walk walk{scope, {}};
   const Entity body = bestOf(shape.refs(2), scope.model);
   if (!body) return walk.parts;
-  if (auto done = walk.representation(body, Eigen::Affine3d::Identity(), kNoStyle, 0); !done)
-    return failure(done.error());
+  TRY(walk.representation(body, Eigen::Affine3d::Identity(), kNoStyle, 0));
   return walk.parts;
 }
 
@@ -121,7 +120,7 @@ Result<std::vector<Part>> partsOfType(const Entity& type, Scope& scope) {
   for (const Entity& map : maps)
     if (body && map.ref(1) == body) {
       const Eigen::Affine3d placed(axisPlacement(map.ref(0), scope));
-      if (auto done = walk.representation(body, placed, kNoStyle, 0); !done) return failure(done.error());
+      TRY(walk.representation(body, placed, kNoStyle, 0));
       break;
     }
   return walk.parts;

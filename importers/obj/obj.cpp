@@ -63,35 +63,32 @@ void sayWhatIsLost(const ObjFile& file, Report& report) {
 Result<FileBytes> openText(const std::filesystem::path& path) {
   auto bytes = FileBytes::open(path);
   if (!bytes || !isUtf16(*bytes)) return bytes;
-  auto text = utf8FromUtf16(*bytes);
-  if (!text) return failure(text.error());
-  return FileBytes::of(std::move(*text), path);
+  TRY_ASSIGN(auto text, utf8FromUtf16(*bytes));
+  return FileBytes::of(std::move(text), path);
 }
 
 Result<ImportedModel> read(const std::filesystem::path& path, const ImportOptions& options, Progress& progress) {
   const std::string name = path.filename().string();
-  const auto bytes = openText(path);
-  if (!bytes) return failure(bytes.error());
-  auto file = readObjFile(*bytes, name, progress);
-  if (!file) return failure(file.error());
-  if (file->known_statements == 0 && file->tallies.contains(kUnknown))
+  TRY_ASSIGN(const auto bytes, openText(path));
+  TRY_ASSIGN(auto file, readObjFile(bytes, name, progress));
+  if (file.known_statements == 0 && file.tallies.contains(kUnknown))
     return failure(ErrorKind::unusable, "contains no OBJ statements",
-                   name + " line " + std::to_string(file->tallies.find(kUnknown)->second.first_line));
+                   name + " line " + std::to_string(file.tallies.find(kUnknown)->second.first_line));
   Report report;
-  auto groups = groupObjFaces(*file, path.stem().string());
+  auto groups = groupObjFaces(file, path.stem().string());
   FaceSoup soup;
-  soup.positions = std::move(file->positions);
-  soup.colours = std::move(file->colours);
-  soup.texture_coordinates = std::move(file->texture_coordinates);
-  soup.corners = std::move(file->corners);
-  soup.texture_corners = std::move(file->texture_corners);
-  soup.face_begins = std::move(file->face_begins);
+  soup.positions = std::move(file.positions);
+  soup.colours = std::move(file.colours);
+  soup.texture_coordinates = std::move(file.texture_coordinates);
+  soup.corners = std::move(file.corners);
+  soup.texture_corners = std::move(file.texture_corners);
+  soup.face_begins = std::move(file.face_begins);
   soup.runs = std::move(groups.runs);
   soup.products = std::move(groups.products);
   soup.surfaces = std::move(groups.surfaces);
-  soup.place = [&](std::size_t face) { return "line " + std::to_string(file->lineOf(face)); };
+  soup.place = [&](std::size_t face) { return "line " + std::to_string(file.lineOf(face)); };
   applyMaterials(path, groups, soup, report);
-  sayWhatIsLost(*file, report);
+  sayWhatIsLost(file, report);
   return modelFrom(std::move(soup), kObjImporter.up, options, std::move(report), progress);
 }
 

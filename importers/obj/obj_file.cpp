@@ -26,7 +26,7 @@ class Joiner {
 
   Result<ObjFile> join() {
     countBases();
-    if (auto ok = checkIndices(); !ok) return failure(ok.error());
+    TRY(checkIndices());
     for (const auto& chunk : chunks_) {
       has_colours_ |= !chunk.colours.empty();
       has_texture_ |= !chunk.texture_corners.empty();
@@ -44,7 +44,7 @@ class Joiner {
     std::vector<ObjTally> wrong_texture(chunks_.size());
     tbb::parallel_for(std::size_t{0}, chunks_.size(),
                       [&](std::size_t i) { copy(chunks_[i], bases_[i], wrong_texture[i]); });
-    if (auto ok = checkVertices(); !ok) return failure(ok.error());
+    TRY(checkVertices());
     for (std::size_t i = 0; i < chunks_.size(); ++i) copyWords(chunks_[i], bases_[i], wrong_texture[i]);
     return std::move(out_);
   }
@@ -208,7 +208,7 @@ Result<ObjFile> readObjFile(const FileBytes& bytes, const std::string& name, std
         progress.advance(0.6 * static_cast<double>(++done) / static_cast<double>(chunks.size()));
       },
       tbb::simple_partitioner());
-  if (auto ok = progress.check(); !ok) return failure(ok.error());
+  TRY(progress.check());
   for (const auto& error : unread)
     if (!error.message.empty()) return failure(error);
   return Joiner(chunks, name).join();

@@ -44,33 +44,30 @@ void addSurfaces(const std::filesystem::path& path, const PlyHeader& header, boo
 
 Result<ImportedModel> read(const std::filesystem::path& path, const ImportOptions& options, Progress& progress) {
   const std::string name = path.filename().string();
-  const auto bytes = FileBytes::open(path);
-  if (!bytes) return failure(bytes.error());
-  auto header = readPlyHeader(*bytes, name);
-  if (!header) return failure(header.error());
+  TRY_ASSIGN(const auto bytes, FileBytes::open(path));
+  TRY_ASSIGN(auto header, readPlyHeader(bytes, name));
   Report report;
-  auto read = readPlySoup(*bytes, *header, name, report, progress);
-  if (!read) return failure(read.error());
-  addSurfaces(path, *header, !read->soup.texture_corners.empty(), read->soup, report);
-  for (auto& run : read->soup.runs)
-    if (run.surface >= read->soup.surfaces.size()) run.surface = 0;
-  if (!read->colour_of_face.empty()) {
+  TRY_ASSIGN(auto read, readPlySoup(bytes, header, name, report, progress));
+  addSurfaces(path, header, !read.soup.texture_corners.empty(), read.soup, report);
+  for (auto& run : read.soup.runs)
+    if (run.surface >= read.soup.surfaces.size()) run.surface = 0;
+  if (!read.colour_of_face.empty()) {
     const bool plain =
-        std::all_of(read->soup.runs.begin(), read->soup.runs.end(), [](const FaceRun& r) { return r.surface == 0; });
-    if (plain && read->soup.colours.empty())
-      paintFaces(read->soup, read->colour_of_face);
+        std::all_of(read.soup.runs.begin(), read.soup.runs.end(), [](const FaceRun& r) { return r.surface == 0; });
+    if (plain && read.soup.colours.empty())
+      paintFaces(read.soup, read.colour_of_face);
     else
       report.note("", "face colours ignored: vertices or textures define the colour");
   }
   Product product;
   product.name = path.stem().string();
   product.id = "ply";
-  read->soup.products.push_back(std::move(product));
-  read->soup.place = [&](std::size_t face) {
-    return read->line_of_face.empty() ? "face " + std::to_string(read->row_of_face[face])
-                                      : "line " + std::to_string(read->line_of_face[face]);
+  read.soup.products.push_back(std::move(product));
+  read.soup.place = [&](std::size_t face) {
+    return read.line_of_face.empty() ? "face " + std::to_string(read.row_of_face[face])
+                                     : "line " + std::to_string(read.line_of_face[face]);
   };
-  return modelFrom(std::move(read->soup), kPlyImporter.up, options, std::move(report), progress);
+  return modelFrom(std::move(read.soup), kPlyImporter.up, options, std::move(report), progress);
 }
 
 Result<ImportedModel> readPly(const std::filesystem::path& path, const ImportOptions& options, Progress& progress) {

@@ -35,7 +35,7 @@ class HeaderReader {
       const auto w = words(*line);
       if (w.empty()) continue;
       if (w[0] == "end_header") break;
-      if (auto ok = statement(w, *line); !ok) return failure(ok.error());
+      TRY(statement(w, *line));
     }
     out_.bytes = at_;
     out_.lines = lines_;
@@ -143,7 +143,7 @@ std::uint64_t PlyElement::leastBytes(bool text) const {
 
 Result<PlyHeader> readPlyHeader(const FileBytes& bytes, const std::string& name) {
   std::string text(static_cast<std::size_t>(std::min(bytes.size(), kMaxHeader)), '\0');
-  if (auto ok = bytes.read(0, text.data(), text.size()); !ok) return failure(ok.error());
+  TRY(bytes.read(0, text.data(), text.size()));
   if (!text.starts_with("ply")) return failure(ErrorKind::unusable, "does not begin with 'ply'", name + " line 1");
   return HeaderReader(text, name).run(bytes.size());
 }

@@ -107,10 +107,9 @@ Result<void> PlyRows::textValue(double& out) {
 }
 
 Result<void> PlyRows::refill() {
-  auto text = textPiece(bytes_, next_piece_, kPiece);
-  if (!text) return failure(text.error());
+  TRY_ASSIGN(auto text, textPiece(bytes_, next_piece_, kPiece));
   next_piece_ += kPiece;
-  text_ = std::move(*text);
+  text_ = std::move(text);
   cursor_.emplace(text_, line_);
   return {};
 }

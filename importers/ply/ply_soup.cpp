@@ -73,18 +73,17 @@ class SoupReader {
 
   Result<PlySoup> run() {
     out_.soup.face_begins = {0};
-    if (auto ok = mustHaveFaces(); !ok) return failure(ok.error());
+    TRY(mustHaveFaces());
     const auto* face = element("face");
     const bool wedges = face != nullptr && propertyOf(*face, {"texcoord"}, true) >= 0;
     vertex_textured_ = !wedges && propertyOf(*element("vertex"), kU) >= 0 && propertyOf(*element("vertex"), kV) >= 0;
     for (const auto& element : header_.elements) {
-      auto ok = element.name == "vertex"      ? vertices(element)
-                : element.name == "face"      ? faces(element)
-                : element.name == "tristrips" ? strips(element)
-                                              : skip(element);
-      if (!ok) return failure(ok.error());
+      TRY(element.name == "vertex"      ? vertices(element)
+          : element.name == "face"      ? faces(element)
+          : element.name == "tristrips" ? strips(element)
+                                        : skip(element));
     }
-    if (auto ok = checkCorners(); !ok) return failure(ok.error());
+    TRY(checkCorners());
     if (!out_.soup.texture_corners.empty())
       out_.soup.texture_corners.resize(out_.soup.corners.size(), kNoTextureCorner);
     if (!out_.colour_of_face.empty()) out_.colour_of_face.resize(faceCount(), kNoFaceColour);

@@ -25,7 +25,7 @@ class SoupModel {
     toMetresZUp(z_up, options.metres_per_unit > 0 ? options.metres_per_unit : 1);
     groupRuns();
     chooseOrigins(options);
-    if (auto ok = makeMeshes(); !ok) return failure(ok.error());
+    TRY(makeMeshes());
     auto& e = model_.environment;
     e.surfaces = std::move(soup_.surfaces);
     e.products = std::move(soup_.products);

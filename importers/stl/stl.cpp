@@ -95,15 +95,11 @@ Result<void> readBinary(const FileBytes& bytes, const std::string& name, StlSoup
 
 Result<ImportedModel> read(const std::filesystem::path& path, const ImportOptions& options, Progress& progress) {
   const std::string name = path.filename().string();
-  const auto bytes = FileBytes::open(path);
-  if (!bytes) return failure(bytes.error());
+  TRY_ASSIGN(const auto bytes, FileBytes::open(path));
   Report report;
   StlSoup out;
-  const bool binary = isBinaryStl(*bytes);
-  if (auto ok =
-          binary ? readBinary(*bytes, name, out, report, progress) : readStlText(*bytes, name, out, report, progress);
-      !ok)
-    return failure(ok.error());
+  const bool binary = isBinaryStl(bytes);
+  TRY(binary ? readBinary(bytes, name, out, report, progress) : readStlText(bytes, name, out, report, progress));
   auto soup = std::move(out).soup();
   const auto lines = std::move(out).lines();
   soup.place = [&](std::size_t face) {

@@ -175,9 +175,8 @@ Result<void> readStlText(const FileBytes& bytes, const std::string& name, StlSou
   TextReader reader(name, out);
   std::size_t line = 1;
   for (std::uint64_t from = 0; from < bytes.size(); from += kPiece) {
-    const auto text = textPiece(bytes, from, kPiece);
-    if (!text) return failure(text.error());
-    if (auto ok = reader.piece(*text, line); !ok) return ok;
+    TRY_ASSIGN(const auto text, textPiece(bytes, from, kPiece));
+    if (auto ok = reader.piece(text, line); !ok) return ok;
     progress.advance(0.6 * static_cast<double>(from) / static_cast<double>(bytes.size()));
     if (auto ok = progress.check(); !ok) return ok;
   }

@@ -138,7 +138,7 @@ Result<std::vector<std::shared_ptr<const InstanceDeviation>>> vertexDeviation(co
     own[i] = std::move(result);
     progress.advance(static_cast<double>(done += mesh.positions.size()) / all);
   });
-  if (auto going = progress.check(); !going) return failure(going.error());
+  TRY(progress.check());
   std::vector<std::shared_ptr<const InstanceDeviation>> result(own.size());
   for (std::size_t i = 0; i < own.size(); ++i) result[i] = own[representative[i]];
   return result;

@@ -68,7 +68,7 @@ Result<std::vector<MeshJob>> makePieces(const Environment& environment, const st
     work.result = collisionPieces(work.shape, kMaxDeviation / work.scale, progress);
     progress.advance(static_cast<double>(++done) / static_cast<double>(jobs.size()));
   });
-  if (auto going = progress.check(); !going) return failure(going.error());
+  TRY(progress.check());
   return jobs;
 }
 
@@ -126,10 +126,9 @@ Result<CollideResult> collide(const Environment& environment, const CollideOptio
                                "`treat`, or correct its placement",
                                environment.products[*product].id, kFarthest / 1000),
                    "collide");
-  auto jobs = makePieces(environment, stops, progress);
-  if (!jobs) return failure(jobs.error());
+  TRY_ASSIGN(auto jobs, makePieces(environment, stops, progress));
   CollideResult result;
-  placeShapes(environment, stops, *jobs, result);
+  placeShapes(environment, stops, jobs, result);
   if (options.doors != DoorState::open) closeWhatIsOpen(environment, options, result.shapes, result.report);
   for (const auto& shape : result.shapes) {
     ++result.products[shape.product].shapes;
@@ -144,7 +143,7 @@ Result<CollideResult> collide(const Environment& environment, const CollideOptio
         fmt::format("computed on a grid of {:.3f} m because of the model size: narrow passages may be missing",
                     walkable->cell_m));
   progress.stage("Check doors", 0.9, 1);
-  if (auto going = progress.check(); !going) return failure(going.error());
+  TRY(progress.check());
   result.doors = checkDoors(environment, result.shapes, options, result.report);
   joinThroughDoors(environment, result.shapes, options, result.doors, *walkable, result.report);
   if (options.doors != DoorState::closed)

@@ -285,7 +285,7 @@ Result<void> addCluster(const std::vector<CollisionShape>& shapes, const Cluster
       !rcCreateHeightfield(&context, *field, grid.width, grid.depth, grid.low, grid.high, grid.cell, grid.level))
     return full();
   for (const auto i : cluster.shapes) {
-    if (auto going = progress.check(); !going) return failure(going.error());
+    TRY(progress.check());
     progress.advance(0.7 * static_cast<double>(done++) / static_cast<double>(shapes.size()));
     const Soup soup = soupOf(shapes[i].mesh, context);
     const bool solid = shapes[i].kind != CollisionShapeKind::mesh;
@@ -308,7 +308,7 @@ Result<void> addCluster(const std::vector<CollisionShape>& shapes, const Cluster
                true;
       }};
   for (const auto& stage : stages) {
-    if (auto going = progress.check(); !going) return failure(going.error());
+    TRY(progress.check());
     if (!stage()) return full();
   }
   addMesh(*compact, island_of_span, result);
@@ -326,8 +326,7 @@ Result<Walkable> walkableSurface(const std::vector<CollisionShape>& shapes, cons
   std::size_t done = 0;
   std::uint32_t islands = 0;
   for (const auto& cluster : clusters) {
-    if (auto added = addCluster(shapes, cluster, result.cell_m, options, done, islands, result, progress); !added)
-      return failure(added.error());
+    TRY(addCluster(shapes, cluster, result.cell_m, options, done, islands, result, progress));
     done += cluster.shapes.size();
   }
   return result;

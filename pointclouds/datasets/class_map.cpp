@@ -70,13 +70,12 @@ Result<ClassMap> MapReader::read(const json& root) {
     if (!root.contains(key)) return broken(key, "is missing");
   if (!root["name"].is_string()) return broken("name", "must be a text");
   map_.name = root["name"].get<std::string>();
-  if (auto taken = takeClasses(root["classes"]); !taken) return failure(taken.error());
+  TRY(takeClasses(root["classes"]));
   for (const auto& [key, member] : {std::pair("unknown", &ClassMap::unknown), std::pair("noise", &ClassMap::noise)}) {
-    const auto found = classNamed(root[key], key);
-    if (!found) return failure(found.error());
-    map_.*member = *found;
+    TRY_ASSIGN(const auto found, classNamed(root[key], key));
+    map_.*member = found;
   }
-  if (auto taken = takeRules(root["ifc"]); !taken) return failure(taken.error());
+  TRY(takeRules(root["ifc"]));
   return map_;
 }
 

@@ -24,12 +24,10 @@ class SemanticKitti final : public LabelledFolder {
     const std::string folder = sequence(station().validation);
     station().place = folder + "velodyne/" + frame + ".bin";
     starts_.push_back(header().acquisition_start_gps_s);
-    auto points = create(station().place);
-    if (!points) return failure(points.error());
-    points_.emplace(std::move(*points));
-    auto labels = create(folder + "labels/" + frame + ".label");
-    if (!labels) return failure(labels.error());
-    labels_.emplace(std::move(*labels));
+    TRY_ASSIGN(auto points, create(station().place));
+    points_.emplace(std::move(points));
+    TRY_ASSIGN(auto labels, create(folder + "labels/" + frame + ".label"));
+    labels_.emplace(std::move(labels));
     without_instance_ = 0;
     return {};
   }
@@ -71,10 +69,9 @@ class SemanticKitti final : public LabelledFolder {
         calibration += std::string(name) + ": 1 0 0 0 0 1 0 0 0 0 1 0\n";
       for (const auto& [name, text] :
            {std::pair("poses.txt", &poses), std::pair("times.txt", &times), std::pair("calib.txt", &calibration)}) {
-        auto file = create(sequence(validation) + name);
-        if (!file) return failure(file.error());
-        file->text() = *text;
-        if (auto finished = file->finish(); !finished) return finished;
+        TRY_ASSIGN(auto file, create(sequence(validation) + name));
+        file.text() = *text;
+        if (auto finished = file.finish(); !finished) return finished;
       }
     }
     return {};
@@ -105,12 +102,10 @@ class Custom3d final : public LabelledFolder {
  private:
   Result<void> beginStation() override {
     station().place = std::string(station().validation ? "val/" : "train/") + station().name + ".npy";
-    auto points = create(station().place);
-    if (!points) return failure(points.error());
-    points_.emplace(std::move(*points));
-    auto instances = create("instances/" + station().name + ".npy");
-    if (!instances) return failure(instances.error());
-    instances_.emplace(std::move(*instances));
+    TRY_ASSIGN(auto points, create(station().place));
+    points_.emplace(std::move(points));
+    TRY_ASSIGN(auto instances, create("instances/" + station().name + ".npy"));
+    instances_.emplace(std::move(instances));
     rows_ = 0;
     points_->text() = numpyHead("<f4", 0, 8);
     instances_->text() = numpyHead("<i4", 0, 1);

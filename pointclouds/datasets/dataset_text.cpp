@@ -34,9 +34,8 @@ class S3dis final : public LabelledFolder {
  private:
   Result<void> beginStation() override {
     station().place = std::string(station().validation ? "Area_5/" : "Area_1/") + station().name;
-    auto file = create(station().place + "/" + station().name + ".txt");
-    if (!file) return failure(file.error());
-    room_.emplace(std::move(*file));
+    TRY_ASSIGN(auto file, create(station().place + "/" + station().name + ".txt"));
+    room_.emplace(std::move(file));
     std::error_code error;
     std::filesystem::create_directories(path(station().place + "/Annotations"), error);
     if (error) return failure(ErrorKind::file_system, "cannot create a folder: " + error.message(), station().place);
@@ -86,9 +85,8 @@ class Semantic3d final : public LabelledFolder {
     station().place = station().name + ".txt";
     for (std::size_t k = 0; k < 3; ++k) {
       constexpr const char* kEnds[3] = {".txt", ".labels", ".instances"};
-      auto file = create(station().name + kEnds[k]);
-      if (!file) return failure(file.error());
-      files_[k].emplace(std::move(*file));
+      TRY_ASSIGN(auto file, create(station().name + kEnds[k]));
+      files_[k].emplace(std::move(file));
     }
     return {};
   }

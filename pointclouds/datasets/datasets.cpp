@@ -19,10 +19,10 @@ Result<Report> convertToDataset(const std::filesystem::path& in, const std::file
   const CloudFormat* const format = cloudFormatFor(in);
   if (!format || !format->read) return failure(ErrorKind::usage, "unsupported point-cloud format", in.string());
   const auto writer = set.writer(folder, std::move(map));
-  if (auto started = static_cast<LabelledFolder&>(*writer).start(); !started) return failure(started.error());
+  TRY(static_cast<LabelledFolder&>(*writer).start());
   auto report = format->read(in, *writer, progress);
   if (!report) return failure(report.error());
-  if (auto closed = writer->close(); !closed) return failure(closed.error());
+  TRY(writer->close());
   report->append(writer->report());
   return report;
 }

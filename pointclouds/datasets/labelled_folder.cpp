@@ -28,9 +28,8 @@ std::string quoted(const std::string& value) {
 }  // namespace
 
 Result<BufferedFile> BufferedFile::create(const fs::path& file) {
-  auto part = PartFile::create(file);
-  if (!part) return failure(part.error());
-  return BufferedFile(std::move(*part));
+  TRY_ASSIGN(auto part, PartFile::create(file));
+  return BufferedFile(std::move(part));
 }
 
 Result<void> BufferedFile::flushFrom(std::size_t enough) {
@@ -108,7 +107,7 @@ Result<void> LabelledFolder::begin(const ScanHeader& header) {
 Result<void> LabelledFolder::write(const PointBlock& block) {
   if (!header_) return failure(ErrorKind::internal, "points outside a scan", folder_.string());
   if (block.size() == 0) return {};
-  if (const auto extent = checkBlock(*header_, block); !extent) return failure(extent.error());
+  TRY(checkBlock(*header_, block));
   for (std::size_t i = 0; i < block.size(); ++i) {
     const bool surfaceless =
         header_->has_truth && (block.truth.flags[i] & (point_flag::kNoise | point_flag::kWeather)) != 0;
@@ -145,10 +144,9 @@ std::array<std::uint8_t, 3> LabelledFolder::colour(const Point& p) const {
 }
 
 Result<void> LabelledFolder::writeText(const char* name, const std::string& text) const {
-  auto file = create(name);
-  if (!file) return failure(file.error());
-  file->text() = text;
-  return file->finish();
+  TRY_ASSIGN(auto file, create(name));
+  file.text() = text;
+  return file.finish();
 }
 
 std::string LabelledFolder::description() const {

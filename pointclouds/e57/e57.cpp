@@ -34,41 +34,33 @@ Result<FoundScan> findScan(Document& document, std::size_t i, Report& report) {
   const std::string source = document.file.name() + " data3D/" + std::to_string(i);
   const Element* const points = scan.child("points");
   if (!points) return failure(ErrorKind::unusable, "the scan has no points element", source);
-  const auto vector = VectorReader::open(document.file, *points, source);
-  if (!vector) return failure(vector.error());
-  return FoundScan{points, vector->records(), planScan(*document.root, scan, vector->fields(), source, report)};
+  TRY_ASSIGN(const auto vector, VectorReader::open(document.file, *points, source));
+  return FoundScan{points, vector.records(), planScan(*document.root, scan, vector.fields(), source, report)};
 }
 
 }  // namespace
 
 Result<Report> read(const std::filesystem::path& file, PointSink& sink, Progress& progress) {
-  auto document = openDocument(file);
-  if (!document) return failure(document.error());
+  TRY_ASSIGN(auto document, openDocument(file));
   Report report;
-  const std::size_t scans = scanCount(*document);
-  const auto pictures = picturesOfScans(*document, scans, report);
+  const std::size_t scans = scanCount(document);
+  const auto pictures = picturesOfScans(document, scans, report);
   for (std::size_t i = 0; i < scans; ++i) {
-    auto found = findScan(*document, i, report);
-    if (!found) return failure(found.error());
+    TRY_ASSIGN(auto found, findScan(document, i, report));
     const auto fraction = [&](std::size_t n) { return static_cast<double>(n) / static_cast<double>(scans); };
-    progress.stage("Reading " + found->plan.header.name, fraction(i), fraction(i + 1));
-    if (auto done =
-            readScan(document->file, *found->points, std::move(found->plan), pictures[i], sink, report, progress);
-        !done)
-      return failure(done.error());
+    progress.stage("Reading " + found.plan.header.name, fraction(i), fraction(i + 1));
+    TRY(readScan(document.file, *found.points, std::move(found.plan), pictures[i], sink, report, progress));
   }
   return report;
 }
 
 Result<CloudInfo> info(const std::filesystem::path& file) {
-  auto document = openDocument(file);
-  if (!document) return failure(document.error());
+  TRY_ASSIGN(auto document, openDocument(file));
   CloudInfo info{.format = kE57.name};
-  for (std::size_t i = 0; i < scanCount(*document); ++i) {
-    auto found = findScan(*document, i, info.report);
-    if (!found) return failure(found.error());
-    if (info.crs.empty()) info.crs = found->plan.header.coordinate_metadata;
-    info.scans.push_back({std::move(found->plan.header), found->records});
+  for (std::size_t i = 0; i < scanCount(document); ++i) {
+    TRY_ASSIGN(auto found, findScan(document, i, info.report));
+    if (info.crs.empty()) info.crs = found.plan.header.coordinate_metadata;
+    info.scans.push_back({std::move(found.plan.header), found.records});
   }
   return info;
 }

@@ -20,7 +20,7 @@ struct XmlPlace {
 Result<XmlPlace> readHeader(PagedReader& file) {
   const std::string source = file.name() + " header";
   std::array<std::uint8_t, 48> header;
-  if (auto read = file.read(0, header); !read) return failure(read.error());
+  TRY(file.read(0, header));
   if (std::memcmp(header.data(), "ASTM-E57", 8) != 0) return failure(ErrorKind::unusable, "is not an E57 file", source);
   if (load<std::uint32_t>(header.data() + 8) != 1)
     return failure(ErrorKind::unusable,
@@ -45,20 +45,18 @@ Result<XmlPlace> readHeader(PagedReader& file) {
 }  // namespace
 
 Result<Document> openDocument(const std::filesystem::path& path) {
-  auto file = PagedReader::open(path);
-  if (!file) return failure(file.error());
-  const auto place = readHeader(*file);
-  if (!place) return failure(place.error());
-  std::string xml(place->length, '\0');
-  if (auto read = file->read(place->logical, {reinterpret_cast<std::uint8_t*>(xml.data()), xml.size()}); !read)
+  TRY_ASSIGN(auto file, PagedReader::open(path));
+  TRY_ASSIGN(const auto place, readHeader(file));
+  std::string xml(place.length, '\0');
+  if (auto read = file.read(place.logical, {reinterpret_cast<std::uint8_t*>(xml.data()), xml.size()}); !read)
     return failure(read.error());
   // Some writers count the padding of the last page in.
   xml.resize(xml.find_last_not_of('\0') + 1);
-  auto root = parseXml(xml, file->name());
+  auto root = parseXml(xml, file.name());
   if (!root) return failure(root.error());
   if ((*root)->name != "e57Root")
-    return failure(ErrorKind::unusable, "the XML's root is <" + (*root)->name + ">, not <e57Root>", file->name());
-  return Document{std::move(*file), std::move(*root)};
+    return failure(ErrorKind::unusable, "the XML's root is <" + (*root)->name + ">, not <e57Root>", file.name());
+  return Document{std::move(file), std::move(*root)};
 }
 
 double real(const Element* element, double otherwise) {

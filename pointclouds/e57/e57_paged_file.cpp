@@ -93,20 +93,18 @@ Result<void> PagedWriter::close() {
 PagedReader::PagedReader(InputFile file) : file_(std::move(file)), pages_(64 * kPageBytes) {}
 
 Result<PagedReader> PagedReader::open(const std::filesystem::path& file) {
-  auto input = InputFile::open(file);
-  if (!input) return failure(input.error());
-  return PagedReader(std::move(*input));
+  TRY_ASSIGN(auto input, InputFile::open(file));
+  return PagedReader(std::move(input));
 }
 
 Result<void> PagedReader::load(std::uint64_t page) {
   loaded_pages_ = 0;
-  const auto n = file_.read(page * kPageBytes, pages_);
-  if (!n) return failure(n.error());
-  if (*n < kPageBytes)
+  TRY_ASSIGN(const auto n, file_.read(page * kPageBytes, pages_));
+  if (n < kPageBytes)
     return failure(ErrorKind::unusable, "unexpected end of file: truncated file or invalid offset",
                    name() + " page " + std::to_string(page));
   first_page_ = page;
-  loaded_pages_ = *n / kPageBytes;
+  loaded_pages_ = n / kPageBytes;
   const auto sums = checksums(pages_.data(), loaded_pages_);
   for (std::uint64_t i = 0; i < loaded_pages_; ++i) {
     const std::uint8_t* bytes = pages_.data() + i * kPageBytes;

@@ -25,10 +25,10 @@ Result<std::vector<std::uint8_t>> readBlob(PagedReader& file, const Element& blo
       logicalFrom(*offset) + kBlobHeader + *length > file.logicalSize())
     return failure(ErrorKind::unusable, "the image is outside the file", source);
   std::array<std::uint8_t, kBlobHeader> header;
-  if (auto read = file.read(logicalFrom(*offset), header); !read) return failure(read.error());
+  TRY(file.read(logicalFrom(*offset), header));
   if (header[0] != 0) return failure(ErrorKind::unusable, "no blob section at the image's fileOffset", source);
   std::vector<std::uint8_t> bytes(*length);
-  if (auto read = file.read(logicalFrom(*offset) + kBlobHeader, bytes); !read) return failure(read.error());
+  TRY(file.read(logicalFrom(*offset) + kBlobHeader, bytes));
   return bytes;
 }
 
@@ -44,8 +44,8 @@ Result<std::uint64_t> writeBlob(PagedWriter& out, std::span<const std::uint8_t> 
   const std::size_t padding = (4 - bytes.size() % 4) % 4;
   std::array<std::uint8_t, kBlobHeader> header{};
   store<std::uint64_t>(header.data() + 8, kBlobHeader + bytes.size() + padding);
-  if (auto written = out.append(header); !written) return failure(written.error());
-  if (auto written = out.append(bytes); !written) return failure(written.error());
+  TRY(out.append(header));
+  TRY(out.append(bytes));
   constexpr std::array<std::uint8_t, 3> kZeros{};
   if (auto written = out.append({kZeros.data(), padding}); !written) return failure(written.error());
   return offset;
@@ -113,9 +113,8 @@ Result<StationPicture> readPicture(PagedReader& file, const ListedPicture& liste
   const Element* const jpeg = shape->child("jpegImage");
   const Element* const blob = jpeg ? jpeg : shape->child("pngImage");
   if (!blob) return failure(ErrorKind::unusable, "the image has neither jpegImage nor pngImage", listed.source);
-  auto bytes = readBlob(file, *blob, listed.source);
-  if (!bytes) return failure(bytes.error());
-  picture.bytes = *std::move(bytes);
+  TRY_ASSIGN(auto bytes, readBlob(file, *blob, listed.source));
+  picture.bytes = std::move(bytes);
   picture.media_type = jpeg ? kJpeg : kPng;
   picture.name = text(image, "name");
   picture.width = countOf(*shape, "imageWidth");

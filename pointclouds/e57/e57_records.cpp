@@ -44,11 +44,10 @@ ScanRecords::ScanRecords(const ScanHeader& header, Coordinates kind)
     : header_(header), fields_(pointFields(header, kind)), packets_(packetsFor(fields_)), places_(kind) {}
 
 Result<void> ScanRecords::write(PagedWriter& out, const PointBlock& block) {
-  const auto extent = checkBlock(header_, block);
-  if (!extent) return failure(extent.error());
-  if (auto taken = places_.take(header_, block, *extent); !taken) return taken;
-  largest_row_ = std::max(largest_row_, extent->row);
-  largest_column_ = std::max(largest_column_, extent->column);
+  TRY_ASSIGN(const auto extent, checkBlock(header_, block));
+  if (auto taken = places_.take(header_, block, extent); !taken) return taken;
+  largest_row_ = std::max(largest_row_, extent.row);
+  largest_column_ = std::max(largest_column_, extent.column);
   if (hasGrid(header_)) addLines(block.column);
   return put(out, block);
 }
@@ -103,16 +102,16 @@ Result<WrittenVector> ScanRecords::writeLines(PagedWriter& out) const {
   groups.fields = {integerField("idElementValue", bitsFor(header_.columns - 1)),
                    integerField("startPointIndex", bitsFor(points)), integerField("pointCount", bitsFor(points))};
   PacketWriter packets = packetsFor(groups.fields);
-  if (auto begun = packets.begin(out); !begun) return failure(begun.error());
+  TRY(packets.begin(out));
   for (const auto& line : lines_) {
     packets.putWide(0, line.column);
     packets.putWide(1, line.first);
     packets.putWide(2, line.points);
-    if (auto advanced = packets.advance(out, 1); !advanced) return failure(advanced.error());
+    TRY(packets.advance(out, 1));
   }
   groups.offset = packets.physicalOffset();
   groups.records = packets.records();
-  if (auto finished = packets.finish(out); !finished) return failure(finished.error());
+  TRY(packets.finish(out));
   return groups;
 }
 
@@ -123,9 +122,8 @@ Result<void> ScanRecords::finish(PagedWriter& out, WrittenScan& scan) {
   scan.largest_row = largest_row_;
   scan.largest_column = largest_column_;
   if (!hasGrid(header_) || !ascending_) return {};
-  auto lines = writeLines(out);
-  if (!lines) return failure(lines.error());
-  scan.lines = *std::move(lines);
+  TRY_ASSIGN(auto lines, writeLines(out));
+  scan.lines = std::move(lines);
   return {};
 }
 

@@ -91,10 +91,9 @@ Result<VectorReader> VectorReader::open(PagedReader& file, const Element& vector
     return failure(ErrorKind::unusable, "fileOffset, recordCount or prototype is missing", reader.source_);
   std::uint64_t bits = 0;
   for (const auto& child : prototype->children) {
-    auto field = fieldFrom(*child, reader.source_);
-    if (!field) return failure(field.error());
-    if (field->kind != Kind::text) bits += field->bits;
-    reader.fields_.push_back(std::move(*field));
+    TRY_ASSIGN(auto field, fieldFrom(*child, reader.source_));
+    if (field.kind != Kind::text) bits += field.bits;
+    reader.fields_.push_back(std::move(field));
   }
   reader.streams_.resize(reader.fields_.size());
   reader.records_ = *records;
@@ -103,8 +102,7 @@ Result<VectorReader> VectorReader::open(PagedReader& file, const Element& vector
     return failure(ErrorKind::unusable, "the file is too short for " + std::to_string(*records) + " points",
                    reader.source_);
   // An empty vector may point anywhere: real files do.
-  if (*records > 0)
-    if (auto opened = reader.openSection(*offset); !opened) return failure(opened.error());
+  if (*records > 0) TRY(reader.openSection(*offset));
   return reader;
 }
 
@@ -206,7 +204,7 @@ Result<std::size_t> VectorReader::next(std::vector<std::vector<double>>& columns
   if (done_ == records_) return 0;
   std::uint64_t n = available();
   while (n == 0) {
-    if (auto read = readPacket(); !read) return failure(read.error());
+    TRY(readPacket());
     n = available();
   }
   for (std::size_t f = 0; f < fields_.size(); ++f)

@@ -119,9 +119,8 @@ Result<void> Writer::picture(const StationPicture& picture) {
 
 Result<void> Writer::writePictures() {
   for (const StationPicture& picture : open_->pictures) {
-    const auto offset = writeBlob(out_, picture.bytes);
-    if (!offset) return failure(offset.error());
-    appendPicture(pictures_, picture, *offset, uniqueGuid({}, "picture " + picture.name), open_->scan.guid);
+    TRY_ASSIGN(const auto offset, writeBlob(out_, picture.bytes));
+    appendPicture(pictures_, picture, offset, uniqueGuid({}, "picture " + picture.name), open_->scan.guid);
   }
   return {};
 }
@@ -196,10 +195,9 @@ Result<void> Writer::close() {
 }  // namespace
 
 Result<std::unique_ptr<CloudWriter>> createWriter(const std::filesystem::path& file, Coordinates kind) {
-  auto part = PartFile::create(file);
-  if (!part) return failure(part.error());
-  auto writer = std::make_unique<Writer>(std::move(*part), kind);
-  if (auto started = writer->start(); !started) return failure(started.error());
+  TRY_ASSIGN(auto part, PartFile::create(file));
+  auto writer = std::make_unique<Writer>(std::move(part), kind);
+  TRY(writer->start());
   return writer;
 }
 

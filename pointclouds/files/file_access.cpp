@@ -76,9 +76,8 @@ Result<void> PartFile::overwrite(std::uint64_t at, std::span<const std::uint8_t>
 }
 
 Result<void> PartFile::read(std::uint64_t at, std::span<std::uint8_t> bytes) const {
-  const auto n = readAt(descriptor_, at, bytes, part_);
-  if (!n) return failure(n.error());
-  if (*n != bytes.size()) return failure(ErrorKind::file_system, "cannot read back what was written", part_.string());
+  TRY_ASSIGN(const auto n, readAt(descriptor_, at, bytes, part_));
+  if (n != bytes.size()) return failure(ErrorKind::file_system, "cannot read back what was written", part_.string());
   return {};
 }
 
@@ -118,10 +117,9 @@ Result<std::size_t> InputFile::read(std::uint64_t at, std::span<std::uint8_t> by
 }
 
 Result<void> writeWholeText(const std::filesystem::path& file, std::string_view text) {
-  auto part = PartFile::create(file);
-  if (!part) return failure(part.error());
-  if (auto ok = part->append({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}); !ok) return ok;
-  return part->commit();
+  TRY_ASSIGN(auto part, PartFile::create(file));
+  if (auto ok = part.append({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}); !ok) return ok;
+  return part.commit();
 }
 
 }  // namespace standpoint

@@ -26,7 +26,7 @@ Result<bool> LineReader::more() {
 Result<std::optional<std::string_view>> LineReader::next() {
   std::size_t end = text_.find('\n', from_);
   if (end == std::string::npos && text_.size() - from_ < kLongestLine) {
-    if (const auto grown = more(); !grown) return failure(grown.error());
+    TRY(more());
     end = text_.find('\n', from_);
   }
   if (end == std::string::npos && from_ == text_.size()) return std::nullopt;

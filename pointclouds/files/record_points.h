@@ -38,9 +38,8 @@ Result<void> readRecordPoints(const std::filesystem::path& path, const PointReco
   for (std::uint64_t done = 0; done < records.count;) {
     const std::uint64_t count = std::min(at_once, records.count - done);
     bytes.resize(count * records.bytes);
-    const auto n = file->read(records.at + done * records.bytes, bytes);
-    if (!n) return failure(n.error());
-    if (*n < bytes.size()) return failure(ErrorKind::unusable, "the file was truncated while reading", place(done));
+    TRY_ASSIGN(const auto n, file->read(records.at + done * records.bytes, bytes));
+    if (n < bytes.size()) return failure(ErrorKind::unusable, "the file was truncated while reading", place(done));
     for (std::uint64_t i = 0; i < count; ++i)
       if (auto taken = take(done + i, bytes.data() + i * records.bytes, found); !taken)
         return failure(ErrorKind::unusable, taken.error().message, place(done + i));

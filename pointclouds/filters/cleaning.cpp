@@ -181,25 +181,22 @@ Result<Cleaning> cleanCloud(const std::filesystem::path& in, const std::filesyst
   for (const ChosenFilter& chosen : filters)
     if (auto made = chosen.kind->make(chosen.values); !made)
       return failure(ErrorKind::usage, made.error().message, "--filters " + chosen.text);
-  const auto info = format->info(in);
-  if (!info) return failure(info.error());
+  TRY_ASSIGN(const auto info, format->info(in));
   std::vector<FilterScan> scans;
-  for (const ScanInfo& scan : info->scans) scans.push_back({scan.header.name, stationOf(scan.header)});
+  for (const ScanInfo& scan : info.scans) scans.push_back({scan.header.name, stationOf(scan.header)});
 
   Cleaning cleaning;
   Fates fates;
   const double each = 1.0 / static_cast<double>(filters.size() + 1);
   for (std::size_t k = 0; k < filters.size(); ++k) {
     progress.stage(filters[k].text, static_cast<double>(k) * each, static_cast<double>(k + 1) * each);
-    if (auto done = apply(*format, in, scans, filters[k], static_cast<std::uint8_t>(k + 1), fates, progress); !done)
-      return failure(done.error());
+    TRY(apply(*format, in, scans, filters[k], static_cast<std::uint8_t>(k + 1), fates, progress));
     cleaning.filters.emplace_back().filter = filters[k].text;
   }
   progress.stage("Write " + out.filename().string(), 1 - each, 1);
   const auto through = [&](PointSink& writer) { return std::make_unique<LastSink>(writer, fates, cleaning); };
-  auto files = convertCloud(in, out, "", cleaning.report, progress, through);
-  if (!files) return failure(files.error());
-  cleaning.files = *std::move(files);
+  TRY_ASSIGN(auto files, convertCloud(in, out, "", cleaning.report, progress, through));
+  cleaning.files = std::move(files);
   return cleaning;
 }
 

@@ -134,21 +134,18 @@ struct SphereJudge {
 }  // namespace
 
 MadeFilter makeRangeGate(const FilterValues& values) {
-  const auto interval = intervalFrom(values);
-  if (!interval) return failure(interval.error());
-  return gate(RangeJudge{*interval});
+  TRY_ASSIGN(const auto interval, intervalFrom(values));
+  return gate(RangeJudge{interval});
 }
 
 MadeFilter makeIntensityGate(const FilterValues& values) {
-  const auto interval = intervalFrom(values);
-  if (!interval) return failure(interval.error());
-  return gate(IntensityJudge{*interval});
+  TRY_ASSIGN(const auto interval, intervalFrom(values));
+  return gate(IntensityJudge{interval});
 }
 
 MadeFilter makeIncidenceGate(const FilterValues& values) {
-  auto interval = intervalFrom(values);
-  if (!interval) return failure(interval.error());
-  return gate(IncidenceJudge{{interval->from * std::numbers::pi / 180, interval->to * std::numbers::pi / 180}});
+  TRY_ASSIGN(auto interval, intervalFrom(values));
+  return gate(IncidenceJudge{{interval.from * std::numbers::pi / 180, interval.to * std::numbers::pi / 180}});
 }
 
 MadeFilter makeFractionFilter(const FilterValues& values) {

@@ -152,9 +152,8 @@ Result<void> FilterValues::set(const FilterKey& key, const std::string& text) {
     if (slash == std::string::npos)
       return failure(ErrorKind::usage,
                      std::string("'") + key.name + "' must be three numbers X/Y/Z, not '" + text + "'");
-    const auto number = numberOf(key, text.substr(from, slash - from));
-    if (!number) return failure(number.error());
-    numbers[i] = *number;
+    TRY_ASSIGN(const auto number, numberOf(key, text.substr(from, slash - from)));
+    numbers[i] = number;
     from = slash + 1;
   }
   numbers_[key.name] = numbers;
@@ -200,8 +199,7 @@ Result<ChosenFilter> filterFrom(const std::string& text) {
     if (chosen.values.has(key.name)) continue;
     if (key.required)
       return failure(ErrorKind::usage, std::string("'") + key.name + "' is missing", "--filters " + text);
-    if (key.default_value)
-      if (auto set = chosen.values.set(key, key.default_value); !set) return failure(set.error());
+    if (key.default_value) TRY(chosen.values.set(key, key.default_value));
   }
   return chosen;
 }

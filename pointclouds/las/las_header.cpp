@@ -212,9 +212,8 @@ Result<void> HeaderReader::take(const std::string& user, std::uint16_t id, std::
     return {};
   }
   std::vector<std::uint8_t> bytes(length);
-  const auto n = file_.read(at, bytes);
-  if (!n) return failure(n.error());
-  bytes.resize(*n);
+  TRY_ASSIGN(const auto n, file_.read(at, bytes));
+  bytes.resize(n);
   if (ours)
     takeOurs({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   else if (extras)
@@ -233,9 +232,8 @@ Result<void> HeaderReader::readList(const RecordList& list) {
   std::uint64_t at = list.begins_at;
   for (std::uint32_t i = 0; i < std::min(list.records, kMostRecords); ++i) {
     const bool inside = at <= list.ends_at && head.size() <= list.ends_at - at;
-    const auto n = inside ? file_.read(at, head) : Result<std::size_t>(0);
-    if (!n) return failure(n.error());
-    const bool whole = *n == head.size();
+    TRY_ASSIGN(const auto n, inside ? file_.read(at, head) : Result<std::size_t>(0));
+    const bool whole = n == head.size();
     const std::uint64_t length = !whole          ? 0
                                  : list.extended ? loadAt<std::uint64_t>(head, 20)
                                                  : loadAt<std::uint16_t>(head, 20);
@@ -267,10 +265,9 @@ Result<void> HeaderReader::readExtendedRecords() {
 Result<Header> HeaderReader::read() {
   constexpr std::size_t kOldest = 227, kNewest = 375;
   block_.resize(kNewest);
-  const auto n = file_.read(0, block_);
-  if (!n) return failure(n.error());
-  if (*n < 4 || std::memcmp(block_.data(), "LASF", 4) != 0) return broken("is not a LAS file");
-  if (*n < kOldest) return broken("the file is truncated inside its header");
+  TRY_ASSIGN(const auto n, file_.read(0, block_));
+  if (n < 4 || std::memcmp(block_.data(), "LASF", 4) != 0) return broken("is not a LAS file");
+  if (n < kOldest) return broken("the file is truncated inside its header");
   header_.minor = block_[25];
   header_.adjusted_time = (loadAt<std::uint16_t>(block_, 6) & 1) != 0;
   if (block_[24] != 1 || header_.minor > 4)
@@ -278,7 +275,7 @@ Result<Header> HeaderReader::read() {
                   " is not supported; supported: 1.0 to 1.4");
   const auto header_bytes = loadAt<std::uint16_t>(block_, 94);
   const std::size_t least = header_.minor == 4 ? kNewest : kOldest;
-  if (header_bytes < least || *n < least)
+  if (header_bytes < least || n < least)
     return broken("a header of LAS 1." + std::to_string(header_.minor) + " has " + std::to_string(least) +
                   " bytes, this one " + std::to_string(header_bytes));
   header_.points_at = loadAt<std::uint32_t>(block_, 96);
@@ -287,7 +284,7 @@ Result<Header> HeaderReader::read() {
                   std::to_string(file_.size()));
   for (const auto step : {&HeaderReader::readFormat, &HeaderReader::readScale, &HeaderReader::readCount,
                           &HeaderReader::readRecords, &HeaderReader::readExtendedRecords})
-    if (auto done = (this->*step)(); !done) return failure(done.error());
+    TRY((this->*step)());
   checkScans();
   return header_;
 }

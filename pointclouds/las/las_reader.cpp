@@ -45,9 +45,8 @@ class Records {
   // Of `count` records from the given one; the header was checked against the size of the file.
   Result<const std::uint8_t*> at(std::uint64_t first, std::uint64_t count) {
     bytes_.resize(count * header_.record_bytes);
-    const auto n = file_.read(header_.points_at + first * header_.record_bytes, bytes_);
-    if (!n) return failure(n.error());
-    if (*n < bytes_.size())
+    TRY_ASSIGN(const auto n, file_.read(header_.points_at + first * header_.record_bytes, bytes_));
+    if (n < bytes_.size())
       return failure(ErrorKind::unusable, "the file was truncated while reading",
                      file_.name() + " point " + std::to_string(first));
     return bytes_.data();
@@ -67,11 +66,10 @@ Result<bool> coloursAreBytes(const InputFile& file, const Header& header) {
   for (std::uint64_t probe = 0; probe < kProbes; ++probe) {
     const std::uint64_t first = header.points / kProbes * probe;
     const std::uint64_t count = std::min({kProbeRecords, recordsAtOnce(header), header.points - first});
-    const auto bytes = records.at(first, count);
-    if (!bytes) return failure(bytes.error());
+    TRY_ASSIGN(const auto bytes, records.at(first, count));
     for (std::uint64_t i = 0; i < count; ++i)
       for (std::uint32_t k = 0; k < 3; ++k)
-        most = std::max(most, load<std::uint16_t>(*bytes + i * header.record_bytes + colour_at + 2 * k));
+        most = std::max(most, load<std::uint16_t>(bytes + i * header.record_bytes + colour_at + 2 * k));
   }
   return most > 0 && most <= 255;
 }
@@ -225,9 +223,8 @@ Result<std::vector<Part>> partsOf(const std::filesystem::path& path, const Input
   whole.header.has_time = pointFormat(header).time_at != 0;
   if (whole.header.has_time && header.adjusted_time && header.points > 0) {
     Records records(file, header);
-    const auto first = records.at(0, 1);
-    if (!first) return failure(first.error());
-    const double start = std::floor(load<double>(*first + pointFormat(header).time_at));
+    TRY_ASSIGN(const auto first, records.at(0, 1));
+    const double start = std::floor(load<double>(first + pointFormat(header).time_at));
     if (std::abs(start) < 1e10)
       whole.time_shift_s = -start, whole.header.acquisition_start_gps_s = start + kAdjustedGps_s;
   }
@@ -254,10 +251,9 @@ Result<void> readPart(const InputFile& file, const Header& header, const Part& p
   FoundPoints found;
   for (std::uint64_t done = 0; done < part.points;) {
     const auto count = std::min(recordsAtOnce(header), part.points - done);
-    const auto bytes = records.at(part.first + done, count);
-    if (!bytes) return failure(bytes.error());
+    TRY_ASSIGN(const auto bytes, records.at(part.first + done, count));
     for (std::uint64_t i = 0; i < count; ++i)
-      if (auto taken = taker.take(*bytes + i * header.record_bytes, found); !taken)
+      if (auto taken = taker.take(bytes + i * header.record_bytes, found); !taken)
         return failure(ErrorKind::unusable, taken.error().message,
                        file.name() + " point " + std::to_string(part.first + done + i));
     if (auto written = local.write(found); !written) return written;
@@ -278,38 +274,31 @@ Result<void> readPart(const InputFile& file, const Header& header, const Part& p
 }  // namespace
 
 Result<Report> read(const std::filesystem::path& path, PointSink& sink, Progress& progress) {
-  auto file = InputFile::open(path);
-  if (!file) return failure(file.error());
-  progress.stage("Reading " + file->name());
+  TRY_ASSIGN(auto file, InputFile::open(path));
+  progress.stage("Reading " + file.name());
   Report report;
-  const auto header = readHeader(*file, report);
-  if (!header) return failure(header.error());
-  listUnread(*header, file->name(), report);
+  TRY_ASSIGN(const auto header, readHeader(file, report));
+  listUnread(header, file.name(), report);
   int colour_shift = 8;
-  if (pointFormat(*header).colour_at != 0) {
-    const auto bytes = coloursAreBytes(*file, *header);
-    if (!bytes) return failure(bytes.error());
-    if (*bytes) report.warn(file->name(), "colours do not exceed 255: read as 8 bits instead of 16");
-    if (*bytes) colour_shift = 0;
+  if (pointFormat(header).colour_at != 0) {
+    TRY_ASSIGN(const auto bytes, coloursAreBytes(file, header));
+    if bytes
+      report.warn(file.name(), "colours do not exceed 255: read as 8 bits instead of 16");
+    if bytes
+      colour_shift = 0;
   }
-  const auto parts = partsOf(path, *file, *header);
-  if (!parts) return failure(parts.error());
-  for (const Part& part : *parts)
-    if (auto done = readPart(*file, *header, part, colour_shift, sink, report, progress); !done)
-      return failure(done.error());
+  TRY_ASSIGN(const auto parts, partsOf(path, file, header));
+  for (const Part& part : parts) TRY(readPart(file, header, part, colour_shift, sink, report, progress));
   return report;
 }
 
 Result<CloudInfo> info(const std::filesystem::path& path) {
-  auto file = InputFile::open(path);
-  if (!file) return failure(file.error());
+  TRY_ASSIGN(auto file, InputFile::open(path));
   CloudInfo info{.format = kLas.name};
-  const auto header = readHeader(*file, info.report);
-  if (!header) return failure(header.error());
-  const auto parts = partsOf(path, *file, *header);
-  if (!parts) return failure(parts.error());
-  for (const Part& part : *parts) info.scans.push_back({part.header, part.points});
-  info.crs = header->wkt.empty() ? header->epsg : header->wkt;
+  TRY_ASSIGN(const auto header, readHeader(file, info.report));
+  TRY_ASSIGN(const auto parts, partsOf(path, file, header));
+  for (const Part& part : parts) info.scans.push_back({part.header, part.points});
+  info.crs = header.wkt.empty() ? header.epsg : header.wkt;
   return info;
 }
 

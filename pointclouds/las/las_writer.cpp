@@ -108,7 +108,7 @@ Result<void> Writer::begin(const ScanHeader& header) {
 Result<void> Writer::write(const PointBlock& block) {
   if (!header_) return failure(ErrorKind::internal, "points outside a scan", file_.file().string());
   if (block.size() == 0) return {};
-  if (const auto extent = checkBlock(*header_, block); !extent) return failure(extent.error());
+  TRY(checkBlock(*header_, block));
   for (std::size_t from = 0; from < block.size(); from += kAtOnce) {
     const std::size_t n = std::min(kAtOnce, block.size() - from);
     bytes_.assign(n * layout_.record_bytes, 0);
@@ -155,9 +155,8 @@ Result<void> Writer::close() {
 }  // namespace
 
 Result<std::unique_ptr<CloudWriter>> createWriter(const std::filesystem::path& file, bool near_infrared) {
-  auto part = PartFile::create(file);
-  if (!part) return failure(part.error());
-  return std::make_unique<Writer>(std::move(*part), near_infrared);
+  TRY_ASSIGN(auto part, PartFile::create(file));
+  return std::make_unique<Writer>(std::move(part), near_infrared);
 }
 
 }  // namespace standpoint::las

@@ -181,14 +181,12 @@ void HeaderReader::assignPlaces() {
 
 Result<Header> HeaderReader::read() {
   for (;;) {
-    const auto line = lines_.next();
-    if (!line) return failure(line.error());
-    if (!*line) return broken("the file is truncated inside its header");
-    const auto more = takeLine(**line);
-    if (!more) return failure(more.error());
-    if (!*more) break;
+    TRY_ASSIGN(const auto line, lines_.next());
+    if (!line) return broken("the file is truncated inside its header");
+    TRY_ASSIGN(const auto more, takeLine(*line));
+    if (!more) break;
   }
-  if (auto laid = layOut(); !laid) return failure(laid.error());
+  TRY(layOut());
   assignPlaces();
   if (!header_.places.all(PointField::x, PointField::z)) return broken("a point has no fields x y z");
   return header_;

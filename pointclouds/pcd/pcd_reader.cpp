@@ -78,14 +78,13 @@ Result<void> Reading::readText(LocalPoints& local, Progress& progress) {
   auto file = InputFile::open(path_);
   if (!file) return failure(file.error());
   LineReader lines(std::move(*file));
-  if (const auto again = readHeader(lines); !again) return failure(again.error());
+  TRY(readHeader(lines));
   std::vector<double> numbers;
   FoundPoints found;
   for (std::uint64_t i = 0; i < header_.points; ++i) {
-    const auto line = lines.next();
-    if (!line) return failure(line.error());
-    if (!*line) return failure(ErrorKind::unusable, "the file is truncated before its last point", lines.place());
-    if (!numbersOf(**line, header_.words, numbers) || numbers.size() != header_.words)
+    TRY_ASSIGN(const auto line, lines.next());
+    if (!line) return failure(ErrorKind::unusable, "the file is truncated before its last point", lines.place());
+    if (!numbersOf(*line, header_.words, numbers) || numbers.size() != header_.words)
       return failure(ErrorKind::unusable, "a point has " + std::to_string(header_.words) + " numbers here",
                      lines.place());
     for (std::size_t k = 0; k < header_.fields.size(); ++k) values_[k] = numbers[header_.fields[k].word];
@@ -116,28 +115,26 @@ struct Opened {
 };
 
 Result<Opened> open(const std::filesystem::path& path) {
-  auto file = InputFile::open(path);
-  if (!file) return failure(file.error());
-  LineReader lines(std::move(*file));
-  auto header = readHeader(lines);
-  if (!header) return failure(header.error());
-  ScanHeader scan = header->scan;
+  TRY_ASSIGN(auto file, InputFile::open(path));
+  LineReader lines(std::move(file));
+  TRY_ASSIGN(auto header, readHeader(lines));
+  ScanHeader scan = header.scan;
   if (scan.name.empty()) scan.name = path.stem().string();
-  if (header->organised()) {
+  if (header.organised()) {
     constexpr std::uint64_t kLongestSide = 1 << 30;
-    if (header->width > kLongestSide || header->height > kLongestSide)
+    if (header.width > kLongestSide || header.height > kLongestSide)
       return failure(ErrorKind::unusable, "WIDTH or HEIGHT of the grid is too large", lines.name());
-    scan.rows = static_cast<std::uint32_t>(header->width);
-    scan.columns = static_cast<std::uint32_t>(header->height);
+    scan.rows = static_cast<std::uint32_t>(header.width);
+    scan.columns = static_cast<std::uint32_t>(header.height);
   }
-  if (!header->places[PointField::intensity]) scan.intensity_max = scan.intensity_min = 0;
-  const Reading reading(path, *header, scan);
+  if (!header.places[PointField::intensity]) scan.intensity_max = scan.intensity_min = 0;
+  const Reading reading(path, header, scan);
   std::string unread;
-  for (std::size_t i = 0; i < header->fields.size(); ++i)
-    if (header->fields[i].name != "_" && !reading.isRead(i))
-      unread += (unread.empty() ? "" : ", ") + header->fields[i].name;
+  for (std::size_t i = 0; i < header.fields.size(); ++i)
+    if (header.fields[i].name != "_" && !reading.isRead(i))
+      unread += (unread.empty() ? "" : ", ") + header.fields[i].name;
   scan = reading.scan();
-  return Opened{*std::move(header), std::move(scan), std::move(unread)};
+  return Opened{std::move(header), std::move(scan), std::move(unread)};
 }
 
 void listUnread(const Opened& opened, const std::string& source, Report& report) {
@@ -147,32 +144,28 @@ void listUnread(const Opened& opened, const std::string& source, Report& report)
 }  // namespace
 
 Result<Report> read(const std::filesystem::path& path, PointSink& sink, Progress& progress) {
-  auto opened = open(path);
-  if (!opened) return failure(opened.error());
+  TRY_ASSIGN(auto opened, open(path));
   Report report;
   const std::string name = path.filename().string();
-  listUnread(*opened, name, report);
-  const bool ours = !opened->header.scan.guid.empty() || !opened->header.scan.name.empty();
-  if (opened->header.places[PointField::intensity] && !ours) {  // the file states no limits: they are looked at first
+  listUnread(opened, name, report);
+  const bool ours = !opened.header.scan.guid.empty() || !opened.header.scan.name.empty();
+  if (opened.header.places[PointField::intensity] && !ours) {  // the file states no limits: they are looked at first
     IntensityRange range;
     Report ignored;
     progress.stage("Measuring " + name, 0, 0.5);
-    if (auto run = Reading(path, opened->header, opened->scan).run(range, ignored, progress); !run)
-      return failure(run.error());
-    range.putInto(opened->scan);
+    TRY(Reading(path, opened.header, opened.scan).run(range, ignored, progress));
+    range.putInto(opened.scan);
   }
   progress.stage("Reading " + name, ours ? 0 : 0.5, 1);
-  if (auto run = Reading(path, opened->header, opened->scan).run(sink, report, progress); !run)
-    return failure(run.error());
+  TRY(Reading(path, opened.header, opened.scan).run(sink, report, progress));
   return report;
 }
 
 Result<CloudInfo> info(const std::filesystem::path& path) {
-  auto opened = open(path);
-  if (!opened) return failure(opened.error());
-  CloudInfo info{.format = kPcd.name, .crs = opened->scan.coordinate_metadata};
-  listUnread(*opened, path.filename().string(), info.report);
-  info.scans.push_back({std::move(opened->scan), opened->header.points});
+  TRY_ASSIGN(auto opened, open(path));
+  CloudInfo info{.format = kPcd.name, .crs = opened.scan.coordinate_metadata};
+  listUnread(opened, path.filename().string(), info.report);
+  info.scans.push_back({std::move(opened.scan), opened.header.points});
   return info;
 }
 

@@ -138,7 +138,7 @@ Result<void> Writer::fillTo(std::uint64_t cell) {
 Result<void> Writer::write(const PointBlock& block) {
   if (!header_ || ended_) return failure(ErrorKind::internal, "points outside a scan", file_.file().string());
   if (block.size() == 0) return {};
-  if (const auto extent = checkBlock(*header_, block); !extent) return failure(extent.error());
+  TRY(checkBlock(*header_, block));
   for (std::size_t i = 0; i < block.size(); ++i) {
     const std::uint64_t cell = organised_ ? std::uint64_t{block.column[i]} * header_->rows + block.row[i] : next_cell_;
     if (cell + 1 == next_cell_) {
@@ -189,9 +189,8 @@ constexpr CloudVariant kVariants[] = {{"points", "a list of points, with every r
 }  // namespace
 
 Result<std::unique_ptr<CloudWriter>> createWriter(const std::filesystem::path& file, bool organised) {
-  auto part = PartFile::create(file);
-  if (!part) return failure(part.error());
-  return std::make_unique<Writer>(std::move(*part), organised);
+  TRY_ASSIGN(auto part, PartFile::create(file));
+  return std::make_unique<Writer>(std::move(part), organised);
 }
 
 }  // namespace pcd

@@ -172,24 +172,21 @@ Result<void> HeaderReader::assignRoles() {
 }
 
 Result<Header> HeaderReader::read() {
-  const auto first = lines_.next();
-  if (!first) return failure(first.error());
-  if (!*first || trimmed(**first) != "ply") return broken("is not a PLY file");
+  TRY_ASSIGN(const auto first, lines_.next());
+  if (!first || trimmed(*first) != "ply") return broken("is not a PLY file");
   for (;;) {
-    const auto line = lines_.next();
-    if (!line) return failure(line.error());
-    if (!*line) return broken("the file is truncated inside its header");
-    const auto more = takeLine(**line);
-    if (!more) return failure(more.error());
-    if (!*more) break;
+    TRY_ASSIGN(const auto line, lines_.next());
+    if (!line) return broken("the file is truncated inside its header");
+    TRY_ASSIGN(const auto more, takeLine(*line));
+    if (!more) break;
   }
   if (!has_format_) return broken("the header has no format");
   for (const Element& element : elements_)
     if (element.name == "face" || element.name == "tristrips")
       header_.faces += std::min<std::uint64_t>(element.count, 1ULL << 60);
   header_.vertices_at = lines_.at();
-  if (auto placed = place(); !placed) return failure(placed.error());
-  if (auto assigned = assignRoles(); !assigned) return failure(assigned.error());
+  TRY(place());
+  TRY(assignRoles());
   return header_;
 }
 

@@ -42,16 +42,15 @@ Result<void> Reading::readText(LocalPoints& local, Progress& progress) {
   auto file = InputFile::open(path_);
   if (!file) return failure(file.error());
   LineReader lines(std::move(*file));
-  if (const auto again = readHeader(lines); !again) return failure(again.error());
+  TRY(readHeader(lines));
   std::vector<double> values;
   FoundPoints found;
   const std::uint64_t all = header_.skipped_lines + header_.vertices;
   for (std::uint64_t i = 0; i < all; ++i) {
-    const auto line = lines.next();
-    if (!line) return failure(line.error());
-    if (!*line) return failure(ErrorKind::unusable, "the file is truncated before its last vertex", lines.place());
+    TRY_ASSIGN(const auto line, lines.next());
+    if (!line) return failure(ErrorKind::unusable, "the file is truncated before its last vertex", lines.place());
     if (i >= header_.skipped_lines) {
-      if (!numbersOf(**line, header_.properties.size(), values) || values.size() != header_.properties.size())
+      if (!numbersOf(*line, header_.properties.size(), values) || values.size() != header_.properties.size())
         return failure(ErrorKind::unusable,
                        "a vertex has " + std::to_string(header_.properties.size()) + " numbers here", lines.place());
       if (auto taken = taker_.take(values, found); !taken)
@@ -84,19 +83,17 @@ struct Opened {
 };
 
 Result<Opened> open(const std::filesystem::path& path) {
-  auto file = InputFile::open(path);
-  if (!file) return failure(file.error());
-  LineReader lines(std::move(*file));
-  auto header = readHeader(lines);
-  if (!header) return failure(header.error());
-  ScanHeader scan = header->scan;
+  TRY_ASSIGN(auto file, InputFile::open(path));
+  LineReader lines(std::move(file));
+  TRY_ASSIGN(auto header, readHeader(lines));
+  ScanHeader scan = header.scan;
   if (scan.name.empty()) scan.name = path.stem().string();
-  if (!header->places[PointField::intensity]) scan.intensity_max = scan.intensity_min = 0;
-  const FieldTaker taker(header->places, scan, header->ours);
+  if (!header.places[PointField::intensity]) scan.intensity_max = scan.intensity_min = 0;
+  const FieldTaker taker(header.places, scan, header.ours);
   std::string unread;
-  for (std::size_t i = 0; i < header->properties.size(); ++i)
-    if (!taker.isRead(i)) unread += (unread.empty() ? "" : ", ") + header->properties[i].name;
-  return Opened{*std::move(header), std::move(scan), lines.name(), std::move(unread)};
+  for (std::size_t i = 0; i < header.properties.size(); ++i)
+    if (!taker.isRead(i)) unread += (unread.empty() ? "" : ", ") + header.properties[i].name;
+  return Opened{std::move(header), std::move(scan), lines.name(), std::move(unread)};
 }
 
 void listUnread(const Opened& opened, Report& report) {
@@ -126,23 +123,20 @@ Result<void> setIntensityLimits(const std::filesystem::path& path, Opened& opene
 }  // namespace
 
 Result<Report> read(const std::filesystem::path& path, PointSink& sink, Progress& progress) {
-  auto opened = open(path);
-  if (!opened) return failure(opened.error());
-  progress.stage("Reading " + opened->name);
+  TRY_ASSIGN(auto opened, open(path));
+  progress.stage("Reading " + opened.name);
   Report report;
-  listUnread(*opened, report);
-  if (auto set = setIntensityLimits(path, *opened, progress); !set) return failure(set.error());
-  if (auto run = Reading(path, opened->header, opened->scan).run(sink, report, progress); !run)
-    return failure(run.error());
+  listUnread(opened, report);
+  TRY(setIntensityLimits(path, opened, progress));
+  TRY(Reading(path, opened.header, opened.scan).run(sink, report, progress));
   return report;
 }
 
 Result<CloudInfo> info(const std::filesystem::path& path) {
-  auto opened = open(path);
-  if (!opened) return failure(opened.error());
+  TRY_ASSIGN(auto opened, open(path));
   CloudInfo info{.format = kPly.name};
-  listUnread(*opened, info.report);
-  info.scans.push_back({std::move(opened->scan), opened->header.vertices});
+  listUnread(opened, info.report);
+  info.scans.push_back({std::move(opened.scan), opened.header.vertices});
   return info;
 }
 

@@ -91,7 +91,7 @@ void Writer::putPoint(const PointBlock& b, std::size_t i) {
 Result<void> Writer::write(const PointBlock& block) {
   if (!header_ || ended_) return failure(ErrorKind::internal, "points outside a scan", file_.file().string());
   if (block.size() == 0) return {};
-  if (const auto extent = checkBlock(*header_, block); !extent) return failure(extent.error());
+  TRY(checkBlock(*header_, block));
   bytes_.clear();
   for (std::size_t i = 0; i < block.size(); ++i) putPoint(block, i);
   points_ += block.size();
@@ -114,9 +114,8 @@ Result<void> Writer::close() {
 }  // namespace
 
 Result<std::unique_ptr<CloudWriter>> createWriter(const std::filesystem::path& file) {
-  auto part = PartFile::create(file);
-  if (!part) return failure(part.error());
-  return std::make_unique<Writer>(std::move(*part));
+  TRY_ASSIGN(auto part, PartFile::create(file));
+  return std::make_unique<Writer>(std::move(part));
 }
 
 }  // namespace ply

@@ -89,11 +89,10 @@ Result<std::optional<std::string_view>> Reader::firstLine() {
 }
 
 Result<Numbers> Reader::headerLine(std::size_t count) {
-  const auto line = lines_.next();
-  if (!line) return failure(line.error());
-  if (!*line) return broken("the file is truncated inside a scan header");
+  TRY_ASSIGN(const auto line, lines_.next());
+  if (!line) return broken("the file is truncated inside a scan header");
   Numbers numbers;
-  if (!numbersOf(**line, numbers) || numbers.count != count)
+  if (!numbersOf(*line, numbers) || numbers.count != count)
     return broken("a PTX header has " + std::to_string(count) + " numbers here");
   for (std::size_t i = 0; i < count; ++i)
     if (!std::isfinite(numbers.value[i])) return broken("a number of the header is not finite");
@@ -134,22 +133,20 @@ Result<Frame> Reader::readFrame(std::string_view columns_line) {
                   std::to_string(frame.rows) + " rows");
   for (int i = 0; i < 4;
        ++i)  // position and axes in the scanner's own survey: the matrix says what they mean for the file
-    if (const auto axis = headerLine(3); !axis) return failure(axis.error());
+    TRY(headerLine(3));
   Eigen::Matrix4d matrix;
   for (int i = 0; i < 4; ++i) {
-    const auto row = headerLine(4);
-    if (!row) return failure(row.error());
-    for (int k = 0; k < 4; ++k) matrix(i, k) = row->value[static_cast<std::size_t>(k)];
+    TRY_ASSIGN(const auto row, headerLine(4));
+    for (int k = 0; k < 4; ++k) matrix(i, k) = row.value[static_cast<std::size_t>(k)];
   }
   setPose(matrix, frame);
   return frame;
 }
 
 Result<void> Reader::nextCell() {
-  const auto line = lines_.next();
-  if (!line) return failure(line.error());
-  if (!*line) return broken("the file is truncated inside a scan");
-  if (!numbersOf(**line, cell_) || (cell_.count != 4 && cell_.count != 7))
+  TRY_ASSIGN(const auto line, lines_.next());
+  if (!line) return broken("the file is truncated inside a scan");
+  if (!numbersOf(*line, cell_) || (cell_.count != 4 && cell_.count != 7))
     return broken("a PTX point must have 4 or 7 numbers: x y z intensity [red green blue]");
   return {};
 }
@@ -224,13 +221,11 @@ Result<void> Reader::readScan(const Frame& frame) {
 Result<Report> Reader::read() {
   progress_.stage("Reading " + lines_.name());
   for (;;) {
-    const auto line = firstLine();
-    if (!line) return failure(line.error());
-    if (!*line) break;
-    const auto frame = readFrame(**line);
-    if (!frame) return failure(frame.error());
+    TRY_ASSIGN(const auto line, firstLine());
+    if (!line) break;
+    TRY_ASSIGN(const auto frame, readFrame(*line));
     scan_name_ = "Scan " + std::to_string(++scans_);
-    if (auto scan = readScan(*frame); !scan) return failure(scan.error());
+    TRY(readScan(frame));
   }
   if (scans_ == 0) return broken("the file contains no scan");
   return report_;
@@ -239,17 +234,15 @@ Result<Report> Reader::read() {
 }  // namespace
 
 Result<Report> read(const std::filesystem::path& file, PointSink& sink, Progress& progress) {
-  auto input = InputFile::open(file);
-  if (!input) return failure(input.error());
-  return Reader(std::move(*input), sink, progress).read();
+  TRY_ASSIGN(auto input, InputFile::open(file));
+  return Reader(std::move(input), sink, progress).read();
 }
 
 Result<CloudInfo> info(const std::filesystem::path& file) {
   PointCounter counter;
   Progress progress;
-  auto report = read(file, counter, progress);
-  if (!report) return failure(report.error());
-  return CloudInfo{kPtx.name, std::move(counter.scans), std::move(*report)};
+  TRY_ASSIGN(auto report, read(file, counter, progress));
+  return CloudInfo{kPtx.name, std::move(counter.scans), std::move(report)};
 }
 
 }  // namespace ptx

@@ -86,10 +86,9 @@ Result<CloudSample> sampleCloud(const std::filesystem::path& file, std::size_t m
     return failure(ErrorKind::usage, "unsupported point-cloud format", file.string());
   CloudSample sample;
   SampleSink sink(sample, most);
-  auto read = format->read(file, sink, progress);
-  if (!read) return failure(read.error());
+  TRY_ASSIGN(auto read, format->read(file, sink, progress));
   sink.finish();
-  sample.report = *std::move(read);
+  sample.report = std::move(read);
   if (sample.points == 0) return failure(ErrorKind::unusable, "the point cloud is empty", file.string());
   return sample;
 }

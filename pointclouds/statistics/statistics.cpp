@@ -135,13 +135,12 @@ Result<Measured> measure(const std::filesystem::path& file, const StatisticsOpti
   if (!(options.radius_m > 0) || !(options.cell_m > 0))
     return failure(ErrorKind::usage, "radius and cell must be positive", file.string());
   SurveySink survey(options);
-  const auto read = format->read(file, survey, progress);
-  if (!read) return failure(read.error());
-  report.append(*read);
+  TRY_ASSIGN(const auto read, format->read(file, survey, progress));
+  report.append(read);
   survey.coverage.settle();
   std::vector<Neighbourhood> samples = survey.samples();
   NeighbourSink neighbours(samples, options.radius_m);
-  if (const auto again = format->read(file, neighbours, progress); !again) return failure(again.error());
+  TRY(format->read(file, neighbours, progress));
   std::vector<double> noise, rough;
   for (const Neighbourhood& sample : samples) {
     if (const auto v = planeNoise(sample)) noise.push_back(*v);
@@ -158,22 +157,19 @@ Result<Measured> measure(const std::filesystem::path& file, const StatisticsOpti
 
 Result<CloudStatistics> measureCloud(const std::filesystem::path& file, const StatisticsOptions& options,
                                      Report& report, Progress& progress) {
-  auto measured = measure(file, options, report, progress);
-  if (!measured) return failure(measured.error());
-  return std::move(measured->statistics);
+  TRY_ASSIGN(auto measured, measure(file, options, report, progress));
+  return std::move(measured.statistics);
 }
 
 Result<CloudComparison> compareClouds(const std::filesystem::path& a, const std::filesystem::path& b,
                                       const StatisticsOptions& options, Progress& progress) {
   CloudComparison comparison;
-  auto first = measure(a, options, comparison.report, progress);
-  if (!first) return failure(first.error());
-  auto second = measure(b, options, comparison.report, progress);
-  if (!second) return failure(second.error());
-  comparison.a = std::move(first->statistics);
-  comparison.b = std::move(second->statistics);
-  comparison.a_covered_by_b = first->coverage.sharedWith(second->coverage);
-  comparison.b_covered_by_a = second->coverage.sharedWith(first->coverage);
+  TRY_ASSIGN(auto first, measure(a, options, comparison.report, progress));
+  TRY_ASSIGN(auto second, measure(b, options, comparison.report, progress));
+  comparison.a = std::move(first.statistics);
+  comparison.b = std::move(second.statistics);
+  comparison.a_covered_by_b = first.coverage.sharedWith(second.coverage);
+  comparison.b_covered_by_a = second.coverage.sharedWith(first.coverage);
   return comparison;
 }
 

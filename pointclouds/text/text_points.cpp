@@ -175,12 +175,11 @@ Result<void> Reader::flush() {
 
 Result<void> Reader::run(Report& report) {
   for (;;) {
-    const auto line = lines_.next();
-    if (!line) return failure(line.error());
-    if (!*line) break;
-    const auto head = takeHead(**line);
-    if (!head) return failure(head.error());
-    if (*head) continue;
+    TRY_ASSIGN(const auto line, lines_.next());
+    if (!line) break;
+    TRY_ASSIGN(const auto head, takeHead(*line));
+    if head
+      continue;
     if (auto taken = takePoint(); !taken) return taken;
     missing_ -= counted_ ? 1 : 0;
     if (found_.size() == kChunk)
@@ -204,18 +203,17 @@ Result<void> Reader::run(Report& report) {
 
 Result<void> Reader::measure(IntensityRange& range) {
   for (std::uint64_t lines = 1;; ++lines) {
-    const auto line = lines_.next();
-    if (!line) return failure(line.error());
-    if (!*line) return {};
+    TRY_ASSIGN(const auto line, lines_.next());
+    if (!line) return {};
     if (width_ == 0 || (counted_ && missing_ == 0)) {
-      const auto head = takeHead(**line);
-      if (!head) return failure(head.error());
-      if (*head) continue;
+      TRY_ASSIGN(const auto head, takeHead(*line));
+      if head
+        continue;
       if (auto begun = beginPoints(); !begun) return begun;
       if (!places_[PointField::intensity]) return {};
     }
     using Words = NumberLine<Between::blanks_and_commas>;
-    Words words(**line);
+    Words words(*line);
     std::size_t before = 0;
     while (before < *places_[PointField::intensity] && words.skip()) ++before;
     double value = 0;
@@ -231,9 +229,8 @@ Result<void> Reader::measure(IntensityRange& range) {
 
 Result<void> readOnce(const std::filesystem::path& path, bool counted, const ScanHeader& scan, PointSink& sink,
                       Report& report, Progress& progress) {
-  auto file = InputFile::open(path);
-  if (!file) return failure(file.error());
-  return Reader(std::move(*file), counted, scan, sink, progress).run(report);
+  TRY_ASSIGN(auto file, InputFile::open(path));
+  return Reader(std::move(file), counted, scan, sink, progress).run(report);
 }
 
 // The text states no limits of intensity, and a header comes before its points: they are looked at first.
@@ -243,13 +240,11 @@ Result<Report> read(const std::filesystem::path& path, bool counted, PointSink& 
   Report report;
   IntensityRange range;
   progress.stage("Measuring " + path.filename().string(), 0, 0.5);
-  auto file = InputFile::open(path);
-  if (!file) return failure(file.error());
-  if (auto done = Reader(std::move(*file), counted, scan, range, progress).measure(range); !done)
-    return failure(done.error());
+  TRY_ASSIGN(auto file, InputFile::open(path));
+  TRY(Reader(std::move(file), counted, scan, range, progress).measure(range));
   range.putInto(scan);
   progress.stage("Reading " + path.filename().string(), 0.5, 1);
-  if (auto done = readOnce(path, counted, scan, sink, report, progress); !done) return failure(done.error());
+  TRY(readOnce(path, counted, scan, sink, report, progress));
   return report;
 }
 
@@ -259,7 +254,7 @@ Result<CloudInfo> info(const std::filesystem::path& path, bool counted, const ch
   CloudInfo info{.format = name};
   ScanHeader scan;
   scan.name = path.stem().string();
-  if (auto done = readOnce(path, counted, scan, counter, info.report, progress); !done) return failure(done.error());
+  TRY(readOnce(path, counted, scan, counter, info.report, progress));
   info.scans = std::move(counter.scans);
   return info;
 }

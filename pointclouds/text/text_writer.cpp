@@ -133,7 +133,7 @@ Result<void> Writer::flushFrom(std::size_t enough) {
 Result<void> Writer::write(const PointBlock& block) {
   if (!header_ || ended_) return failure(ErrorKind::internal, "points outside a scan", file_.file().string());
   if (block.size() == 0) return {};
-  if (const auto extent = checkBlock(*header_, block); !extent) return failure(extent.error());
+  TRY(checkBlock(*header_, block));
   for (std::size_t i = 0; i < block.size(); ++i) {
     appendPoint(block, i);
     if (auto flushed = flushFrom(kBuffered); !flushed) return flushed;
@@ -159,9 +159,8 @@ Result<void> Writer::close() {
 }
 
 Result<std::unique_ptr<CloudWriter>> create(const std::filesystem::path& file, Kind kind) {
-  auto part = PartFile::create(file);
-  if (!part) return failure(part.error());
-  return std::make_unique<Writer>(std::move(*part), kind);
+  TRY_ASSIGN(auto part, PartFile::create(file));
+  return std::make_unique<Writer>(std::move(part), kind);
 }
 
 }  // namespace

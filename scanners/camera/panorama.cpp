@@ -90,9 +90,9 @@ class ColouringSink final : public PointSink {
   }
   Result<void> picture(const StationPicture& picture) override { return to_.picture(picture); }
   Result<void> end() override {
-    auto picture = pictureOf(*panorama_, header_, header_.acquisition_start_gps_s + header_.acquisition_seconds);
-    if (!picture) return failure(picture.error());
-    if (auto given = to_.picture(*picture); !given) return given;
+    TRY_ASSIGN(auto picture,
+               pictureOf(*panorama_, header_, header_.acquisition_start_gps_s + header_.acquisition_seconds));
+    if (auto given = to_.picture(picture); !given) return given;
     return to_.end();
   }
   Result<void> close() override { return to_.close(); }
@@ -144,7 +144,7 @@ Result<Panorama> takePanorama(const RayScene& scene, const Instrument& instrumen
     for (std::uint32_t x = 0; x < width; x += PanoramaRays::kAtOnce) rays.trace(y, x, &light[at + x]);
     progress.advance(static_cast<double>(++rows_done) / height);
   });
-  if (auto on = progress.check(); !on) return failure(on.error());
+  TRY(progress.check());
   const std::vector<float> exposure = exposures(light, width, height, instrument.camera, metering);
   const auto warmth = static_cast<float>(instrument.camera.warmth);
   const Light balance(1 + kWarmth * warmth, 1, 1 - kWarmth * warmth);
@@ -155,7 +155,7 @@ Result<Panorama> takePanorama(const RayScene& scene, const Instrument& instrumen
       panorama.pixels[at + x] = {srgbOf(l[0]), srgbOf(l[1]), srgbOf(l[2])};
     }
   });
-  if (auto on = progress.check(); !on) return failure(on.error());
+  TRY(progress.check());
   return panorama;
 }
 

@@ -226,7 +226,7 @@ Result<std::shared_ptr<const RayScene>> RayScene::build(std::shared_ptr<const En
                                                         Progress& progress) {
   if (!environment) return failure(ErrorKind::internal, "there is no environment", "ray scene");
   auto scene = std::make_shared<EmbreeScene>();
-  if (auto done = scene->commit(std::move(environment), progress); !done) return failure(done.error());
+  TRY(scene->commit(std::move(environment), progress));
   return scene;
 }
 

@@ -60,7 +60,7 @@ class Pipeline {
                       tbb::make_filter<Work, void>(tbb::filter_mode::serial_in_order, [&](Work work) { write(work); }));
     });
     if (error_) return failure(*error_);
-    if (auto go_on = progress_.check(); !go_on) return failure(go_on.error());
+    TRY(progress_.check());
     return count_;
   }
 
@@ -123,7 +123,7 @@ Result<ScanCount> scan(const RayScene& scene, const MaterialAssignment& assignme
   const auto* embree = dynamic_cast<const EmbreeScene*>(&scene);
   if (embree == nullptr)
     return failure(ErrorKind::internal, "this ray scene was not made by RayScene::build", "ray scene");
-  if (auto valid = checkArguments(settings, local_from_scanner); !valid) return failure(valid.error());
+  TRY(checkArguments(settings, local_from_scanner));
   for (const auto& surface : assignment.surfaces)
     if (surface.material >= static_cast<std::int32_t>(assignment.materials.size()))
       return failure(ErrorKind::internal, "an assigned material is out of range", "material assignment");

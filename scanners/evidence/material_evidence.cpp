@@ -47,7 +47,7 @@ class Comparison {
     first_cell_.assign(groups_.size() + 1, 0);
     for (const auto& cell : cells_) ++first_cell_[cell.group + 1];
     for (std::size_t g = 0; g < groups_.size(); ++g) first_cell_[g + 1] += first_cell_[g];
-    if (auto go_on = progress.check(); !go_on) return failure(go_on.error());
+    TRY(progress.check());
     progress.advance(0.4);
     if (!fitScale()) return std::move(result_);
     judgeGroups();
@@ -58,7 +58,7 @@ class Comparison {
       findLevel();
     }
     spread();
-    if (auto go_on = progress.check(); !go_on) return failure(go_on.error());
+    TRY(progress.check());
     progress.advance(0.8);
     if (result_.no_verdict.empty()) propose();
     return std::move(result_);

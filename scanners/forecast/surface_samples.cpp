@@ -112,7 +112,7 @@ Result<SurfaceSamples> sampleSurfaces(const RayScene& scene, std::size_t count, 
   SurfaceSamples result;
   eachTriangle(environment,
                [&](std::uint32_t, std::uint32_t, const TriangleInPlace& t) { result.area_m2 += t.area(); });
-  if (auto go_on = progress.check(); !go_on) return failure(go_on.error());
+  TRY(progress.check());
   if (!(result.area_m2 > 0) || !std::isfinite(result.area_m2)) return SurfaceSamples{};
   const RandomKey key{seed, static_cast<std::uint32_t>(stableHash("surface samples"))};
   const double stratum = result.area_m2 / static_cast<double>(count);

@@ -391,9 +391,8 @@ Result<std::vector<Instrument>> readInstruments(const std::filesystem::path& fol
   std::sort(files.begin(), files.end());
   std::vector<Instrument> instruments;
   for (const auto& file : files) {
-    auto instrument = readInstrument(file);
-    if (!instrument) return failure(instrument.error());
-    instruments.push_back(std::move(*instrument));
+    TRY_ASSIGN(auto instrument, readInstrument(file));
+    instruments.push_back(std::move(instrument));
   }
   return instruments;
 }

@@ -250,19 +250,17 @@ Result<ScanSettings> resolveSettings(const Instrument& instrument, const Setting
                    "the " + instrument.maker + " " + instrument.model +
                        " is a mobile scanner and requires a trajectory; choose a tripod instrument for stations",
                    instrument.id);
-  auto filled = complete(instrument, values);
-  if (!filled) return failure(filled.error());
-  Effects effects = gather(instrument, *filled);
-  if (auto steps = applySteps(instrument, *filled, effects); !steps) return failure(steps.error());
+  TRY_ASSIGN(auto filled, complete(instrument, values));
+  Effects effects = gather(instrument, filled);
+  TRY(applySteps(instrument, filled, effects));
   if (effects.columns < 2)
     return failure(ErrorKind::unusable, "no setting defines the columns", instrument.id + " /settings");
-  if (auto belongs = checkMode(instrument, *filled, effects); !belongs) return failure(belongs.error());
-  if (auto fits = checkGrid(instrument, *filled, effects); !fits) return failure(fits.error());
-  auto area = areaOf(instrument, *filled, effects.area);
-  if (!area) return failure(area.error());
+  TRY(checkMode(instrument, filled, effects));
+  TRY(checkGrid(instrument, filled, effects));
+  TRY_ASSIGN(auto area, areaOf(instrument, filled, effects.area));
 
   const double full = (instrument.max_elevation_rad - instrument.min_elevation_rad) / kRadPerDeg;
-  const double fraction = (area->horizontal_to - area->horizontal_from) / 360;
+  const double fraction = (area.horizontal_to - area.horizontal_from) / 360;
   const double rows = effects.rows > 0 ? effects.rows : effects.columns * full / 360;
   const double mirror_hz = effects.rate_hz / effects.columns;
   // A pattern has a time of its own, unless the laser is too slow for it.
@@ -275,14 +273,14 @@ Result<ScanSettings> resolveSettings(const Instrument& instrument, const Setting
     return failure(ErrorKind::unusable, "no setting defines the time or rate", instrument.id + " /settings");
 
   ScanSettings settings;
-  settings.values = std::move(*filled);
+  settings.values = std::move(filled);
   settings.columns = static_cast<std::uint32_t>(std::max(1.0, std::round(effects.columns * fraction)));
   settings.rows =
-      static_cast<std::uint32_t>(std::max(1.0, std::round(rows * (area->vertical_to - area->vertical_from) / full)));
-  settings.azimuth_from_rad = area->horizontal_from * kRadPerDeg;
-  settings.azimuth_to_rad = area->horizontal_to * kRadPerDeg;
-  settings.elevation_from_rad = area->vertical_from * kRadPerDeg;
-  settings.elevation_to_rad = area->vertical_to * kRadPerDeg;
+      static_cast<std::uint32_t>(std::max(1.0, std::round(rows * (area.vertical_to - area.vertical_from) / full)));
+  settings.azimuth_from_rad = area.horizontal_from * kRadPerDeg;
+  settings.azimuth_to_rad = area.horizontal_to * kRadPerDeg;
+  settings.elevation_from_rad = area.vertical_from * kRadPerDeg;
+  settings.elevation_to_rad = area.vertical_to * kRadPerDeg;
   settings.max_range_m = effects.max_range_m;
   settings.reference_reflectivity = effects.reference_reflectivity;
   settings.noise_factor = effects.noise_factor;

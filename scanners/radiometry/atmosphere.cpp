@@ -82,10 +82,10 @@ Result<Weather> weatherFrom(std::string_view text) {
   std::array<bool, kQuantities.size()> given{};
   for (auto from = text.find_first_not_of(kGaps); from != text.npos; from = text.find_first_not_of(kGaps, from)) {
     const auto to = std::min(text.find_first_of(kGaps, from), text.size());
-    if (auto taken = take(weather, text.substr(from, to - from), given); !taken) return failure(taken.error());
+    TRY(take(weather, text.substr(from, to - from), given));
     from = to;
   }
-  if (auto checked = check(weather); !checked) return failure(checked.error());
+  TRY(check(weather));
   return weather;
 }
 

@@ -391,15 +391,14 @@ class Scanner {
 };
 
 Result<StepFile> StepFile::read(const std::filesystem::path& file, Report& report) {
-  auto text = readStepBytes(file);
-  if (!text) return failure(text.error());
-  return parse(std::move(*text), file.filename().string(), report);
+  TRY_ASSIGN(auto text, readStepBytes(file));
+  return parse(std::move(text), file.filename().string(), report);
 }
 
 Result<StepFile> StepFile::parse(std::string text, const std::string& name, Report& report) {
   StepFile file;
   file.text_ = std::move(text);
-  if (auto done = Scanner(file, name, report).run(); !done) return failure(done.error());
+  TRY(Scanner(file, name, report).run());
   return file;
 }
 

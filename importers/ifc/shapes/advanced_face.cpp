@@ -320,15 +320,13 @@ Result<void> appendOnSurface(geometry::PolyMesh& mesh, const ParametricSurface& 
 }
 
 Result<void> appendCurvedFace(geometry::PolyMesh& mesh, const Entity& face, Scope& scope) {
-  const auto on = surface(face.ref(1), scope);
-  if (!on) return failure(on.error());
+  TRY_ASSIGN(const auto on, surface(face.ref(1), scope));
   Outlines outlines;
   for (const Entity& bound : face.refs(0)) {
-    auto points = loopPoints(bound.ref(0), scope);
-    if (!points) return failure(points.error());
-    outlines.push_back(std::move(*points));
+    TRY_ASSIGN(auto points, loopPoints(bound.ref(0), scope));
+    outlines.push_back(std::move(points));
   }
-  return appendOnSurface(mesh, **on, outlines, face[2].symbol() == "F", face, scope);
+  return appendOnSurface(mesh, *on, outlines, face[2].symbol() == "F", face, scope);
 }
 
 }  // namespace standpoint::ifc

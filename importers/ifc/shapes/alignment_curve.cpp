@@ -146,14 +146,13 @@ Result<Path> segmentPath(const Entity& segment, Scope& scope) {
                length_m = segmentMeasure(segment[3], parent_entity, scope);
   Path path;
   if (std::abs(length_m) < 1e-9) return path;  // the last segment of an alignment only marks its end
-  const auto parent = parentOf(parent_entity, start, length_m, scope);
-  if (!parent) return failure(parent.error());
+  TRY_ASSIGN(const auto parent, parentOf(parent_entity, start, length_m, scope));
   const double sign = length_m < 0 ? -1 : 1;
-  const double turn = -(parent->heading(start) + (sign < 0 ? std::numbers::pi : 0));
-  const Eigen::Vector2d origin = parent->at(start);
+  const double turn = -(parent.heading(start) + (sign < 0 ? std::numbers::pi : 0));
+  const Eigen::Vector2d origin = parent.at(start);
   const Eigen::Isometry3d placed = axisPlacement(segment.ref(1), scope);
   const auto at = [&](double u) {
-    const Eigen::Vector2d q = Eigen::Rotation2Dd(turn) * (parent->at(start + sign * u) - origin);
+    const Eigen::Vector2d q = Eigen::Rotation2Dd(turn) * (parent.at(start + sign * u) - origin);
     return Eigen::Vector3d(placed * Eigen::Vector3d(q.x(), q.y(), 0));
   };
   path = sample(at, 0, std::abs(length_m), parent_entity.is("IFCLINE") ? 1 : 4, scope);

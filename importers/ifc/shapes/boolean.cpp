@@ -56,9 +56,8 @@ geometry::Region2 around(const Eigen::AlignedBox2d& box) {
 }
 
 Result<geometry::Region2> boundary(const Entity& entity, Scope& scope) {
-  const auto path = curve(entity.ref(3), scope);
-  if (!path) return failure(path.error());
-  geometry::Region2 region{loop2(*path), {}};
+  TRY_ASSIGN(const auto path, curve(entity.ref(3), scope));
+  geometry::Region2 region{loop2(path), {}};
   geometry::normalise(region);
   if (region.outer.size() < 3) return fail(entity, "the boundary of the half-space encloses no area");
   return region;
@@ -136,14 +135,13 @@ Result<geometry::PolyMesh> withBoundedHalfSpace(const geometry::PolyMesh& host, 
                                                 const HalfSpace& half, Scope& scope) {
   const Eigen::Isometry3d position = axisPlacement(entity.ref(2), scope);
   const PlanBox box = planBox(host, position.inverse());
-  const auto region = boundary(entity, scope);
-  if (!region) return failure(region.error());
-  const Reach reach = reachOf(*region, box);
+  TRY_ASSIGN(const auto region, boundary(entity, scope));
+  const Reach reach = reachOf(region, box);
   if (reach == Reach::nothing) return keep_inside ? geometry::PolyMesh() : host;
   if (reach == Reach::all)
     return keep_inside ? clipSnapped(host, half.normal, half.offset) : clipSnapped(host, -half.normal, -half.offset);
-  if (!keep_inside) return withoutPrism(host, *region, position, box, half);
-  const auto tool = prismTool(*region, position, box, half);
+  if (!keep_inside) return withoutPrism(host, region, position, box, half);
+  const auto tool = prismTool(region, position, box, half);
   return tool ? geometry::intersect(host, *tool) : tool;
 }
 

@@ -23,12 +23,11 @@ void appendLoop(geometry::PolyMesh& mesh, const Path& path, std::vector<std::uin
 Result<geometry::PolyMesh> curveBoundedPlane(const Entity& entity, Scope& scope) {
   const Entity plane = entity.ref(0);
   if (!plane.is("IFCPLANE")) return fail(entity, "its basis surface is not planar");
-  const auto outer = curve(entity.ref(1), scope);
-  if (!outer) return failure(outer.error());
-  if (outer->points.size() < 3) return fail(entity, "its outline encloses no area");
+  TRY_ASSIGN(const auto outer, curve(entity.ref(1), scope));
+  if (outer.points.size() < 3) return fail(entity, "its outline encloses no area");
   geometry::PolyMesh mesh;
   geometry::Face face;
-  appendLoop(mesh, *outer, face.outer);
+  appendLoop(mesh, outer, face.outer);
   for (const Entity& boundary : entity.refs(2))
     if (const auto inner = curve(boundary, scope); inner && inner->points.size() >= 3)
       appendLoop(mesh, *inner, face.holes.emplace_back());
@@ -39,16 +38,14 @@ Result<geometry::PolyMesh> curveBoundedPlane(const Entity& entity, Scope& scope)
 
 Result<geometry::PolyMesh> curveBoundedSurface(const Entity& entity, Scope& scope) {
   if (entity[2].isTrue()) return fail(entity, "an implicit outer boundary is not supported");
-  const auto on = surface(entity.ref(0), scope);
-  if (!on) return failure(on.error());
+  TRY_ASSIGN(const auto on, surface(entity.ref(0), scope));
   Outlines outlines;
   for (const Entity& boundary : entity.refs(1)) {
-    auto path = curve(boundary, scope);
-    if (!path) return failure(path.error());
-    outlines.push_back(std::move(path->points));
+    TRY_ASSIGN(auto path, curve(boundary, scope));
+    outlines.push_back(std::move(path.points));
   }
   geometry::PolyMesh mesh;
-  if (auto done = appendOnSurface(mesh, **on, outlines, false, entity, scope); !done) return failure(done.error());
+  TRY(appendOnSurface(mesh, *on, outlines, false, entity, scope));
   if (mesh.faces.empty()) return fail(entity, "the surface has no area");
   return mesh;
 }
@@ -88,25 +85,24 @@ int piecesAlong(const ParametricSurface& on, const Eigen::Vector2d& low, const E
 }  // namespace
 
 Result<geometry::PolyMesh> rectangularTrimmedSurface(const Entity& entity, Scope& scope) {
-  const auto on = surface(entity.ref(0), scope);
-  if (!on) return failure(on.error());
+  TRY_ASSIGN(const auto on, surface(entity.ref(0), scope));
   const auto bound = [&](std::size_t u, std::size_t v) {
-    return (*on)->fromFile({entity[u].number(0), entity[v].number(0)}, scope.model.units.length_m,
-                           scope.model.units.angle_rad);
+    return on->fromFile({entity[u].number(0), entity[v].number(0)}, scope.model.units.length_m,
+                        scope.model.units.angle_rad);
   };
   auto low = bound(1, 2), high = bound(3, 4);
   if (!low || !high)
     return fail(entity, "trims in the parameters of " + std::string(entity.ref(0).typeName()) + " are not supported");
   for (const int k : {0, 1})
-    orderBounds((*low)[k], (*high)[k], entity[k == 0 ? 5 : 6].symbol() != "F", (*on)->period()[k]);
-  const int nu = piecesAlong(**on, *low, *high, 0, scope.tessellation.chord_error_m),
-            nv = piecesAlong(**on, *low, *high, 1, scope.tessellation.chord_error_m);
+    orderBounds((*low)[k], (*high)[k], entity[k == 0 ? 5 : 6].symbol() != "F", on->period()[k]);
+  const int nu = piecesAlong(*on, *low, *high, 0, scope.tessellation.chord_error_m),
+            nv = piecesAlong(*on, *low, *high, 1, scope.tessellation.chord_error_m);
   if (!scope.spend(static_cast<std::size_t>(nu + 1) * static_cast<std::size_t>(nv + 1)))
     return fail(entity, "too many points");
   geometry::PolyMesh mesh;
   for (int j = 0; j <= nv; ++j)
     for (int i = 0; i <= nu; ++i)
-      mesh.points.push_back((*on)->at(
+      mesh.points.push_back(on->at(
           *low +
           (*high - *low).cwiseProduct(Eigen::Vector2d(static_cast<double>(i) / nu, static_cast<double>(j) / nv))));
   const auto triangle = [&](int a, int b, int c) {
@@ -127,14 +123,13 @@ Result<geometry::PolyMesh> rectangularTrimmedSurface(const Entity& entity, Scope
 }
 
 Result<geometry::PolyMesh> extrudedSurface(const Entity& entity, Scope& scope) {
-  auto path = profileCurve(entity.ref(0), scope);
-  if (!path) return failure(path.error());
+  TRY_ASSIGN(auto path, profileCurve(entity.ref(0), scope));
   const Eigen::Vector3d along = direction(entity.ref(2), Eigen::Vector3d::UnitZ()) * scope.metres(entity[3].number(0));
-  if (path->points.size() < 2 || !(along.norm() > 1e-9)) return fail(entity, "the extruded surface has no area");
-  if (!scope.spend(path->points.size())) return fail(entity, "too many points");
-  if (path->closed) path->points.push_back(path->points.front());
+  if (path.points.size() < 2 || !(along.norm() > 1e-9)) return fail(entity, "the extruded surface has no area");
+  if (!scope.spend(path.points.size())) return fail(entity, "too many points");
+  if (path.closed) path.points.push_back(path.points.front());
   geometry::PolyMesh mesh;
-  for (const auto& p : path->points) mesh.points.push_back(p), mesh.points.push_back(p + along);
+  for (const auto& p : path.points) mesh.points.push_back(p), mesh.points.push_back(p + along);
   for (std::uint32_t i = 0; i + 3 < mesh.points.size(); i += 2) {
     geometry::Face face;
     face.outer = {i, i + 2, i + 3, i + 1};

@@ -137,8 +137,7 @@ Result<geometry::PolyMesh> subtractConvex(geometry::PolyMesh host, const std::ve
     if (core.faces.empty()) return host;  // they only touch
   }
   geometry::PolyMesh kept;
-  for (const auto& face : host.faces)
-    if (auto done = appendOutside(kept, host, face, planes); !done) return failure(done.error());
+  for (const auto& face : host.faces) TRY(appendOutside(kept, host, face, planes));
   geometry::PolyMesh reveals;
   reveals.points = core.points;
   for (geometry::Face face : core.faces) {

@@ -39,18 +39,17 @@ double angle(const Trim& t, const Conic& c, bool points_first, double otherwise,
 }
 
 Result<Path> trimmedConic(const Entity& entity, const Entity& basis, Scope& scope) {
-  const auto c = conic(basis, scope);
-  if (!c) return failure(c.error());
+  TRY_ASSIGN(const auto c, conic(basis, scope));
   const bool points_first = entity[4].symbol() == "CARTESIAN";
   const bool forward = entity[3].symbol() != "F";
-  const double from = angle(trim(entity, 1, scope), *c, points_first, 0, scope);
-  const double to = angle(trim(entity, 2, scope), *c, points_first, kTurn, scope);
+  const double from = angle(trim(entity, 1, scope), c, points_first, 0, scope);
+  const double to = angle(trim(entity, 2, scope), c, points_first, kTurn, scope);
   double sweep = std::fmod(to - from, kTurn);
   // from = to is the whole turn, and so is a turn that rounding carried a little beyond it.
   const double kNothing = std::abs(to - from) > kTurn ? 1e-4 : 1e-9;
   if (forward && sweep < kNothing) sweep += kTurn;
   if (!forward && sweep > -kNothing) sweep -= kTurn;
-  Path path = arc(*c, from, sweep, scope);
+  Path path = arc(c, from, sweep, scope);
   close(path);
   return path;
 }
@@ -140,9 +139,8 @@ Path arcThrough(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen:
 }
 
 Result<Path> conicCurve(const Entity& entity, Scope& scope) {
-  const auto c = conic(entity, scope);
-  if (!c) return failure(c.error());
-  Path path = arc(*c, 0, kTurn, scope);
+  TRY_ASSIGN(const auto c, conic(entity, scope));
+  Path path = arc(c, 0, kTurn, scope);
   close(path);
   return path;
 }

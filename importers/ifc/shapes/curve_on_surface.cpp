@@ -17,10 +17,9 @@ Result<Path> surfaceCurve(const Entity& entity, Scope& scope) {
 }
 
 Result<Path> pcurve(const Entity& entity, Scope& scope) {
-  const auto on = surface(entity.ref(0), scope);
-  if (!on) return failure(on.error());
+  TRY_ASSIGN(const auto on, surface(entity.ref(0), scope));
   const double length_m = scope.model.units.length_m, angle_rad = scope.model.units.angle_rad;
-  if (!(*on)->fromFile(Eigen::Vector2d::Zero(), length_m, angle_rad))
+  if (!on->fromFile(Eigen::Vector2d::Zero(), length_m, angle_rad))
     return fail(entity, "a curve in the parameters of " + std::string(entity.ref(0).typeName()) + " is not supported");
   const geometry::Tessellation of_scope = scope.tessellation;
   // Parameters are angles or knots rather than lengths: their curve is read to a ten-thousandth of their unit.
@@ -32,7 +31,7 @@ Result<Path> pcurve(const Entity& entity, Scope& scope) {
   Path path;
   for (std::size_t i = 1; i < flat->points.size(); ++i) {
     const Eigen::Vector2d a = flat->points[i - 1].head<2>() / length_m, b = flat->points[i].head<2>() / length_m;
-    const auto at = [&](double t) { return (*on)->at(*(*on)->fromFile(a + (b - a) * t, length_m, angle_rad)); };
+    const auto at = [&](double t) { return on->at(*on->fromFile(a + (b - a) * t, length_m, angle_rad)); };
     const Path piece = sample(at, 0, 1, 1, scope);
     if (!scope.spend(piece.points.size())) return fail(entity, "too many points");
     for (const auto& p : piece.points) appendPoint(path, p);

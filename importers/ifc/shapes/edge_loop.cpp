@@ -49,12 +49,11 @@ Result<Path> edgePath(const Entity& edge, Scope& scope) {
   if (basis.is("IFCLINE")) {
     path.points = {from, to};
   } else if (basis.is("IFCCIRCLE") || basis.is("IFCELLIPSE")) {
-    const auto c = conic(basis, scope);
-    if (!c) return failure(c.error());
-    const double a = c->angleOf(from);
-    double sweep = c->angleOf(to) - a;
+    TRY_ASSIGN(const auto c, conic(basis, scope));
+    const double a = c.angleOf(from);
+    double sweep = c.angleOf(to) - a;
     if (sweep <= 1e-9) sweep += 2 * std::numbers::pi;
-    path = arc(*c, a, sweep, scope);
+    path = arc(c, a, sweep, scope);
     path.points.front() = from;
     path.points.back() = to;
   } else {
@@ -84,11 +83,10 @@ Result<std::vector<Eigen::Vector3d>> loopPoints(const Entity& loop, Scope& scope
   if (!loop.is("IFCEDGELOOP")) return fail(loop, "a loop of this kind is not supported");
   Path path;
   for (const Entity& oriented : loop.refs(0)) {
-    auto edge = edgePath(oriented.is("IFCORIENTEDEDGE") ? oriented.ref(2) : oriented, scope);
-    if (!edge) return failure(edge.error());
-    if (oriented[3].symbol() == "F" && oriented.is("IFCORIENTEDEDGE")) reverse(*edge);
-    if (!scope.spend(edge->points.size())) return fail(loop, "too many points");
-    for (const auto& p : edge->points) appendPoint(path, p);
+    TRY_ASSIGN(auto edge, edgePath(oriented.is("IFCORIENTEDEDGE") ? oriented.ref(2) : oriented, scope));
+    if (oriented[3].symbol() == "F" && oriented.is("IFCORIENTEDEDGE")) reverse(edge);
+    if (!scope.spend(edge.points.size())) return fail(loop, "too many points");
+    for (const auto& p : edge.points) appendPoint(path, p);
   }
   if (path.points.size() > 1 && (path.points.front() - path.points.back()).norm() < 1e-6) path.points.pop_back();
   return path.points;

@@ -5,14 +5,13 @@
 namespace standpoint::ifc {
 
 Result<geometry::PolyMesh> extrudedAreaSolid(const Entity& entity, Scope& scope) {
-  const auto regions = profile(entity.ref(0), scope);
-  if (!regions) return failure(regions.error());
+  TRY_ASSIGN(const auto regions, profile(entity.ref(0), scope));
   const double depth = scope.metres(entity[3].number(0));
   const Eigen::Vector3d along = direction(entity.ref(2), Eigen::Vector3d::UnitZ());
   if (!(std::abs(depth) > 1e-9)) return fail(entity, "the depth of the extrusion is zero or missing");
   if (std::abs(along.z()) < 1e-6) return fail(entity, "the extrusion runs within the plane of its profile");
   geometry::PolyMesh mesh;
-  for (const auto& region : *regions)
+  for (const auto& region : regions)
     geometry::append(mesh, geometry::extrude(region, depth < 0 ? Eigen::Vector3d(-along) : along, std::abs(depth)));
   geometry::transform(mesh, Eigen::Affine3d(axisPlacement(entity.ref(1), scope)));
   return mesh;

@@ -43,9 +43,8 @@ Result<std::vector<std::uint32_t>> boundLoop(const Entity& bound, PointPool& poo
     for (const Value v : points)
       if (const Entity p = loop.follow(v)) indices.push_back(pool.index(p));
   } else {
-    const auto points = loopPoints(loop, scope);
-    if (!points) return failure(points.error());
-    for (const auto& p : *points) indices.push_back(pool.add(p));
+    TRY_ASSIGN(const auto points, loopPoints(loop, scope));
+    for (const auto& p : points) indices.push_back(pool.add(p));
   }
   dropRepeated(indices);
   if (bound[1].symbol() == "F") std::reverse(indices.begin(), indices.end());
@@ -65,11 +64,10 @@ Result<void> appendFace(geometry::PolyMesh& mesh, const Entity& face, PointPool&
   std::size_t outer = 0;
   bool named = false;
   for (const Entity& bound : face.refs(0)) {
-    auto loop = boundLoop(bound, pool, scope);
-    if (!loop) return failure(loop.error());
-    if (loop->size() < 3) continue;
+    TRY_ASSIGN(auto loop, boundLoop(bound, pool, scope));
+    if (loop.size() < 3) continue;
     if (bound.is("IFCFACEOUTERBOUND") && !named) outer = loops.size(), named = true;
-    loops.push_back(std::move(*loop));
+    loops.push_back(std::move(loop));
   }
   if (loops.empty()) return {};  // a face without area is no loss
   if (!named)
@@ -183,12 +181,12 @@ Result<void> appendShell(geometry::PolyMesh& mesh, const Entity& shell, Scope& s
 
 Result<geometry::PolyMesh> facetedBrep(const Entity& entity, Scope& scope) {
   geometry::PolyMesh mesh;
-  if (auto done = appendShell(mesh, entity.ref(0), scope); !done) return failure(done.error());
+  TRY(appendShell(mesh, entity.ref(0), scope));
   orient(mesh, true, scope);
   if (entity.typeName().ends_with("WITHVOIDS"))
     for (const Entity& shell : entity.refs(1)) {
       geometry::PolyMesh cavity;
-      if (auto done = appendShell(cavity, shell, scope); !done) return failure(done.error());
+      TRY(appendShell(cavity, shell, scope));
       orient(cavity, true, scope);
       flip(cavity);
       geometry::append(mesh, cavity);
@@ -201,7 +199,7 @@ Result<geometry::PolyMesh> surfaceModel(const Entity& entity, Scope& scope) {
   geometry::PolyMesh mesh;
   for (const Entity& shell : entity.refs(0)) {
     geometry::PolyMesh part;
-    if (auto done = appendShell(part, shell, scope); !done) return failure(done.error());
+    TRY(appendShell(part, shell, scope));
     orient(part, shell.is("IFCCLOSEDSHELL"), scope);
     geometry::append(mesh, part);
   }
@@ -212,15 +210,14 @@ Result<geometry::PolyMesh> surfaceModel(const Entity& entity, Scope& scope) {
 Result<geometry::PolyMesh> faceItem(const Entity& entity, Scope& scope) {
   geometry::PolyMesh mesh;
   PointPool pool(mesh, scope);
-  const auto done = isCurved(entity) ? appendCurvedFace(mesh, entity, scope) : appendFace(mesh, entity, pool, scope);
-  if (!done) return failure(done.error());
+  TRY(isCurved(entity) ? appendCurvedFace(mesh, entity, scope) : appendFace(mesh, entity, pool, scope));
   if (mesh.faces.empty()) return fail(entity, "the face has no area");
   return mesh;
 }
 
 Result<geometry::PolyMesh> faceSetItem(const Entity& entity, Scope& scope) {
   geometry::PolyMesh mesh;
-  if (auto done = appendShell(mesh, entity, scope); !done) return failure(done.error());
+  TRY(appendShell(mesh, entity, scope));
   orient(mesh, entity.is("IFCCLOSEDSHELL"), scope);
   if (mesh.faces.empty()) return fail(entity, "the shell has no valid face");
   return mesh;

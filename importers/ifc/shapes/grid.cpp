@@ -35,10 +35,9 @@ geometry::Loop2 moved(const Path& path, double offset) {
 }
 
 Result<geometry::Loop2> axisLine(const Entity& axis, double offset, Scope& scope) {
-  auto path = curve(axis.ref(1), scope);
-  if (!path) return failure(path.error());
-  if (axis[2].symbol() == "F") reverse(*path);
-  return moved(*path, offset);
+  TRY_ASSIGN(auto path, curve(axis.ref(1), scope));
+  if (axis[2].symbol() == "F") reverse(path);
+  return moved(path, offset);
 }
 
 Result<Eigen::Vector3d> crossing(const Entity& intersection, Scope& scope) {
@@ -70,17 +69,15 @@ Result<Eigen::Isometry3d> gridPlacement(const Entity& placement, Scope& scope) {
   const std::size_t first = placement.ref(0).is("IFCVIRTUALGRIDINTERSECTION") ? 0 : 1;
   const Entity location = placement.ref(first), reference = placement.ref(first + 1);
   if (!location) return fail(placement, "the grid placement has no location");
-  const auto here = crossing(location, scope);
-  if (!here) return failure(here.error());
+  TRY_ASSIGN(const auto here, crossing(location, scope));
   Eigen::Vector3d x = Eigen::Vector3d::UnitX();  // the grid's own x where no direction is asked for
   if (reference.is("IFCDIRECTION"))
     x = direction(reference, x);
   else if (reference.is("IFCVIRTUALGRIDINTERSECTION")) {
-    const auto there = crossing(reference, scope);
-    if (!there) return failure(there.error());
-    if (const Eigen::Vector3d d = *there - *here; d.norm() > 1e-9) x = d;
+    TRY_ASSIGN(const auto there, crossing(reference, scope));
+    if (const Eigen::Vector3d d = there - here; d.norm() > 1e-9) x = d;
   }
-  return frame(*here, Eigen::Vector3d::UnitZ(), x);
+  return frame(here, Eigen::Vector3d::UnitZ(), x);
 }
 
 }  // namespace standpoint::ifc

@@ -9,10 +9,9 @@ namespace standpoint::ifc {
 namespace {
 
 Result<geometry::Loop2> outline(const Entity& curve_entity, Scope& scope) {
-  const auto path = curve(curve_entity, scope);
-  if (!path) return failure(path.error());
-  if (path->points.size() < 3) return fail(curve_entity, "an outline requires three distinct points");
-  return loop2(*path);
+  TRY_ASSIGN(const auto path, curve(curve_entity, scope));
+  if (path.points.size() < 3) return fail(curve_entity, "an outline requires three distinct points");
+  return loop2(path);
 }
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -73,9 +72,8 @@ geometry::Loop2 band(const Path& path, double half_width) {
 }  // namespace
 
 Result<Regions> arbitraryClosedProfile(const Entity& entity, Scope& scope) {
-  auto outer = outline(entity.ref(2), scope);
-  if (!outer) return failure(outer.error());
-  geometry::Region2 region{*outer, {}};
+  TRY_ASSIGN(auto outer, outline(entity.ref(2), scope));
+  geometry::Region2 region{outer, {}};
   if (entity.is("IFCARBITRARYPROFILEDEFWITHVOIDS"))
     for (const Entity& inner : entity.refs(3)) {
       auto hole = outline(inner, scope);
@@ -86,7 +84,7 @@ Result<Regions> arbitraryClosedProfile(const Entity& entity, Scope& scope) {
     }
   geometry::normalise(region);
   if (region.outer.size() >= 3) return Regions{std::move(region)};
-  Regions parts = outer->size() <= 1000 ? partsOfCrossing(*outer) : Regions();
+  Regions parts = outer.size() <= 1000 ? partsOfCrossing(outer) : Regions();
   if (parts.empty()) return fail(entity, "the outline of the profile encloses no area");
   scope.report.warn(entity.place(), "the outline of the profile intersects itself; each of its " +
                                         std::to_string(parts.size()) + " parts is filled");
@@ -94,12 +92,11 @@ Result<Regions> arbitraryClosedProfile(const Entity& entity, Scope& scope) {
 }
 
 Result<Regions> centreLineProfile(const Entity& entity, Scope& scope) {
-  auto path = curve(entity.ref(2), scope);
-  if (!path) return failure(path.error());
+  TRY_ASSIGN(auto path, curve(entity.ref(2), scope));
   const double half = scope.metres(entity[3].number(0)) / 2;
   if (!(half > 0)) return fail(entity, "the thickness is not positive");
-  if (path->closed) path->points.push_back(path->points.front());
-  geometry::Region2 region{band(*path, half), {}};
+  if (path.closed) path.points.push_back(path.points.front());
+  geometry::Region2 region{band(path, half), {}};
   geometry::normalise(region);
   return Regions{std::move(region)};
 }
@@ -135,10 +132,9 @@ Result<Path> profileCurve(const Entity& entity, Scope& scope) {
   if (entity.is("IFCARBITRARYOPENPROFILEDEF") || entity.is("IFCARBITRARYCLOSEDPROFILEDEF"))
     return curve(entity.ref(2), scope);
   if (entity.is("IFCOPENCROSSPROFILEDEF")) return openCrossProfile(entity, scope);
-  const auto regions = profile(entity, scope);
-  if (!regions) return failure(regions.error());
+  TRY_ASSIGN(const auto regions, profile(entity, scope));
   Path path;
-  for (const auto& p : regions->front().outer) path.points.emplace_back(p.x(), p.y(), 0);
+  for (const auto& p : regions.front().outer) path.points.emplace_back(p.x(), p.y(), 0);
   path.closed = true;
   return path;
 }

@@ -102,10 +102,9 @@ struct Chain {
 };
 
 Result<Chain> chainOf(const Entity& profile_entity, Scope& scope) {
-  auto path = profileCurve(profile_entity, scope);
-  if (!path) return failure(path.error());
-  if (path->closed) path->points.push_back(path->points.front());
-  Chain chain{loop2(*path), {}};
+  TRY_ASSIGN(auto path, profileCurve(profile_entity, scope));
+  if (path.closed) path.points.push_back(path.points.front());
+  Chain chain{loop2(path), {}};
   if (profile_entity.is("IFCOPENCROSSPROFILEDEF"))
     for (const Value tag : profile_entity[5]) chain.tags.push_back(tag.text());
   if (chain.tags.size() != chain.points.size()) chain.tags.clear();
@@ -219,29 +218,27 @@ Result<geometry::PolyMesh> sectionedSurface(const Entity& entity, Scope& scope) 
 }
 
 Result<geometry::PolyMesh> sectionedSolidHorizontal(const Entity& entity, Scope& scope) {
-  const auto s = sectionsOf(entity, 1, 2, scope);
-  if (!s) return failure(s.error());
-  if (s->profiles[0].is("IFCOPENCROSSPROFILEDEF")) {
+  TRY_ASSIGN(const auto s, sectionsOf(entity, 1, 2, scope));
+  if (s.profiles[0].is("IFCOPENCROSSPROFILEDEF")) {
     scope.report.warn(entity.place(), "its cross sections are open: treated as a surface");
-    return surfaceAlong(entity, *s, scope);
+    return surfaceAlong(entity, s, scope);
   }
   std::vector<geometry::Region2> regions;
   std::vector<Eigen::Isometry3d> frames;
-  for (std::size_t i = 0; i < s->profiles.size(); ++i) {
-    auto region = profile(s->profiles[i], scope);
-    if (!region) return failure(region.error());
-    const geometry::Region2 next = std::move(region->front());
+  for (std::size_t i = 0; i < s.profiles.size(); ++i) {
+    TRY_ASSIGN(auto region, profile(s.profiles[i], scope));
+    const geometry::Region2 next = std::move(region.front());
     if (i > 0) {
       if (!alike(regions.back(), next)) return fail(entity, "the cross sections have different numbers of points");
       const geometry::Region2 from = regions.back();
-      for (const double t : fractionsAfter(s->directrix, s->positions[i - 1], s->positions[i])) {
+      for (const double t : fractionsAfter(s.directrix, s.positions[i - 1], s.positions[i])) {
         regions.push_back(blend(from, next, t));
-        frames.push_back(sectionFrame(s->directrix, between(s->positions[i - 1], s->positions[i], t)));
+        frames.push_back(sectionFrame(s.directrix, between(s.positions[i - 1], s.positions[i], t)));
         if (!scope.spend(next.outer.size())) return fail(entity, "too many points");
       }
     } else {
       regions.push_back(next);
-      frames.push_back(sectionFrame(s->directrix, s->positions[i]));
+      frames.push_back(sectionFrame(s.directrix, s.positions[i]));
     }
   }
   auto mesh = geometry::loft(regions, frames, false);

@@ -292,15 +292,13 @@ Result<Path> sweptCurve(const Entity& e, Scope& s) {
 }  // namespace
 
 Result<SurfacePtr> surfaceOfLinearExtrusion(const Entity& e, Scope& s) {
-  auto path = sweptCurve(e, s);
-  if (!path) return failure(path.error());
-  return std::make_shared<Extruded>(std::move(*path), axisPlacement(e.ref(1), s),
+  TRY_ASSIGN(auto path, sweptCurve(e, s));
+  return std::make_shared<Extruded>(std::move(path), axisPlacement(e.ref(1), s),
                                     direction(e.ref(2), Eigen::Vector3d::UnitZ()));
 }
 
 Result<SurfacePtr> surfaceOfRevolution(const Entity& e, Scope& s) {
-  auto path = sweptCurve(e, s);
-  if (!path) return failure(path.error());
+  TRY_ASSIGN(auto path, sweptCurve(e, s));
   const Eigen::Isometry3d position = axisPlacement(e.ref(1), s);
   Axis axis = axis1Placement(e.ref(2), s);
   // The axis lies in the plane of the profile. Revit states it in the frame of the shape, not of the surface's
@@ -308,7 +306,7 @@ Result<SurfacePtr> surfaceOfRevolution(const Entity& e, Scope& s) {
   const auto in_plane = [](const Axis& a) { return std::abs(a.point.z()) < 1e-4 && std::abs(a.direction.z()) < 1e-4; };
   const Axis of_shape{position.inverse() * axis.point, position.linear().transpose() * axis.direction};
   if (!in_plane(axis) && in_plane(of_shape)) axis = of_shape;
-  return std::make_shared<Revolved>(std::move(*path), position, axis);
+  return std::make_shared<Revolved>(std::move(path), position, axis);
 }
 
 }  // namespace standpoint::ifc

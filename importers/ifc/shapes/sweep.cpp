@@ -113,10 +113,8 @@ bool liesOn(const Path& path, const Entity& extrusion, Scope& scope) {
 }  // namespace
 
 Result<geometry::PolyMesh> curveSweptAreaSolid(const Entity& entity, Scope& scope) {
-  const auto regions = profile(entity.ref(0), scope);
-  if (!regions) return failure(regions.error());
-  const auto path = trimmedDirectrix(entity.ref(2), entity[3], entity[4], scope);
-  if (!path) return failure(path.error());
+  TRY_ASSIGN(const auto regions, profile(entity.ref(0), scope));
+  TRY_ASSIGN(const auto path, trimmedDirectrix(entity.ref(2), entity[3], entity[4], scope));
   const Entity reference = entity.ref(5);
   Eigen::Vector3d x = Eigen::Vector3d::UnitX();
   if (reference.is("IFCDIRECTION"))
@@ -128,7 +126,7 @@ Result<geometry::PolyMesh> curveSweptAreaSolid(const Entity& entity, Scope& scop
   else
     return fail(entity,
                 "a reference surface of this kind (" + std::string(reference.typeName()) + ") is not supported");
-  const bool across = reference.is("IFCSURFACEOFLINEAREXTRUSION") && liesOn(*path, reference, scope);
+  const bool across = reference.is("IFCSURFACEOFLINEAREXTRUSION") && liesOn(path, reference, scope);
   if (reference.is("IFCSURFACEOFLINEAREXTRUSION") && !across) {
     scope.report.note(
         entity.place(),
@@ -136,15 +134,14 @@ Result<geometry::PolyMesh> curveSweptAreaSolid(const Entity& entity, Scope& scop
     x = -x;
   }
   // A derived reference follows the cant of its directrix, a fixed one does not.
-  const bool rolls = entity.is("IFCDIRECTRIXDERIVEDREFERENCESWEPTAREASOLID") && path->ups.size() == path->points.size();
+  const bool rolls = entity.is("IFCDIRECTRIXDERIVEDREFERENCESWEPTAREASOLID") && path.ups.size() == path.points.size();
   geometry::PolyMesh mesh;
-  for (const auto& region : *regions) {
-    if (!scope.spend(path->points.size() * region.outer.size())) return fail(entity, "too many points");
+  for (const auto& region : regions) {
+    if (!scope.spend(path.points.size() * region.outer.size())) return fail(entity, "too many points");
     auto part =
-        across
-            ? along(region, *path, [&](std::size_t, const Eigen::Vector3d& t) { return Eigen::Vector3d(t.cross(x)); })
-            : along(region, *path,
-                    [&](std::size_t i, const Eigen::Vector3d&) { return rolls ? rolled(x, path->ups[i]) : x; });
+        across ? along(region, path, [&](std::size_t, const Eigen::Vector3d& t) { return Eigen::Vector3d(t.cross(x)); })
+               : along(region, path,
+                       [&](std::size_t i, const Eigen::Vector3d&) { return rolls ? rolled(x, path.ups[i]) : x; });
     if (!part) return part;
     geometry::append(mesh, *part);
   }
@@ -159,10 +156,9 @@ Result<geometry::PolyMesh> sections(const Entity& entity, const std::vector<Enti
                                     const std::vector<Eigen::Isometry3d>& frames, Scope& scope) {
   std::vector<geometry::Region2> regions;
   for (const Entity& p : profiles) {
-    auto r = profile(p, scope);
-    if (!r) return failure(r.error());
-    if (!scope.spend(r->front().outer.size())) return fail(entity, "too many points");
-    regions.push_back(std::move(r->front()));
+    TRY_ASSIGN(auto r, profile(p, scope));
+    if (!scope.spend(r.front().outer.size())) return fail(entity, "too many points");
+    regions.push_back(std::move(r.front()));
   }
   if (regions.size() != frames.size() || regions.size() < 2)
     return fail(entity, "cross sections and their positions do not match");
