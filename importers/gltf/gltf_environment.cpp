@@ -10,11 +10,13 @@ namespace standpoint {
 
 namespace {
 
-void readMeshes(GltfFile& file, const nlohmann::json& meshes, const GltfMaterials& materials, Environment& environment,
+void readMeshes(GltfFile& file, const nlohmann::json& ours, const GltfMaterials& materials, Environment& environment,
                 Progress& progress) {
   const std::string place = "/asset/extras/standpoint/meshes";
-  if (!meshes.is_array()) return file.fail(place, "is missing: this GLB is not one of ours, import it instead");
-  Report ignored;  // names points and nothing else: we wrote the file
+  if (!ours.is_object() || !ours.contains("meshes"))
+    return file.fail(place, "is missing: this GLB is not one of ours, import it instead");
+  const auto& meshes = memberOf(ours, "meshes");  // null where there are none: tinygltf writes no empty array
+  Report ignored;                                 // names points and nothing else: we wrote the file
   const auto no_material = static_cast<std::uint32_t>(environment.surfaces.size());
   for (const auto& index : meshes) {
     if (file.failed() || progress.cancelled()) return;
@@ -22,7 +24,7 @@ void readMeshes(GltfFile& file, const nlohmann::json& meshes, const GltfMaterial
     if (index.is_number_unsigned()) {
       mesh = readGltfMesh(file, index.get<std::size_t>(), materials, no_material, {}, ignored).mesh;
       if (!file.failed() && mesh.triangles.empty()) mesh = readGltfPoints(file, index.get<std::size_t>());
-    } else if (!index.is_null()) {
+    } else if (!index.is_null() && index != -1) {  // null: what we wrote before tinygltf, which drops it
       file.fail(place, "holds something that is not an index");
     }
     environment.meshes.push_back(std::make_shared<const Mesh>(std::move(mesh)));
@@ -67,7 +69,7 @@ Result<Environment> readEnvironmentGlb(const std::filesystem::path& path, Progre
     materials.without_material.vertex_alpha = true;
     environment.surfaces = std::move(materials.surfaces);
     environment.images = std::move(materials.images);
-    readMeshes(file, memberOf(ours, "meshes"), materials, environment, progress);
+    readMeshes(file, ours, materials, environment, progress);
     const auto products = file.natural(ours, "products", 0, "/asset/extras/standpoint");
     if (!file.failed() && file.spend(products * sizeof(Product) / 64, "/asset/extras/standpoint/products"))
       environment.products.resize(products);

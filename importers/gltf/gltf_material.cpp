@@ -230,9 +230,10 @@ class MaterialReader {
     if (srgb.empty()) return;
     const Colour colour{static_cast<float>(srgb[0]), static_cast<float>(srgb[1]), static_cast<float>(srgb[2]),
                         static_cast<float>(srgb[3])};
-    const auto now = file_.numbers(memberOf(json, "pbrMetallicRoughness"), "baseColorFactor", 4, place_);
+    auto now = file_.numbers(memberOf(json, "pbrMetallicRoughness"), "baseColorFactor", 4, place_);
+    if (now.empty()) now.assign(4, 1.0);
     const auto same = [&](std::size_t i, float channel) { return std::abs(now[i] - linearFromSrgb(channel)) < 1e-4; };
-    if (now.empty() || !same(0, colour.r) || !same(1, colour.g) || !same(2, colour.b)) return;
+    if (!same(0, colour.r) || !same(1, colour.g) || !same(2, colour.b)) return;
     surface.colour = colour;
     surface.source = file_.text(stored, "source");
     for (const auto& figure : kGltfSurfaceFigures) surface.*figure.value = floatIn(stored, figure.key);
