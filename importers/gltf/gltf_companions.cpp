@@ -6,7 +6,6 @@
 #include <cmath>
 #include <set>
 #include <span>
-#include <string_view>
 
 #include <fmt/format.h>
 
@@ -215,21 +214,15 @@ std::vector<int> addGltfCollision(GltfScene& scene, const Environment& model, co
   return CollisionWriter(scene, model, collision, node_of_product).run();
 }
 
-bool isGltfCollision(const Json& node) {
-  if (!node.is_object()) return false;
-  if (const auto extras = node.find("extras"); extras != node.end() && extras->is_object())
-    if (const auto ours = extras->find("standpoint");
-        ours != extras->end() && ours->is_object() && ours->value("collision", Json()) == true)
-      return true;
-  const auto named = node.find("name");
-  if (named == node.end() || !named->is_string()) return false;
-  std::string name = *named;
+bool isGltfCollision(const tinygltf::Node& node) {
+  const auto extras = gltfExtras(node);
+  if (memberOf(memberOf(extras, "standpoint"), "collision") == true) return true;
+  std::string name = node.name;
   std::transform(name.begin(), name.end(), name.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const std::string_view view = name;
   for (const char* prefix : {"ucx_", "ubx_", "usp_", "ucp_"})
-    if (view.starts_with(prefix)) return true;
-  return view.ends_with("-colonly") || view.ends_with("-convcolonly");
+    if (name.starts_with(prefix)) return true;
+  return name.ends_with("-colonly") || name.ends_with("-convcolonly");
 }
 
 }  // namespace standpoint

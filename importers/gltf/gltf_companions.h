@@ -28,6 +28,6 @@ std::vector<int> addGltfCollision(GltfScene& scene, const Environment& model, co
                                   const std::map<std::uint32_t, int>& node_of_product);
 
 // Whether a node is a collision shape: by our own word, or by its name as Unreal and Godot read it.
-bool isGltfCollision(const nlohmann::json& node);
+bool isGltfCollision(const tinygltf::Node& node);
 
 }  // namespace standpoint

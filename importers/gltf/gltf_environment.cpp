@@ -34,13 +34,12 @@ void readMeshes(GltfFile& file, const nlohmann::json& ours, const GltfMaterials&
 
 // The children of the root node are the instances, in order; their matrices are ours, before the turn to Y up.
 void readInstances(GltfFile& file, Environment& environment) {
-  const auto& children = memberOf(file.element("nodes", 0, ""), "children");
-  for (std::size_t i = 0; !file.failed() && children.is_array() && i < children.size(); ++i) {
-    if (!children[i].is_number_unsigned())
-      return file.fail("/nodes/0/children", "holds something that is not an index");
-    const std::string place = "/nodes/" + std::to_string(children[i].get<std::size_t>());
-    const auto& node = file.element("nodes", children[i].get<std::size_t>(), "/nodes/0/children");
-    const auto& ours = memberOf(memberOf(node, "extras"), "standpoint");
+  const auto& nodes = file.model().nodes;
+  for (const int child : file.element(nodes, "nodes", 0, "").children) {
+    const std::string place = "/nodes/" + std::to_string(child);
+    const auto& node = file.element(nodes, "nodes", static_cast<std::size_t>(child), "/nodes/0/children");
+    const auto extras = gltfExtras(node);
+    const auto& ours = memberOf(extras, "standpoint");
     const auto mesh = file.index(ours, "mesh", place + "/extras/standpoint");
     const auto product = file.index(ours, "product", place + "/extras/standpoint");
     if (!mesh || !product) return file.fail(place + "/extras/standpoint", "has no mesh or no product");
@@ -48,7 +47,8 @@ void readInstances(GltfFile& file, Environment& environment) {
     instance.mesh = static_cast<std::uint32_t>(*mesh);
     instance.product = static_cast<std::uint32_t>(*product);
     auto matrix = file.numbers(ours, "matrix", 16, place + "/extras/standpoint");
-    if (matrix.empty()) matrix = file.numbers(node, "matrix", 16, place);
+    if (file.failed()) return;
+    if (matrix.empty()) matrix = node.matrix;
     if (!matrix.empty()) instance.world_from_mesh.matrix() = Eigen::Map<const Eigen::Matrix4d>(matrix.data());
     environment.instances.push_back(instance);
   }
@@ -63,7 +63,8 @@ Result<Environment> readEnvironmentGlb(const std::filesystem::path& path, Progre
   Environment environment;
   if (!file.failed()) {
     Report ignored;  // we wrote the file
-    const auto& ours = memberOf(memberOf(memberOf(file.json(), "asset"), "extras"), "standpoint");
+    const auto extras = gltfExtras(file.model().asset);
+    const auto& ours = memberOf(extras, "standpoint");
     auto materials = readGltfMaterials(file, ignored);
     for (auto& use : materials.texture_of_material) use.vertex_alpha = true;  // in our own files nothing is left out
     materials.without_material.vertex_alpha = true;

@@ -43,6 +43,13 @@ tinygltf::Value gltfValue(const Json& json) {
   return {};
 }
 
+const Json& memberOf(const Json& object, const char* key) {
+  static const Json kNothing;
+  if (!object.is_object()) return kNothing;
+  const auto found = object.find(key);
+  return found == object.end() ? kNothing : *found;
+}
+
 tinygltf::Value& memberOf(tinygltf::Value& object, const char* key) {
   return object.Get<tinygltf::Value::Object>()[key];
 }

@@ -107,7 +107,7 @@ class GltfWriter {
   bool serialise(std::ostream& out, bool binary) const {
     try {
       return tinygltf::TinyGLTF().WriteGltfSceneToStream(&model_, out, false, binary);
-    } catch (const Json::exception&) {
+    } catch (const std::exception&) {
       return false;
     }
   }
