@@ -18,6 +18,11 @@ find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_package(draco REQUIRED)
+find_path(TINYGLTF_INCLUDE tiny_gltf.h REQUIRED)  # its library is built with images and a file system: ours is not
+add_library(tinygltf INTERFACE)
+target_include_directories(tinygltf SYSTEM INTERFACE ${TINYGLTF_INCLUDE})
+target_compile_definitions(tinygltf INTERFACE TINYGLTF_NO_STB_IMAGE TINYGLTF_NO_STB_IMAGE_WRITE
+  TINYGLTF_NO_EXTERNAL_IMAGE TINYGLTF_NO_FS TINYGLTF_NO_INCLUDE_JSON)
 find_package(CLI11 REQUIRED)
 find_package(CGAL REQUIRED)
 find_library(CARVE NAMES carve REQUIRED)

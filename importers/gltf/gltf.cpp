@@ -45,7 +45,7 @@ class GltfImport {
     no_material_ = static_cast<std::uint32_t>(environment().surfaces.size());
     const auto seen = walkScene(file_, [&](const GltfNode& node) { visit(node); });
     if (file_.failed()) return failure(file_.error());
-    if (auto ok = progress_.check(); !ok) return failure(ok.error());
+    TRY(progress_.check());
     if (no_material_used_) environment().surfaces.push_back({"", {1, 1, 1, 1}, "no material"});  // glTF 2.0, 3.9.6
     listGltfRest(file_, seen, model_.report);
     if (collision_shapes_ > 0)
@@ -62,14 +62,14 @@ class GltfImport {
   Environment& environment() { return model_.environment; }
 
   void visit(const GltfNode& node) {
-    const auto mesh = file_.index(*node.json, "mesh", node.place);
+    const auto mesh = gltfIndex(node.gltf->mesh);
     if (file_.failed() || progress_.cancelled() || !mesh) return;
-    if (isGltfCollision(*node.json)) {
+    if (isGltfCollision(*node.gltf)) {
       ++collision_shapes_;
       return;
     }
-    const auto& mesh_json = file_.element("meshes", *mesh, node.place + "/mesh");
-    const GltfPose pose = poseOf(node, mesh_json);
+    const auto& gltf_mesh = file_.element(file_.model().meshes, "meshes", *mesh, node.place + "/mesh");
+    const GltfPose pose = poseOf(node, gltf_mesh);
     if (file_.failed()) return;
     const Version& version = versionOf(*mesh, pose);
     const auto places = instancesOf(file_, node);
@@ -80,20 +80,20 @@ class GltfImport {
     for (const auto& part : version.parts) {
       const Mesh& ours = *environment().meshes[part.mesh];
       if (file_.failed() || !count(places.size(), ours, node.place)) return;
-      std::uint32_t product = rows.empty() ? productOf(node, mesh_json, part.feature, ours) : 0;
+      std::uint32_t product = rows.empty() ? productOf(node, gltf_mesh, part.feature, ours) : 0;
       for (std::size_t i = 0; i < places.size(); ++i) {
-        if (!rows.empty()) product = productOf(node, mesh_json, rows[i], ours);
+        if (!rows.empty()) product = productOf(node, gltf_mesh, rows[i], ours);
         const Eigen::Affine3d placed = world_from_node * places[i] * Eigen::Translation3d(part.origin);
         environment().instances.push_back({part.mesh, product, Eigen::Translation3d(centre_) * placed});
       }
     }
-    progress_.advance(static_cast<double>(++visited_) / static_cast<double>(file_.count("nodes")));
+    progress_.advance(static_cast<double>(++visited_) / static_cast<double>(file_.model().nodes.size()));
   }
 
   // EXT_instance_features: each instance is a product of its own.
   std::vector<GltfFeature> rowsOfInstances(const GltfNode& node, std::size_t places) {
-    const auto& instancing = memberOf(memberOf(*node.json, "extensions"), "EXT_mesh_gpu_instancing");
-    const auto ids = featureIdsOf(file_, *node.json, "EXT_instance_features", node.place);
+    const auto instancing = gltfExtension(*node.gltf, "EXT_mesh_gpu_instancing");
+    const auto ids = featureIdsOf(file_, *node.gltf, "EXT_instance_features", node.place);
     if (!ids.present || !instancing.is_object() || file_.failed()) return {};
     std::vector<GltfFeature> rows;
     const auto accessor = file_.index(memberOf(instancing, "attributes"), ids.attribute.c_str(), node.place);
@@ -118,15 +118,11 @@ class GltfImport {
   }
 
   // A node's own weights stand above its mesh's (glTF 2.0 §3.7.2.2).
-  GltfPose poseOf(const GltfNode& node, const nlohmann::json& mesh_json) {
+  GltfPose poseOf(const GltfNode& node, const tinygltf::Mesh& gltf_mesh) {
     GltfPose pose;
-    const auto& own = memberOf(*node.json, "weights");
-    const auto& weights = own.is_array() ? own : memberOf(mesh_json, "weights");
-    if (weights.is_array())
-      for (const auto& w : weights) pose.weights.push_back(w.is_number() ? w.get<double>() : 0);
+    pose.weights = node.gltf->weights.empty() ? gltf_mesh.weights : node.gltf->weights;
     if (std::all_of(pose.weights.begin(), pose.weights.end(), [](double w) { return w == 0; })) pose.weights.clear();
-    if (const auto skin = file_.index(*node.json, "skin", node.place))
-      pose.joints = jointsOf(file_, *skin, node.place + "/skin");
+    if (const auto skin = gltfIndex(node.gltf->skin)) pose.joints = jointsOf(file_, *skin, node.place + "/skin");
     return pose;
   }
 
@@ -174,7 +170,7 @@ class GltfImport {
 
   // One product for each node with a mesh, or for each feature of it. Our own files have a node for each instance, and
   // a node that says whose they are.
-  std::uint32_t productOf(const GltfNode& node, const nlohmann::json& mesh_json,
+  std::uint32_t productOf(const GltfNode& node, const tinygltf::Mesh& gltf_mesh,
                           const std::optional<GltfFeature>& feature, const Mesh& mesh) {
     auto& products = environment().products;
     if (node.product && !products.empty() && node.product == last_product_)
@@ -182,24 +178,24 @@ class GltfImport {
     last_product_ = node.product;
     Product product;
     product.id = node.place;
-    const auto& named = node.product_json != nullptr ? *node.product_json : *node.json;
-    product.name = file_.text(named, "name");
+    const auto& named = node.product_node != nullptr ? *node.product_node : *node.gltf;
+    product.name = named.name;
     if (feature) {
       product.id += "/features/" + std::to_string(feature->row);
       const std::string whole = std::exchange(product.name, "");
       addFeature(file_, *feature, product);
       if (product.name.empty()) product.name = whole + (whole.empty() ? "" : " ") + std::to_string(feature->row);
     }
-    if (product.name.empty()) product.name = file_.text(mesh_json, "name");
+    if (product.name.empty()) product.name = gltf_mesh.name;
     std::vector<std::uint32_t> used;  // triangles are sorted by surface
     std::unique_copy(mesh.surface_of_triangle.begin(), mesh.surface_of_triangle.end(), std::back_inserter(used));
     for (const auto surface : used)
       if (surface < environment().surfaces.size()) product.materials.push_back(environment().surfaces[surface].name);
-    if (node.product_json != nullptr) {
-      restoreProduct(file_, memberOf(named, "extras"), product);
+    if (node.product_node != nullptr) {
+      restoreProduct(file_, gltfExtras(named), product);
     } else {
-      addGltfProperties(file_, *node.json, product.properties);
-      addGltfProperties(file_, mesh_json, product.properties);
+      addGltfProperties(file_, *node.gltf, product.properties);
+      addGltfProperties(file_, gltf_mesh, product.properties);
     }
     products.push_back(std::move(product));
     return static_cast<std::uint32_t>(products.size() - 1);
@@ -209,7 +205,7 @@ class GltfImport {
   // it after they have turned the axes), in practice metres from the centre of the earth.
   Eigen::Vector3d centreOfFile() {
     const std::string place = "/extensions/CESIUM_RTC";
-    const auto centre = file_.numbers(memberOf(memberOf(file_.json(), "extensions"), "CESIUM_RTC"), "center", 3, place);
+    const auto centre = file_.numbers(memberOf(file_.extensions(), "CESIUM_RTC"), "center", 3, place);
     if (centre.empty()) return Eigen::Vector3d::Zero();
     const Eigen::Vector3d c(centre[0], centre[1], centre[2]);
     constexpr double kLeastRadiusOfEarth_m = 6.3e6, kMost_m = 6.5e6;

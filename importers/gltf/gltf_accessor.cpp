@@ -11,34 +11,26 @@ namespace standpoint {
 
 namespace {
 
-enum : std::size_t {
-  kByte = 5120,
-  kUnsignedByte = 5121,
-  kShort = 5122,
-  kUnsignedShort = 5123,
-  kUnsignedInt = 5125,
-  kFloat = 5126
+enum {
+  kByte = TINYGLTF_COMPONENT_TYPE_BYTE,
+  kUnsignedByte = TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
+  kShort = TINYGLTF_COMPONENT_TYPE_SHORT,
+  kUnsignedShort = TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
+  kUnsignedInt = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+  kFloat = TINYGLTF_COMPONENT_TYPE_FLOAT
 };
 
-std::size_t componentSize(std::size_t type) {
-  switch (type) {
-    case kByte:
-    case kUnsignedByte: return 1;
-    case kShort:
-    case kUnsignedShort: return 2;
-    case kUnsignedInt:
-    case kFloat: return 4;
-    default: return 0;
-  }
+// 0 for one that geometry cannot have.
+std::size_t componentSize(int type) {
+  const bool known = type != TINYGLTF_COMPONENT_TYPE_INT && type != TINYGLTF_COMPONENT_TYPE_DOUBLE;
+  const auto size = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type));
+  return known && size > 0 ? static_cast<std::size_t>(size) : 0;
 }
 
-std::size_t componentsOfType(const std::string& type) {
-  if (type == "SCALAR") return 1;
-  if (type == "VEC2") return 2;
-  if (type == "VEC3") return 3;
-  if (type == "VEC4") return 4;
-  if (type == "MAT4") return 16;  // the only matrices that we need, of floats, so without padding
-  return 0;
+std::size_t componentsOfType(int type) {
+  if (type == TINYGLTF_TYPE_MAT2 || type == TINYGLTF_TYPE_MAT3) return 0;  // MAT4 is of floats, so without padding
+  const auto count = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
+  return count > 0 ? static_cast<std::size_t>(count) : 0;
 }
 
 template <class T>
@@ -48,14 +40,14 @@ T at(const std::uint8_t* bytes, std::size_t index) {
   return value;
 }
 
-std::uint32_t wholeNumber(std::size_t type, const std::uint8_t* bytes, std::size_t i) {
+std::uint32_t indexAt(int type, const std::uint8_t* bytes, std::size_t i) {
   if (type == kUnsignedByte) return bytes[i];
   if (type == kUnsignedShort) return at<std::uint16_t>(bytes, i);
   return at<std::uint32_t>(bytes, i);
 }
 
 // glTF 2.0 §3.6.2.2: c / 127, c / 255, …, signed ones clamped at −1.
-float number(std::size_t type, bool normalized, const std::uint8_t* bytes, std::size_t i) {
+float number(int type, bool normalized, const std::uint8_t* bytes, std::size_t i) {
   const auto scaled = [&](double c, double largest) {
     return static_cast<float>(normalized ? std::max(c / largest, -1.0) : c);
   };
@@ -71,14 +63,12 @@ float number(std::size_t type, bool normalized, const std::uint8_t* bytes, std::
 
 }  // namespace
 
-std::span<const std::uint8_t> GltfFile::slice(const nlohmann::json& object, const std::string& place) {
-  const auto buffer = index(object, "buffer", place);
+std::span<const std::uint8_t> GltfFile::slice(std::optional<std::size_t> buffer, std::size_t offset, std::size_t length,
+                                              const std::string& place) {
   if (failed() || !buffer || *buffer >= buffers_.size()) {
     fail(place + "/buffer", "does not name a buffer");
     return {};
   }
-  const auto offset = natural(object, "byteOffset", 0, place);
-  const auto length = natural(object, "byteLength", 0, place);
   const auto& bytes = buffers_[*buffer];
   if (offset > bytes.size() || length > bytes.size() - offset) {
     fail(place, "extends to byte " + std::to_string(offset + length) + " of /buffers/" + std::to_string(*buffer) +
@@ -90,20 +80,21 @@ std::span<const std::uint8_t> GltfFile::slice(const nlohmann::json& object, cons
 
 std::span<const std::uint8_t> GltfFile::view(std::size_t buffer_view, const std::string& asked_by) {
   const std::string place = "/bufferViews/" + std::to_string(buffer_view);
-  const auto& json = element("bufferViews", buffer_view, asked_by);
+  const auto& packed = element(model_.bufferViews, "bufferViews", buffer_view, asked_by);
   if (failed()) return {};
-  const auto& extensions = memberOf(json, "extensions");
+  const auto extensions = gltfExtensions(packed);
   const bool khronos =
       memberOf(extensions, "KHR_meshopt_compression").is_object();  // the same for what 0.18 can decode
   const char* name = khronos ? "KHR_meshopt_compression" : "EXT_meshopt_compression";
   const auto& meshopt = memberOf(extensions, name);
-  if (!meshopt.is_object()) return slice(json, place);
+  if (!meshopt.is_object()) return slice(gltfIndex(packed.buffer), packed.byteOffset, packed.byteLength, place);
   if (!decoded_views_.contains(buffer_view)) decodeMeshopt(buffer_view, meshopt, place + "/extensions/" + name);
   return failed() ? std::span<const std::uint8_t>{} : std::span<const std::uint8_t>(decoded_views_[buffer_view]);
 }
 
 void GltfFile::decodeMeshopt(std::size_t buffer_view, const nlohmann::json& extension, const std::string& place) {
-  const auto packed_bytes = slice(extension, place);
+  const auto packed_bytes = slice(index(extension, "buffer", place), natural(extension, "byteOffset", 0, place),
+                                  natural(extension, "byteLength", 0, place), place);
   const auto count = natural(extension, "count", 0, place);
   const auto stride = natural(extension, "byteStride", 0, place);
   const std::string mode = text(extension, "mode");
@@ -137,25 +128,23 @@ void GltfFile::decodeMeshopt(std::size_t buffer_view, const nlohmann::json& exte
 
 GltfFile::Packed GltfFile::packed(std::size_t accessor, const std::string& asked_by) {
   const std::string place = "/accessors/" + std::to_string(accessor);
-  const auto& json = element("accessors", accessor, asked_by);
+  const auto& found = element(model_.accessors, "accessors", accessor, asked_by);
+  if (failed()) return {};
   Packed out;
-  out.component_type = natural(json, "componentType", 0, place);
-  out.components = componentsOfType(text(json, "type"));
-  out.count = natural(json, "count", 0, place);
-  const auto& normalized = memberOf(json, "normalized");
-  out.normalized = normalized.is_boolean() && normalized.get<bool>();
+  out.component_type = found.componentType;
+  out.components = componentsOfType(found.type);
+  out.count = found.count;
+  out.normalized = found.normalized;
   const std::size_t size = componentSize(out.component_type) * out.components;
   if (size == 0) fail(place, "componentType or type is not allowed for geometry");
   if (failed()) return {};
-  takeDense(json, place, size, out);
-  const auto& sparse = memberOf(json, "sparse");
-  if (!failed() && !sparse.is_null()) applySparse(sparse, place + "/sparse", size, out);
+  takeDense(found, place, size, out);
+  if (!failed() && found.sparse.isSparse) applySparse(found, place + "/sparse", size, out);
   return failed() ? Packed{} : std::move(out);
 }
 
-void GltfFile::takeDense(const nlohmann::json& json, const std::string& place, std::size_t size, Packed& out) {
-  const auto buffer_view = index(json, "bufferView", place);
-  if (failed()) return;
+void GltfFile::takeDense(const tinygltf::Accessor& accessor, const std::string& place, std::size_t size, Packed& out) {
+  const auto buffer_view = gltfIndex(accessor.bufferView);
   if (!buffer_view) {  // zeros, says the specification
     if (spend(out.count * size, place)) out.own.resize(out.count * size);
     out.bytes = out.own;
@@ -163,11 +152,11 @@ void GltfFile::takeDense(const nlohmann::json& json, const std::string& place, s
   }
   const auto bytes = view(*buffer_view, place);
   if (failed()) return;
-  const auto& view_json = element("bufferViews", *buffer_view, place);
-  const auto stride = natural(view_json, "byteStride", size, "/bufferViews/" + std::to_string(*buffer_view));
-  const auto offset = natural(json, "byteOffset", 0, place);
+  const auto stated = model_.bufferViews[*buffer_view].byteStride;
+  const auto stride = stated == 0 ? size : stated;
+  const auto offset = accessor.byteOffset;
   if (stride < size) return fail(place, "buffer view stride is smaller than an element");
-  if (out.count == 0 || failed()) return;
+  if (out.count == 0) return;
   if (offset > bytes.size() || (out.count - 1) * stride + size > bytes.size() - offset)
     return fail(place, "needs " + std::to_string(offset + (out.count - 1) * stride + size) + " bytes of /bufferViews/" +
                            std::to_string(*buffer_view) + ", which has " + std::to_string(bytes.size()));
@@ -178,21 +167,19 @@ void GltfFile::takeDense(const nlohmann::json& json, const std::string& place, s
   out.bytes = out.own;
 }
 
-void GltfFile::applySparse(const nlohmann::json& sparse, const std::string& place, std::size_t size, Packed& out) {
-  const auto count = natural(sparse, "count", 0, place);
-  const auto& where = memberOf(sparse, "indices");
-  const auto& what = memberOf(sparse, "values");
-  const auto where_view = index(where, "bufferView", place + "/indices");
-  const auto what_view = index(what, "bufferView", place + "/values");
-  const auto type = natural(where, "componentType", 0, place + "/indices");
-  const auto where_offset = natural(where, "byteOffset", 0, place + "/indices");
-  const auto what_offset = natural(what, "byteOffset", 0, place + "/values");
-  if (!where_view || !what_view) fail(place, "has no indices or no values");
+void GltfFile::applySparse(const tinygltf::Accessor& accessor, const std::string& place, std::size_t size,
+                           Packed& out) {
+  const auto& where = accessor.sparse.indices;
+  const auto& what = accessor.sparse.values;
+  const auto count = static_cast<std::size_t>(accessor.sparse.count);
+  const auto where_offset = static_cast<std::size_t>(where.byteOffset);
+  const auto what_offset = static_cast<std::size_t>(what.byteOffset);
+  const int type = where.componentType;
   if (type != kUnsignedByte && type != kUnsignedShort && type != kUnsignedInt)
     fail(place + "/indices/componentType", "is not an unsigned integer type");
   if (failed()) return;
-  const auto places = view(*where_view, place + "/indices");
-  const auto values = view(*what_view, place + "/values");
+  const auto places = view(static_cast<std::size_t>(where.bufferView), place + "/indices");
+  const auto values = view(static_cast<std::size_t>(what.bufferView), place + "/values");
   if (failed()) return;
   if (where_offset > places.size() || count * componentSize(type) > places.size() - where_offset)
     return fail(place + "/indices", "extends beyond its buffer view");
@@ -201,18 +188,18 @@ void GltfFile::applySparse(const nlohmann::json& sparse, const std::string& plac
   if (out.own.empty() && spend(out.bytes.size(), place)) out.own.assign(out.bytes.begin(), out.bytes.end());
   out.bytes = out.own;
   for (std::size_t i = 0; i < count && !failed(); ++i) {
-    const auto target = wholeNumber(type, places.data() + where_offset, i);
+    const auto target = indexAt(type, places.data() + where_offset, i);
     if (target >= out.count) return fail(place + "/indices", "element " + std::to_string(i) + " is out of range");
     std::memcpy(&out.own[target * size], &values[what_offset + i * size], size);
   }
 }
 
 std::size_t GltfFile::countOf(std::size_t accessor, const std::string& asked_by) {
-  return natural(element("accessors", accessor, asked_by), "count", 0, "/accessors/" + std::to_string(accessor));
+  return element(model_.accessors, "accessors", accessor, asked_by).count;
 }
 
 std::size_t GltfFile::componentsOf(std::size_t accessor, const std::string& asked_by) {
-  return componentsOfType(text(element("accessors", accessor, asked_by), "type"));
+  return componentsOfType(element(model_.accessors, "accessors", accessor, asked_by).type);
 }
 
 std::vector<float> GltfFile::floats(std::size_t accessor, std::size_t components, const std::string& asked_by) {
@@ -260,7 +247,7 @@ std::vector<std::uint32_t> GltfFile::indices(std::size_t accessor, const std::st
   if (in.component_type == kUnsignedInt) {
     if (!out.empty()) std::memcpy(out.data(), in.bytes.data(), out.size() * sizeof(std::uint32_t));
   } else {
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = wholeNumber(in.component_type, in.bytes.data(), i);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = indexAt(in.component_type, in.bytes.data(), i);
   }
   return out;
 }

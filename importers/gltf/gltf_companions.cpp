@@ -6,7 +6,6 @@
 #include <cmath>
 #include <set>
 #include <span>
-#include <string_view>
 
 #include <fmt/format.h>
 
@@ -38,9 +37,14 @@ double coverageAt(double deviation_m, double diagonal_m) {
   return std::min(1.0, height * height);
 }
 
-void use(Json& json, const char* extension) {
-  auto& used = json["extensionsUsed"];
-  if (std::find(used.begin(), used.end(), extension) == used.end()) used.push_back(extension);
+void use(tinygltf::Model& model, const char* extension) {
+  auto& used = model.extensionsUsed;
+  if (std::find(used.begin(), used.end(), extension) == used.end()) used.emplace_back(extension);
+}
+
+int addNode(tinygltf::Model& model, tinygltf::Node node) {
+  model.nodes.push_back(std::move(node));
+  return static_cast<int>(model.nodes.size() - 1);
 }
 
 class LevelWriter {
@@ -48,7 +52,7 @@ class LevelWriter {
   LevelWriter(GltfScene& scene, const Environment& finest, const std::vector<GltfLevel>& levels)
       : scene_(scene), finest_(finest), levels_(levels), bounds_(productBounds(finest)) {}
 
-  void add(std::uint32_t product, std::size_t node) {
+  void add(std::uint32_t product, int node) {
     Json ids = Json::array(), coverage = Json::array();
     const Environment* last = &finest_;
     auto shown = instancesOf(finest_, product);
@@ -64,34 +68,32 @@ class LevelWriter {
     }
     if (ids.empty()) return;
     coverage.push_back(0);
-    auto& json = scene_.json["nodes"][node];
-    json["extensions"]["MSFT_lod"]["ids"] = std::move(ids);
-    json["extras"]["MSFT_screencoverage"] = std::move(coverage);
-    use(scene_.json, "MSFT_lod");
+    auto& shown_node = nodeAt(node);
+    shown_node.extensions["MSFT_lod"] = gltfValue({{"ids", ids}});
+    memberOf(shown_node.extras, "MSFT_screencoverage") = gltfValue(coverage);
+    use(scene_.model, "MSFT_lod");
   }
 
  private:
+  tinygltf::Node& nodeAt(int index) { return scene_.model.nodes[static_cast<std::size_t>(index)]; }
+
   // Not in the scene's tree: readers that do not know levels show the finest. Empty where nothing of the product is
   // left.
-  std::size_t levelNode(std::uint32_t product, std::size_t level, std::span<const Instance> instances) {
+  int levelNode(std::uint32_t product, std::size_t level, std::span<const Instance> instances) {
     const auto name = fmt::format("{} LOD{}", finest_.products[product].name, level + 1);
-    Json parts = Json::array();
+    std::vector<int> parts;
     for (const auto& instance : instances) {
-      const auto index = scene_.node(instance, scene_.mesh(levels_[level].environment->meshes[instance.mesh], name));
-      scene_.json["nodes"][index].erase("extras");
-      parts.push_back(index);
+      parts.push_back(scene_.node(instance, scene_.mesh(levels_[level].environment->meshes[instance.mesh], name)));
+      nodeAt(parts.back()).extras = {};
     }
-    if (parts.size() != 1) {
-      scene_.json["nodes"].push_back(Json::object());
-      if (!parts.empty()) scene_.json["nodes"].back()["children"] = parts;
-      parts = Json::array({scene_.json["nodes"].size() - 1});
-    }
-    auto& node = scene_.json["nodes"][parts[0].get<std::size_t>()];
-    node["name"] = name;
-    node["extras"]["standpoint"] = {{"level", levels_[level].name},
-                                    {"max_deviation_m", levels_[level].max_deviation_m[product]},
-                                    {"mean_deviation_m", levels_[level].mean_deviation_m[product]}};
-    return parts[0];
+    const int whole = parts.size() == 1 ? parts[0] : addNode(scene_.model, {});
+    if (parts.size() > 1) nodeAt(whole).children = parts;
+    nodeAt(whole).name = gltfName(name);
+    nodeAt(whole).extras = gltfValue({{"standpoint",
+                                       {{"level", levels_[level].name},
+                                        {"max_deviation_m", levels_[level].max_deviation_m[product]},
+                                        {"mean_deviation_m", levels_[level].mean_deviation_m[product]}}}});
+    return whole;
   }
 
   GltfScene& scene_;
@@ -125,13 +127,15 @@ std::string renderName(const std::string& name, std::uint32_t product) {
   return fmt::format("{}_{}", word.empty() ? "Object" : word, product);
 }
 
+tinygltf::Value collisionExtras() { return gltfValue({{"standpoint", {{"collision", true}}}}); }
+
 class CollisionWriter {
  public:
   CollisionWriter(GltfScene& scene, const Environment& model, const GltfCollision& collision,
-                  const std::map<std::uint32_t, std::size_t>& node_of_product)
+                  const std::map<std::uint32_t, int>& node_of_product)
       : scene_(scene), model_(model), collision_(collision), node_of_product_(node_of_product) {}
 
-  std::vector<std::size_t> run() {
+  std::vector<int> run() {
     for (std::size_t i = 0; i < collision_.shapes->instances.size(); ++i) add(i);
     return std::move(roots_);
   }
@@ -149,20 +153,21 @@ class CollisionWriter {
     if (collision_.naming == CollisionNaming::godot)
       return place(shape, name + (convex ? "-convcolonly" : "-colonly"), true);
     place(shape, name + " shape", false);
-    Json body = {{"name", name + " collider"}};
-    body["extensions"]["KHR_physics_rigid_bodies"]["collider"]["geometry"] = {{"node", scene_.json["nodes"].size() - 1},
-                                                                              {"convexHull", convex}};
-    body["extras"]["standpoint"] = {{"collision", true}};
-    use(scene_.json, "KHR_physics_rigid_bodies");
-    roots_.push_back(scene_.json["nodes"].size());
-    scene_.json["nodes"].push_back(std::move(body));
+    const Json geometry = {{"node", scene_.model.nodes.size() - 1}, {"convexHull", convex}};
+    tinygltf::Node body;
+    body.name = gltfName(name + " collider");
+    body.extensions["KHR_physics_rigid_bodies"] = gltfValue({{"collider", {{"geometry", geometry}}}});
+    body.extras = collisionExtras();
+    use(scene_.model, "KHR_physics_rigid_bodies");
+    roots_.push_back(addNode(scene_.model, std::move(body)));
   }
 
   void place(const Instance& shape, const std::string& name, bool in_scene) {
-    const auto node = scene_.node(shape, scene_.bare(collision_.shapes->meshes[shape.mesh], name));
-    scene_.json["nodes"][node]["name"] = name;
-    scene_.json["nodes"][node]["extras"] = {{"standpoint", {{"collision", true}}}};
-    if (in_scene) roots_.push_back(node);
+    const int index = scene_.node(shape, scene_.bare(collision_.shapes->meshes[shape.mesh], name));
+    auto& node = scene_.model.nodes[static_cast<std::size_t>(index)];
+    node.name = gltfName(name);
+    node.extras = collisionExtras();
+    if (in_scene) roots_.push_back(index);
   }
 
   // The product's first mesh carries the shapes; a mesh that several products share, those of the first.
@@ -172,57 +177,52 @@ class CollisionWriter {
     const auto instances = instancesOf(model_, product);
     if (instances.empty() || !named_.insert(model_.meshes[instances.front().mesh].get()).second) return false;
     name = renderName(model_.products[product].name, product);
-    const auto mesh = scene_.mesh(model_.meshes[instances.front().mesh], name);
-    scene_.json["meshes"][mesh]["name"] = name;
+    const int mesh = scene_.mesh(model_.meshes[instances.front().mesh], name);
+    if (mesh >= 0) scene_.model.meshes[static_cast<std::size_t>(mesh)].name = name;
     if (const auto node = node_of_product_.find(product); node != node_of_product_.end())
-      scene_.json["nodes"][node->second]["name"] = name;
+      scene_.model.nodes[static_cast<std::size_t>(node->second)].name = name;
     return true;
   }
 
   GltfScene& scene_;
   const Environment& model_;
   const GltfCollision& collision_;
-  const std::map<std::uint32_t, std::size_t>& node_of_product_;
+  const std::map<std::uint32_t, int>& node_of_product_;
   std::map<std::uint32_t, std::string> render_name_;
   std::map<std::uint32_t, int> count_;
   std::set<const Mesh*> named_;
-  std::vector<std::size_t> roots_;
+  std::vector<int> roots_;
 };
 
 }  // namespace
 
 void addGltfLevels(GltfScene& scene, const Environment& finest, const std::vector<GltfLevel>& levels,
-                   const std::map<std::uint32_t, std::size_t>& node_of_product) {
+                   const std::map<std::uint32_t, int>& node_of_product) {
   if (levels.empty()) return;
   LevelWriter writer(scene, finest, levels);
   for (const auto& [product, node] : node_of_product) writer.add(product, node);
-  auto& list = scene.json["asset"]["extras"]["standpoint"]["levels"];
+  Json list = Json::array();
   for (const auto& level : levels)
     list.push_back({{"level", level.name},
                     {"triangles", triangleCount(*level.environment)},
                     {"classes", lossByClass(finest, level)}});
+  memberOf(memberOf(scene.model.asset.extras, "standpoint"), "levels") = gltfValue(list);
 }
 
-std::vector<std::size_t> addGltfCollision(GltfScene& scene, const Environment& model, const GltfCollision& collision,
-                                          const std::map<std::uint32_t, std::size_t>& node_of_product) {
+std::vector<int> addGltfCollision(GltfScene& scene, const Environment& model, const GltfCollision& collision,
+                                  const std::map<std::uint32_t, int>& node_of_product) {
   return CollisionWriter(scene, model, collision, node_of_product).run();
 }
 
-bool isGltfCollision(const Json& node) {
-  if (!node.is_object()) return false;
-  if (const auto extras = node.find("extras"); extras != node.end() && extras->is_object())
-    if (const auto ours = extras->find("standpoint");
-        ours != extras->end() && ours->is_object() && ours->value("collision", Json()) == true)
-      return true;
-  const auto named = node.find("name");
-  if (named == node.end() || !named->is_string()) return false;
-  std::string name = *named;
+bool isGltfCollision(const tinygltf::Node& node) {
+  const auto extras = gltfExtras(node);
+  if (memberOf(memberOf(extras, "standpoint"), "collision") == true) return true;
+  std::string name = node.name;
   std::transform(name.begin(), name.end(), name.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const std::string_view view = name;
   for (const char* prefix : {"ucx_", "ubx_", "usp_", "ucp_"})
-    if (view.starts_with(prefix)) return true;
-  return view.ends_with("-colonly") || view.ends_with("-convcolonly");
+    if (name.starts_with(prefix)) return true;
+  return name.ends_with("-colonly") || name.ends_with("-convcolonly");
 }
 
 }  // namespace standpoint

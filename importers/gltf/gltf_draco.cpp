@@ -57,16 +57,17 @@ bool copyTriangles(const draco::Mesh& mesh, DracoPrimitive& out) {
   return true;
 }
 
-bool normalizedAccessor(GltfFile& file, const nlohmann::json& attributes, const std::string& name,
+using Attributes = std::map<std::string, int>;
+
+bool normalizedAccessor(GltfFile& file, const Attributes& attributes, const std::string& name,
                         const std::string& place) {
-  const auto accessor = file.index(attributes, name.c_str(), place);
-  if (!accessor) return false;
-  const auto& flag = memberOf(file.element("accessors", *accessor, place), "normalized");
-  return flag.is_boolean() && flag.get<bool>();
+  const auto found = attributes.find(name);
+  if (found == attributes.end()) return false;
+  return file.element(file.model().accessors, "accessors", static_cast<std::size_t>(found->second), place).normalized;
 }
 
 void decode(GltfFile& file, std::span<const std::uint8_t> bytes, const nlohmann::json& ids,
-            const nlohmann::json& attributes, const std::string& place, DracoPrimitive& out) {
+            const Attributes& attributes, const std::string& place, DracoPrimitive& out) {
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   draco::Decoder decoder;
@@ -89,7 +90,7 @@ void decode(GltfFile& file, std::span<const std::uint8_t> bytes, const nlohmann:
 
 }  // namespace
 
-DracoPrimitive decodeDraco(GltfFile& file, const nlohmann::json& extension, const nlohmann::json& attributes,
+DracoPrimitive decodeDraco(GltfFile& file, const nlohmann::json& extension, const Attributes& attributes,
                            const std::string& place) {
   DracoPrimitive out;
   const auto buffer_view = file.index(extension, "bufferView", place);

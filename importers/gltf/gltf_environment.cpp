@@ -10,12 +10,13 @@ namespace standpoint {
 
 namespace {
 
-void readMeshes(GltfFile& file, const nlohmann::json& meshes, const GltfMaterials& materials, Environment& environment,
+void readMeshes(GltfFile& file, const nlohmann::json& ours, const GltfMaterials& materials, Environment& environment,
                 Progress& progress) {
   const std::string place = "/asset/extras/standpoint/meshes";
-  if (!meshes.is_array())
+  if (!ours.is_object() || !ours.contains("meshes"))
     return file.fail(place, "is missing: this GLB was not written by Standpoint; import it instead");
-  Report ignored;  // names points and nothing else: we wrote the file
+  const auto& meshes = memberOf(ours, "meshes");  // null where there are none: tinygltf writes no empty array
+  Report ignored;                                 // names points and nothing else: we wrote the file
   const auto no_material = static_cast<std::uint32_t>(environment.surfaces.size());
   for (const auto& index : meshes) {
     if (file.failed() || progress.cancelled()) return;
@@ -23,7 +24,7 @@ void readMeshes(GltfFile& file, const nlohmann::json& meshes, const GltfMaterial
     if (index.is_number_unsigned()) {
       mesh = readGltfMesh(file, index.get<std::size_t>(), materials, no_material, {}, ignored).mesh;
       if (!file.failed() && mesh.triangles.empty()) mesh = readGltfPoints(file, index.get<std::size_t>());
-    } else if (!index.is_null()) {
+    } else if (!index.is_null() && index != -1) {  // null: what we wrote before tinygltf, which drops it
       file.fail(place, "contains an invalid index");
     }
     environment.meshes.push_back(std::make_shared<const Mesh>(std::move(mesh)));
@@ -33,12 +34,12 @@ void readMeshes(GltfFile& file, const nlohmann::json& meshes, const GltfMaterial
 
 // The children of the root node are the instances, in order; their matrices are ours, before the turn to Y up.
 void readInstances(GltfFile& file, Environment& environment) {
-  const auto& children = memberOf(file.element("nodes", 0, ""), "children");
-  for (std::size_t i = 0; !file.failed() && children.is_array() && i < children.size(); ++i) {
-    if (!children[i].is_number_unsigned()) return file.fail("/nodes/0/children", "contains an invalid index");
-    const std::string place = "/nodes/" + std::to_string(children[i].get<std::size_t>());
-    const auto& node = file.element("nodes", children[i].get<std::size_t>(), "/nodes/0/children");
-    const auto& ours = memberOf(memberOf(node, "extras"), "standpoint");
+  const auto& nodes = file.model().nodes;
+  for (const int child : file.element(nodes, "nodes", 0, "").children) {
+    const std::string place = "/nodes/" + std::to_string(child);
+    const auto& node = file.element(nodes, "nodes", static_cast<std::size_t>(child), "/nodes/0/children");
+    const auto extras = gltfExtras(node);
+    const auto& ours = memberOf(extras, "standpoint");
     const auto mesh = file.index(ours, "mesh", place + "/extras/standpoint");
     const auto product = file.index(ours, "product", place + "/extras/standpoint");
     if (!mesh || !product) return file.fail(place + "/extras/standpoint", "has no mesh or no product");
@@ -46,7 +47,8 @@ void readInstances(GltfFile& file, Environment& environment) {
     instance.mesh = static_cast<std::uint32_t>(*mesh);
     instance.product = static_cast<std::uint32_t>(*product);
     auto matrix = file.numbers(ours, "matrix", 16, place + "/extras/standpoint");
-    if (matrix.empty()) matrix = file.numbers(node, "matrix", 16, place);
+    if (file.failed()) return;
+    if (matrix.empty()) matrix = node.matrix;
     if (!matrix.empty()) instance.world_from_mesh.matrix() = Eigen::Map<const Eigen::Matrix4d>(matrix.data());
     environment.instances.push_back(instance);
   }
@@ -61,19 +63,20 @@ Result<Environment> readEnvironmentGlb(const std::filesystem::path& path, Progre
   Environment environment;
   if (!file.failed()) {
     Report ignored;  // we wrote the file
-    const auto& ours = memberOf(memberOf(memberOf(file.json(), "asset"), "extras"), "standpoint");
+    const auto extras = gltfExtras(file.model().asset);
+    const auto& ours = memberOf(extras, "standpoint");
     auto materials = readGltfMaterials(file, ignored);
     for (auto& use : materials.texture_of_material) use.vertex_alpha = true;  // in our own files nothing is left out
     materials.without_material.vertex_alpha = true;
     environment.surfaces = std::move(materials.surfaces);
     environment.images = std::move(materials.images);
-    readMeshes(file, memberOf(ours, "meshes"), materials, environment, progress);
+    readMeshes(file, ours, materials, environment, progress);
     const auto products = file.natural(ours, "products", 0, "/asset/extras/standpoint");
     if (!file.failed() && file.spend(products * sizeof(Product) / 64, "/asset/extras/standpoint/products"))
       environment.products.resize(products);
     if (!file.failed()) readInstances(file, environment);
   }
-  if (auto ok = progress.check(); !ok) return failure(ok.error());
+  TRY(progress.check());
   if (!file.failed())
     if (auto wrong = validate(environment); !wrong.empty()) file.fail("", wrong);
   if (file.failed()) return failure(file.error());

@@ -43,12 +43,8 @@ bool understood(std::string_view name) {
          std::find(kUnderstood.begin(), kUnderstood.end(), name) != kUnderstood.end();
 }
 
-std::string nameAt(const Json& list, std::size_t i) {
-  return list[i].is_string() ? list[i].get<std::string>() : list[i].dump();
-}
-
 void variants(GltfFile& file, Report& report) {
-  const auto& list = memberOf(memberOf(memberOf(file.json(), "extensions"), "KHR_materials_variants"), "variants");
+  const auto& list = memberOf(memberOf(file.extensions(), "KHR_materials_variants"), "variants");
   if (!list.is_array() || list.empty()) return;
   std::string names;
   for (std::size_t i = 0; i < std::min<std::size_t>(list.size(), 8); ++i) {
@@ -73,7 +69,7 @@ std::size_t seeCompanions(GltfFile& file, std::vector<bool>& seen) {
   };
   std::size_t with_levels = 0;
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    const auto& extensions = memberOf(file.element("nodes", i, ""), "extensions");
+    const auto extensions = gltfExtensions(file.model().nodes[i]);
     const auto& ids = memberOf(memberOf(extensions, "MSFT_lod"), "ids");
     with_levels += ids.is_array() && !ids.empty() ? 1 : 0;
     pushAll(ids);
@@ -85,7 +81,7 @@ std::size_t seeCompanions(GltfFile& file, std::vector<bool>& seen) {
     open.pop_back();
     if (seen[node]) continue;
     seen[node] = true;
-    pushAll(memberOf(file.element("nodes", node, ""), "children"));
+    for (const int child : file.model().nodes[node].children) push(child);
   }
   return with_levels;
 }
@@ -93,15 +89,15 @@ std::size_t seeCompanions(GltfFile& file, std::vector<bool>& seen) {
 }  // namespace
 
 void checkGltfExtensions(GltfFile& file, Report& report) {
-  const auto& required = memberOf(file.json(), "extensionsRequired");
-  for (std::size_t i = 0; required.is_array() && i < required.size(); ++i)
-    if (const auto name = nameAt(required, i); !required[i].is_string() || !understood(name))
+  const auto& required = file.model().extensionsRequired;
+  for (std::size_t i = 0; i < required.size(); ++i)
+    if (!understood(required[i]))
       file.fail("/extensionsRequired/" + std::to_string(i),
-                "'" + name + "' is required but not supported; export the model without it");
-  const auto& used = memberOf(file.json(), "extensionsUsed");
-  for (std::size_t i = 0; used.is_array() && i < used.size(); ++i)
-    if (const auto name = nameAt(used, i); !understood(name))
-      report.note("/extensionsUsed/" + std::to_string(i), "'" + name + "' is not supported; its data was skipped");
+                "'" + required[i] + "' is required but not supported; export the model without it");
+  const auto& used = file.model().extensionsUsed;
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (!understood(used[i]))
+      report.note("/extensionsUsed/" + std::to_string(i), "'" + used[i] + "' is not supported; its data was skipped");
   variants(file, report);
 }
 
@@ -111,14 +107,12 @@ void listGltfRest(GltfFile& file, const std::vector<bool>& in_scene, Report& rep
     report.note("/nodes",
                 std::to_string(levels) + " nodes have several levels of detail (MSFT_lod); the finest is used");
   std::size_t elsewhere = 0;
-  for (std::size_t i = 0; i < seen.size(); ++i)
-    elsewhere += !seen[i] && memberOf(file.element("nodes", i, ""), "mesh").is_number() ? 1 : 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) elsewhere += !seen[i] && file.model().nodes[i].mesh >= 0 ? 1 : 0;
   if (elsewhere > 0)
     report.lose("/scenes", std::to_string(elsewhere) + " nodes with meshes are not in the default scene");
-  for (const char* array : {"animations", "cameras"})
-    if (const auto n = file.count(array); n > 0)
-      report.note(std::string("/") + array, std::to_string(n) + " skipped: the model is imported as static");
-  const auto& lights = memberOf(memberOf(memberOf(file.json(), "extensions"), "KHR_lights_punctual"), "lights");
+  for (const auto& [place, n] : {std::pair("/animations", file.animations()), std::pair("/cameras", file.cameras())})
+    if (n > 0) report.note(place, std::to_string(n) + " skipped: the model is imported as static");
+  const auto& lights = memberOf(memberOf(file.extensions(), "KHR_lights_punctual"), "lights");
   if (lights.is_array() && !lights.empty())
     report.note("/extensions/KHR_lights_punctual",
                 std::to_string(lights.size()) + " lights skipped: not needed for scanning");

@@ -5,10 +5,12 @@
 #include <cstring>
 #include <optional>
 #include <sys/mman.h>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
 #include "importers/files/file_bytes.h"
+#include "importers/gltf/gltf_shape.h"
 
 namespace standpoint {
 
@@ -93,13 +95,6 @@ std::string percentDecoded(std::string_view text) {
   return result;
 }
 
-const nlohmann::json& memberOf(const nlohmann::json& object, const char* key) {
-  static const nlohmann::json kNothing;
-  if (!object.is_object()) return kNothing;
-  const auto found = object.find(key);
-  return found == object.end() ? kNothing : *found;
-}
-
 void GltfFile::fail(const std::string& place, std::string message, ErrorKind kind) {
   if (error_) return;
   std::string source = path_.filename().string();
@@ -120,7 +115,7 @@ void GltfFile::load() {
     splitBinary(bytes);
   } else {
     parse(bytes);
-    for (std::size_t i = 0; !failed() && i < count("buffers"); ++i) loadBuffer(i, {});
+    loadBuffers({});
   }
 }
 
@@ -146,14 +141,15 @@ void GltfFile::splitBinary(std::span<const std::uint8_t> bytes) {
     if (kind == kBinaryChunk && binary.empty()) binary = content;
     at += 8 + length;
   }
-  for (std::size_t i = 0; !failed() && i < count("buffers"); ++i) loadBuffer(i, binary);
+  loadBuffers(binary);
 }
 
 void GltfFile::parse(std::span<const std::uint8_t> bytes) {
   if (const auto at = tooDeepAt(bytes))
     return fail("byte " + std::to_string(*at), "the JSON is nested more than 200 levels deep");
+  nlohmann::json json;
   try {
-    json_ = nlohmann::json::parse(bytes.begin(), bytes.end());
+    json = nlohmann::json::parse(bytes.begin(), bytes.end());
   } catch (const nlohmann::json::parse_error& e) {
     std::string why = e.what();  // which quotes the bytes that it does not like
     std::replace_if(
@@ -167,13 +163,40 @@ void GltfFile::parse(std::span<const std::uint8_t> bytes) {
     const auto at = std::search(bytes.begin(), bytes.end(), number.begin(), number.end());
     return fail("byte " + std::to_string(at - bytes.begin()), "the number " + number.substr(0, 40) + " is too large");
   }
-  if (!json_.is_object()) return fail("byte 0", "the JSON is not an object");
-  const auto& asset = memberOf(json_, "asset");
+  if (!json.is_object()) return fail("byte 0", "the JSON is not an object");
+  const auto& asset = memberOf(json, "asset");
   const std::string version = text(asset, "version");
   if (version.empty()) return fail("/asset/version", "is missing: not a glTF 2.0 file");
   if (!version.starts_with("2.")) return fail("/asset/version", "is " + version + "; only glTF 2 is supported");
   const std::string least = text(asset, "minVersion");
   if (!least.empty() && least != "2.0") return fail("/asset/minVersion", "is " + least + "; glTF 2.0 is supported");
+  readModel(json);
+}
+
+// Text again, for tinygltf takes nothing else, without what it does not read.
+void GltfFile::readModel(nlohmann::json& json) {
+  const auto sizeOf = [&](const char* array) { return memberOf(json, array).is_array() ? json[array].size() : 0; };
+  animations_ = sizeOf("animations");
+  cameras_ = sizeOf("cameras");
+  for (auto [key, taken] : {std::pair("extensions", &extensions_), std::pair("buffers", &buffers_json_)})
+    if (json.contains(key)) {
+      *taken = std::move(json[key]);
+      json.erase(key);
+    }
+  GltfShape shape(*this, json);
+  shape.check();
+  if (failed()) return;
+  const std::string text = std::exchange(json, {}).dump();
+  std::string wrong, ignored;
+  tinygltf::TinyGLTF reader;
+  reader.SetStoreOriginalJSONForExtrasAndExtensions(true);
+  try {
+    if (!reader.LoadASCIIFromString(&model_, &wrong, &ignored, text.data(), static_cast<unsigned>(text.size()), ""))
+      return fail("", "tinygltf cannot read it: " + wrong);
+  } catch (const std::exception& e) {
+    return fail("", std::string("tinygltf cannot read it: ") + e.what());
+  }
+  shape.putBack(model_);
 }
 
 namespace {
@@ -237,15 +260,19 @@ Result<GltfFile::Block> GltfFile::blockOf(const std::string& uri, const std::str
 
 Result<std::vector<std::uint8_t>> GltfFile::resource(const std::string& uri, const std::string& place,
                                                      std::size_t at_most) {
-  auto block = blockOf(uri, place, at_most);
-  if (!block) return failure(block.error());
-  const auto bytes = block->bytes();
+  TRY_ASSIGN(auto block, blockOf(uri, place, at_most));
+  const auto bytes = block.bytes();
   return std::vector<std::uint8_t>(bytes.begin(), bytes.end());
 }
 
-void GltfFile::loadBuffer(std::size_t index, std::span<const std::uint8_t> binary_chunk) {
-  const std::string place = "/buffers/" + std::to_string(index);
-  const auto& json = element("buffers", index, place);
+void GltfFile::loadBuffers(std::span<const std::uint8_t> binary_chunk) {
+  for (std::size_t i = 0; !failed() && buffers_json_.is_array() && i < buffers_json_.size(); ++i)
+    loadBuffer(buffers_json_[i], "/buffers/" + std::to_string(i), binary_chunk);
+}
+
+void GltfFile::loadBuffer(const nlohmann::json& json, const std::string& place,
+                          std::span<const std::uint8_t> binary_chunk) {
+  if (!json.is_object()) return fail(place, "is not an object");
   const std::size_t size = natural(json, "byteLength", 0, place);
   buffers_.emplace_back();
   const std::string uri = text(json, "uri");
@@ -255,7 +282,7 @@ void GltfFile::loadBuffer(std::size_t index, std::span<const std::uint8_t> binar
     blocks_.push_back(*std::move(read));
     buffers_.back() = blocks_.back().bytes();
     allowance_ += 64 * buffers_.back().size();
-  } else if (index == 0 && !binary_chunk.empty()) {
+  } else if (buffers_.size() == 1 && !binary_chunk.empty()) {
     buffers_.back() = binary_chunk.first(std::min(size, binary_chunk.size()));
   } else {
     return;  // no data: allowed for the fallback of EXT_meshopt_compression; slice() refuses any other use
@@ -300,22 +327,6 @@ std::vector<double> GltfFile::numbers(const nlohmann::json& object, const char* 
 std::string GltfFile::text(const nlohmann::json& object, const char* key) const {
   const auto& value = memberOf(object, key);
   return value.is_string() ? value.get<std::string>() : std::string();
-}
-
-std::size_t GltfFile::count(const char* array) const {
-  const auto& value = memberOf(json_, array);
-  return value.is_array() ? value.size() : 0;
-}
-
-const nlohmann::json& GltfFile::element(const char* array, std::size_t index, const std::string& asked_by) {
-  static const nlohmann::json kNothing = nlohmann::json::object();
-  if (index >= count(array)) {
-    fail(asked_by, "refers to /" + std::string(array) + "/" + std::to_string(index) + ", which does not exist");
-    return kNothing;
-  }
-  const auto& value = json_.at(array)[index];
-  if (!value.is_object()) fail("/" + std::string(array) + "/" + std::to_string(index), "is not an object");
-  return value.is_object() ? value : kNothing;
 }
 
 bool GltfFile::spend(std::size_t bytes, const std::string& place) {

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <nlohmann/json.hpp>
 
 #include "core/result.h"
+#include "importers/gltf/gltf_model.h"
 
 namespace standpoint {
 
@@ -22,14 +22,18 @@ namespace standpoint {
 // hostile file ends in a message that names its place. The first fault is kept and every later answer is empty: callers
 // test `failed()` where they would otherwise loop, and once at the end.
 //
-// Not tinygltf: version 2.7 as packaged follows unchecked indices in Draco primitives (a segmentation fault for one
-// wrong number), refuses EXT_meshopt_compression and names no place in its messages.
+// tinygltf reads the JSON into its model. The JSON is parsed here once before, for the place of what is wrong with it,
+// and put into a shape that tinygltf 2.7 reads whole (GltfShape). The buffers stay where they were read: tinygltf would
+// copy them, and knows neither their limits nor compressed ones.
 class GltfFile {
  public:
   explicit GltfFile(std::filesystem::path path) : path_(std::move(path)) {}
 
   void load();
-  const nlohmann::json& json() const { return json_; }
+  const tinygltf::Model& model() const { return model_; }
+  const nlohmann::json& extensions() const { return extensions_; }  // of the file as a whole; null if it has none
+  std::size_t animations() const { return animations_; }            // of which nothing is read, as of cameras
+  std::size_t cameras() const { return cameras_; }
 
   bool failed() const { return error_.has_value(); }
   const Error& error() const { return *error_; }
@@ -43,9 +47,14 @@ class GltfFile {
                               const std::string& place);
   std::string text(const nlohmann::json& object, const char* key) const;
 
-  std::size_t count(const char* array) const;
-  // "/nodes/7", or a fault and an empty object when there is none.
-  const nlohmann::json& element(const char* array, std::size_t index, const std::string& asked_by);
+  // Of one of the model's lists: its element, or a fault and an empty one where "/nodes/7" does not exist.
+  template <class T>
+  const T& element(const std::vector<T>& list, const char* name, std::size_t index, const std::string& asked_by) {
+    static const T kNothing;
+    if (index < list.size()) return list[index];
+    fail(asked_by, "refers to /" + std::string(name) + "/" + std::to_string(index) + ", which does not exist");
+    return kNothing;
+  }
 
   // Accessors with sparse values, normalisation and meshopt compression applied.
   std::size_t countOf(std::size_t accessor, const std::string& asked_by);
@@ -64,7 +73,8 @@ class GltfFile {
 
  private:
   struct Packed {
-    std::size_t component_type = 0, components = 0, count = 0;
+    int component_type = 0;
+    std::size_t components = 0, count = 0;
     bool normalized = false;
     std::span<const std::uint8_t> bytes;  // tightly packed: in the buffer where they are so there …
     std::vector<std::uint8_t> own;        // … else here
@@ -80,15 +90,20 @@ class GltfFile {
   Result<Block> blockOf(const std::string& uri, const std::string& place, std::size_t at_most);
   void parse(std::span<const std::uint8_t> bytes);
   void splitBinary(std::span<const std::uint8_t> bytes);
-  void loadBuffer(std::size_t index, std::span<const std::uint8_t> binary_chunk);
-  std::span<const std::uint8_t> slice(const nlohmann::json& object, const std::string& place);
+  void loadBuffers(std::span<const std::uint8_t> binary_chunk);
+  void loadBuffer(const nlohmann::json& json, const std::string& place, std::span<const std::uint8_t> binary_chunk);
+  void readModel(nlohmann::json& json);
+  std::span<const std::uint8_t> slice(std::optional<std::size_t> buffer, std::size_t offset, std::size_t length,
+                                      const std::string& place);
   void decodeMeshopt(std::size_t buffer_view, const nlohmann::json& extension, const std::string& place);
   Packed packed(std::size_t accessor, const std::string& asked_by);
-  void takeDense(const nlohmann::json& json, const std::string& place, std::size_t element_size, Packed& out);
-  void applySparse(const nlohmann::json& sparse, const std::string& place, std::size_t element_size, Packed& out);
+  void takeDense(const tinygltf::Accessor& accessor, const std::string& place, std::size_t element_size, Packed& out);
+  void applySparse(const tinygltf::Accessor& accessor, const std::string& place, std::size_t element_size, Packed& out);
 
   std::filesystem::path path_;
-  nlohmann::json json_;
+  tinygltf::Model model_;
+  nlohmann::json extensions_, buffers_json_;
+  std::size_t animations_ = 0, cameras_ = 0;
   std::vector<Block> blocks_;                           // the file, and what its buffers name
   std::vector<std::span<const std::uint8_t>> buffers_;  // in the blocks
   std::map<std::size_t, std::vector<std::uint8_t>> decoded_views_;
@@ -97,8 +112,10 @@ class GltfFile {
   std::optional<Error> error_;
 };
 
-// A member of `object`, or null. Never throws.
-const nlohmann::json& memberOf(const nlohmann::json& object, const char* key);
+// tinygltf's −1 is no index.
+inline std::optional<std::size_t> gltfIndex(int index) {
+  return index < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(index));
+}
 
 // "a%20b" → "a b"
 std::string percentDecoded(std::string_view text);

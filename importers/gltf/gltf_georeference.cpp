@@ -19,7 +19,8 @@ nlohmann::json toJson(const Georeference& g) {
 }
 
 std::optional<Georeference> readGltfGeoreference(GltfFile& file) {
-  const auto& json = memberOf(memberOf(memberOf(file.json(), "asset"), "extras"), "standpoint");
+  const auto extras = gltfExtras(file.model().asset);
+  const auto& json = memberOf(extras, "standpoint");
   const std::string place = "/asset/extras/standpoint";
   const auto shift = file.numbers(json, "shift_m", 3, place);
   if (shift.empty()) return std::nullopt;

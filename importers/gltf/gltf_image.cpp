@@ -43,13 +43,13 @@ std::string gltfMediaType(std::span<const std::byte> bytes) {
 }
 
 std::int32_t GltfImages::ofTexture(std::size_t texture, const std::string& asked_by) {
-  const auto& json = file_.element("textures", texture, asked_by);
+  const auto& gltf = file_.element(file_.model().textures, "textures", texture, asked_by);
   const std::string place = "/textures/" + std::to_string(texture);
-  const auto source = file_.index(json, "source", place);
+  const auto source = gltfIndex(gltf.source);
   if (file_.failed()) return -1;
   const char* other = nullptr;
   for (const auto& [extension, format] : kOtherFormats)
-    if (memberOf(memberOf(json, "extensions"), extension).is_object()) other = format;
+    if (gltf.extensions.contains(extension)) other = format;
   if (source) {
     if (other != nullptr && !known_.contains(*source))
       report_.note(
@@ -65,9 +65,9 @@ std::int32_t GltfImages::ofTexture(std::size_t texture, const std::string& asked
 std::int32_t GltfImages::ofImage(std::size_t index, const std::string& texture_place, const std::string& asked_by) {
   if (const auto found = known_.find(index); found != known_.end()) return found->second;
   const std::string place = "/images/" + std::to_string(index);
-  const auto& json = file_.element("images", index, texture_place + "/source");
+  const auto& gltf = file_.element(file_.model().images, "images", index, texture_place + "/source");
   auto& result = known_[index] = -1;
-  auto bytes = bytesOf(json, place);
+  auto bytes = bytesOf(gltf, place);
   if (file_.failed()) return -1;
   if (!bytes) {
     report_.lose(asked_by, "cannot read its image: " + describe(bytes.error()));
@@ -81,21 +81,20 @@ std::int32_t GltfImages::ofImage(std::size_t index, const std::string& texture_p
     report_.lose(asked_by, "its image (" + place + ") is " + formatOf(image.bytes) + "; PNG and JPEG are supported");
     return -1;
   }
-  const std::string uri = file_.text(json, "uri");
-  image.name = uri.empty() || uri.starts_with("data:") ? file_.text(json, "name") : percentDecoded(uri);
+  const auto& uri = gltf.uri;
+  image.name = uri.empty() || uri.starts_with("data:") ? gltf.name : percentDecoded(uri);
   images_.push_back(std::make_shared<const Image>(std::move(image)));
   return result = static_cast<std::int32_t>(images_.size() - 1);
 }
 
-Result<std::vector<std::uint8_t>> GltfImages::bytesOf(const nlohmann::json& json, const std::string& place) {
-  if (const auto buffer_view = file_.index(json, "bufferView", place)) {
+Result<std::vector<std::uint8_t>> GltfImages::bytesOf(const tinygltf::Image& image, const std::string& place) {
+  if (const auto buffer_view = gltfIndex(image.bufferView)) {
     const auto bytes = file_.view(*buffer_view, place);
     if (file_.failed() || !file_.spend(bytes.size(), place)) return {};
     return std::vector<std::uint8_t>(bytes.begin(), bytes.end());
   }
-  const std::string uri = file_.text(json, "uri");
-  if (uri.empty()) return failure(ErrorKind::unusable, "has neither a bufferView nor a uri", place);
-  auto bytes = file_.resource(uri, place);
+  if (image.uri.empty()) return failure(ErrorKind::unusable, "has neither a bufferView nor a uri", place);
+  auto bytes = file_.resource(image.uri, place);
   if (bytes && !file_.spend(bytes->size(), place)) return {};
   return bytes;
 }

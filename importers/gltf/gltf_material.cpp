@@ -25,9 +25,11 @@ constexpr std::array<std::string_view, 9> kKept = {kGltfPhysicalMaterial,
                                                    "KHR_materials_specular",
                                                    "KHR_materials_emissive_strength"};
 
+float bounded(double value) { return static_cast<float>(std::clamp(value, -1e30, 1e30)); }
+
 float floatOr(const Json& object, const char* key, double fallback) {
   const auto& value = memberOf(object, key);
-  return static_cast<float>(std::clamp(value.is_number() ? value.get<double>() : fallback, -1e30, 1e30));
+  return bounded(value.is_number() ? value.get<double>() : fallback);
 }
 
 std::optional<float> floatIn(const Json& object, const char* key) {
@@ -62,9 +64,10 @@ class MaterialReader {
 
   GltfMaterials read() {
     readOurImages();
-    for (std::size_t i = 0; !file_.failed() && i < file_.count("materials"); ++i) {
+    const auto& materials = file_.model().materials;
+    for (std::size_t i = 0; !file_.failed() && i < materials.size(); ++i) {
       place_ = "/materials/" + std::to_string(i);
-      material(file_.element("materials", i, place_));
+      material(materials[i]);
     }
     if (!ours_) result_.images = images_.take();
     not_kept_.report(report_);
@@ -72,19 +75,26 @@ class MaterialReader {
   }
 
  private:
-  void material(const Json& json) {
-    const auto& stored = memberOf(memberOf(json, "extras"), "standpoint");
+  void material(const tinygltf::Material& gltf) {
+    const auto extras = gltfExtras(gltf);
+    const auto extensions = gltfExtensions(gltf);
+    const auto& stored = memberOf(extras, "standpoint");
     const auto plain_of = file_.index(stored, "plain_of", place_ + "/extras/standpoint");
     if (plain_of && *plain_of < result_.surfaces.size() && ours_) return add(static_cast<std::uint32_t>(*plain_of), {});
 
     Surface surface;
-    surface.name = file_.text(json, "name");
+    surface.name = gltf.name;
     surface.source = place_;
     GltfTextureUse use;
-    base(json, surface, use);
-    optics(memberOf(json, "extensions"), surface);
-    restore(json, stored, surface);
-    listWhatIsNotKept(json);
+    use.vertex_alpha = gltf.alphaMode == "BLEND";
+    const auto& gloss = memberOf(extensions, "KHR_materials_pbrSpecularGlossiness");
+    if (gloss.is_object())
+      glossyBase(gltf, gloss, surface, use);
+    else
+      base(gltf, surface, use);
+    optics(extensions, surface);
+    restore(gltf, stored, surface);
+    listWhatIsNotKept(gltf, extensions);
     result_.surfaces.push_back(std::move(surface));
     add(static_cast<std::uint32_t>(result_.surfaces.size() - 1), use);
   }
@@ -94,49 +104,56 @@ class MaterialReader {
     result_.texture_of_material.push_back(use);
   }
 
-  void base(const Json& json, Surface& surface, GltfTextureUse& use) {
-    const auto& pbr = memberOf(json, "pbrMetallicRoughness");
-    const auto& gloss = memberOf(memberOf(json, "extensions"), "KHR_materials_pbrSpecularGlossiness");
-    const bool glossy = gloss.is_object();
-    const std::string where =
-        place_ + (glossy ? "/extensions/KHR_materials_pbrSpecularGlossiness" : "/pbrMetallicRoughness");
-    auto colour =
-        glossy ? file_.numbers(gloss, "diffuseFactor", 4, where) : file_.numbers(pbr, "baseColorFactor", 4, where);
-    if (colour.empty()) colour.assign(4, 1.0);
-    if (glossy) {
-      surface.roughness = 1 - floatOr(gloss, "glossinessFactor", 1);
-    } else if (pbr.is_object()) {
-      surface.metallic = floatOr(pbr, "metallicFactor", 1);
-      surface.roughness = floatOr(pbr, "roughnessFactor", 1);
+  void base(const tinygltf::Material& gltf, Surface& surface, GltfTextureUse& use) {
+    const auto& pbr = gltf.pbrMetallicRoughness;
+    if (!gltf.values.empty()) {  // else the file does not say
+      surface.metallic = bounded(pbr.metallicFactor);
+      surface.roughness = bounded(pbr.roughnessFactor);
     }
-    const auto channel = [&](std::size_t i) { return static_cast<float>(std::clamp(colour[i], 0.0, 1.0)); };
-    use.vertex_alpha = file_.text(json, "alphaMode") == "BLEND";
+    colour(gltf, pbr.baseColorFactor, surface);
+    if (pbr.baseColorTexture.index < 0) return;
+    use.set = static_cast<std::size_t>(pbr.baseColorTexture.texCoord);
+    image(static_cast<std::size_t>(pbr.baseColorTexture.index), gltfExtensions(pbr.baseColorTexture),
+          place_ + "/pbrMetallicRoughness/baseColorTexture", surface, use);
+  }
+
+  void glossyBase(const tinygltf::Material& gltf, const Json& gloss, Surface& surface, GltfTextureUse& use) {
+    const std::string where = place_ + "/extensions/KHR_materials_pbrSpecularGlossiness";
+    auto diffuse = file_.numbers(gloss, "diffuseFactor", 4, where);
+    if (diffuse.empty()) diffuse.assign(4, 1.0);
+    surface.roughness = 1 - floatOr(gloss, "glossinessFactor", 1);
+    colour(gltf, diffuse, surface);
+    const auto& texture = memberOf(gloss, "diffuseTexture");
+    if (!texture.is_object()) return;
+    const auto index = file_.index(texture, "index", where + "/diffuseTexture");
+    if (file_.failed()) return;
+    if (!index) return file_.fail(where + "/diffuseTexture", "has no texture index");
+    use.set = file_.natural(texture, "texCoord", 0, where + "/diffuseTexture");
+    image(*index, memberOf(texture, "extensions"), where + "/diffuseTexture", surface, use);
+  }
+
+  void colour(const tinygltf::Material& gltf, const std::vector<double>& factor, Surface& surface) {
+    const auto channel = [&](std::size_t i) { return static_cast<float>(std::clamp(factor[i], 0.0, 1.0)); };
     surface.colour = {srgbFromLinear(channel(0)), srgbFromLinear(channel(1)), srgbFromLinear(channel(2)),
-                      alpha(json, channel(3))};
-    const auto& texture = glossy ? memberOf(gloss, "diffuseTexture") : memberOf(pbr, "baseColorTexture");
-    if (texture.is_object()) image(texture, where + (glossy ? "/diffuseTexture" : "/baseColorTexture"), surface, use);
+                      alpha(gltf, channel(3))};
   }
 
   // glTF 2.0 §3.9.4: an opaque material's alpha is ignored, a masked one is there or not.
-  float alpha(const Json& json, float factor) {
-    const std::string mode = file_.text(json, "alphaMode");
-    if (mode == "BLEND") return factor;
-    if (mode != "MASK") return 1;
-    const bool textured = memberOf(memberOf(json, "pbrMetallicRoughness"), "baseColorTexture").is_object();
-    if (textured) report_.warn(place_ + "/alphaMode", "alpha-mask cutouts are not applied: beams hit the whole face");
-    return factor >= floatOr(json, "alphaCutoff", 0.5) ? 1.0F : 0.0F;
+  float alpha(const tinygltf::Material& gltf, float factor) {
+    if (gltf.alphaMode == "BLEND") return factor;
+    if (gltf.alphaMode != "MASK") return 1;
+    if (gltf.pbrMetallicRoughness.baseColorTexture.index >= 0)
+      report_.warn(place_ + "/alphaMode", "alpha-mask cutouts are not applied: beams hit the whole face");
+    return factor >= bounded(gltf.alphaCutoff) ? 1.0F : 0.0F;
   }
 
-  void image(const Json& texture, const std::string& where, Surface& surface, GltfTextureUse& use) {
-    const auto index = file_.index(texture, "index", where);
-    if (file_.failed()) return;
-    if (!index) return file_.fail(where, "has no texture index");
-    use.set = file_.natural(texture, "texCoord", 0, where);
-    const auto& transform = memberOf(memberOf(texture, "extensions"), "KHR_texture_transform");
+  void image(std::size_t texture, const Json& extensions, const std::string& where, Surface& surface,
+             GltfTextureUse& use) {
+    const auto& transform = memberOf(extensions, "KHR_texture_transform");
     if (transform.is_object()) use = transformed(transform, where + "/extensions/KHR_texture_transform", use);
     if (ours_) return;  // its image is in what we stored
-    surface.image = images_.ofTexture(*index, place_);
-    if (surface.image >= 0) wrapping(*index);
+    surface.image = images_.ofTexture(texture, place_);
+    if (surface.image >= 0) wrapping(texture);
   }
 
   // The specification's example tells which way a positive angle turns: the lower left quarter, turned by 90°, is
@@ -155,15 +172,14 @@ class MaterialReader {
   }
 
   void wrapping(std::size_t texture) {
-    const std::string place = "/textures/" + std::to_string(texture);
-    const auto sampler = file_.index(file_.element("textures", texture, place), "sampler", place);
+    const auto& model = file_.model();
+    const auto sampler = gltfIndex(model.textures[texture].sampler);
     if (!sampler) return;
-    constexpr std::size_t kRepeat = 10497;
-    const std::string where = "/samplers/" + std::to_string(*sampler);
-    const auto& json = file_.element("samplers", *sampler, place + "/sampler");
-    if (file_.natural(json, "wrapS", kRepeat, where) != kRepeat ||
-        file_.natural(json, "wrapT", kRepeat, where) != kRepeat)
-      not_kept_.add("the texture wrap mode (" + where + ")", place_);
+    const auto& gltf =
+        file_.element(model.samplers, "samplers", *sampler, "/textures/" + std::to_string(texture) + "/sampler");
+    if (gltf.wrapS != TINYGLTF_TEXTURE_WRAP_REPEAT || gltf.wrapT != TINYGLTF_TEXTURE_WRAP_REPEAT)
+      not_kept_.add("that its image does not repeat beyond its edges (/samplers/" + std::to_string(*sampler) + ")",
+                    place_);
   }
 
   void optics(const Json& extensions, Surface& surface) {
@@ -182,15 +198,17 @@ class MaterialReader {
     surface.physical_material = file_.text(memberOf(extensions, kGltfPhysicalMaterial), "id");
   }
 
-  void listWhatIsNotKept(const Json& json) {
-    textures(json, "");
-    textures(memberOf(json, "pbrMetallicRoughness"), "");
-    const auto& emissive = memberOf(json, "emissiveFactor");
-    if (emissive.is_array() && emissive != Json{0, 0, 0} &&
-        std::any_of(emissive.begin(), emissive.end(),
-                    [](const Json& c) { return c.is_number() && c.get<double>() > 0; }))
+  void listWhatIsNotKept(const tinygltf::Material& gltf, const Json& extensions) {
+    const std::pair<const char*, int> others[] = {
+        {"normalTexture", gltf.normalTexture.index},
+        {"occlusionTexture", gltf.occlusionTexture.index},
+        {"emissiveTexture", gltf.emissiveTexture.index},
+        {"metallicRoughnessTexture", gltf.pbrMetallicRoughness.metallicRoughnessTexture.index}};
+    for (const auto& [name, index] : others)
+      if (index >= 0) not_kept_.add(name, place_);
+    const auto& light = gltf.emissiveFactor;
+    if (std::any_of(light.begin(), light.end(), [](double c) { return c > 0; }))
       not_kept_.add("its emitted light", place_);
-    const auto& extensions = memberOf(json, "extensions");
     if (!extensions.is_object()) return;
     for (const auto& [name, extension] : extensions.items()) {
       if (std::find(kKept.begin(), kKept.end(), name) == kKept.end())
@@ -203,13 +221,13 @@ class MaterialReader {
   void textures(const Json& object, const std::string& prefix) {
     if (!object.is_object()) return;
     for (const auto& [key, value] : object.items())
-      if (key.ends_with("Texture") && key != "baseColorTexture" && key != "diffuseTexture" && value.is_object())
-        not_kept_.add(prefix + key, place_);
+      if (key.ends_with("Texture") && key != "diffuseTexture" && value.is_object()) not_kept_.add(prefix + key, place_);
   }
 
   // Every image of a file of ours, also those that no surface shows or that are neither PNG nor JPEG.
   void readOurImages() {
-    const auto& list = memberOf(memberOf(memberOf(memberOf(file_.json(), "asset"), "extras"), "standpoint"), "images");
+    const auto extras = gltfExtras(file_.model().asset);
+    const auto& list = memberOf(memberOf(extras, "standpoint"), "images");
     ours_ = list.is_array();
     for (std::size_t i = 0; ours_ && i < list.size() && !file_.failed(); ++i) {
       const std::string where = "/asset/extras/standpoint/images/" + std::to_string(i);
@@ -224,14 +242,14 @@ class MaterialReader {
 
   // What our writer put into `extras`, so that a surface survives bit for bit; not if another program has changed the
   // colour since.
-  void restore(const Json& json, const Json& stored, Surface& surface) {
+  void restore(const tinygltf::Material& gltf, const Json& stored, Surface& surface) {
     const auto srgb = file_.numbers(stored, "srgb", 4, place_ + "/extras/standpoint");
     if (srgb.empty()) return;
     const Colour colour{static_cast<float>(srgb[0]), static_cast<float>(srgb[1]), static_cast<float>(srgb[2]),
                         static_cast<float>(srgb[3])};
-    const auto now = file_.numbers(memberOf(json, "pbrMetallicRoughness"), "baseColorFactor", 4, place_);
+    const auto& now = gltf.pbrMetallicRoughness.baseColorFactor;
     const auto same = [&](std::size_t i, float channel) { return std::abs(now[i] - linearFromSrgb(channel)) < 1e-4; };
-    if (now.empty() || !same(0, colour.r) || !same(1, colour.g) || !same(2, colour.b)) return;
+    if (!same(0, colour.r) || !same(1, colour.g) || !same(2, colour.b)) return;
     surface.colour = colour;
     surface.source = file_.text(stored, "source");
     for (const auto& figure : kGltfSurfaceFigures) surface.*figure.value = floatIn(stored, figure.key);

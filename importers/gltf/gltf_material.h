@@ -59,7 +59,7 @@ class GltfImages {
 
  private:
   std::int32_t ofImage(std::size_t index, const std::string& texture_place, const std::string& asked_by);
-  Result<std::vector<std::uint8_t>> bytesOf(const nlohmann::json& json, const std::string& place);
+  Result<std::vector<std::uint8_t>> bytesOf(const tinygltf::Image& image, const std::string& place);
 
   GltfFile& file_;
   Report& report_;

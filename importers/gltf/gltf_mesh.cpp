@@ -20,9 +20,9 @@ class MeshReader {
              Report& report)
       : file_(file), materials_(materials), no_material_(no_material), pose_(pose), report_(report) {}
 
-  void add(const nlohmann::json& json, const std::string& place) {
-    GltfPrimitive primitive(file_, json, place);
-    const auto material = file_.index(json, "material", place);
+  void add(const tinygltf::Primitive& gltf, const std::string& place) {
+    GltfPrimitive primitive(file_, gltf, place);
+    const auto material = gltfIndex(gltf.material);
     if (material && *material >= materials_.surface_of_material.size())
       file_.fail(place + "/material", "does not exist");
     if (file_.failed()) return;
@@ -36,8 +36,8 @@ class MeshReader {
   }
 
   // Vertices without triangles: our writer keeps them as points.
-  void addPoints(const nlohmann::json& json, const std::string& place) {
-    GltfPrimitive primitive(file_, json, place);
+  void addPoints(const tinygltf::Primitive& gltf, const std::string& place) {
+    GltfPrimitive primitive(file_, gltf, place);
     if (!file_.failed()) vertices(primitive, materials_.without_material);
   }
 
@@ -81,12 +81,12 @@ class MeshReader {
 
   std::string poseKey(const GltfPrimitive& primitive) const {
     if (pose_ == GltfPose{}) return {};
-    return memberOf(primitive.json(), "targets").dump() + memberOf(primitive.json(), "attributes").dump();
+    return nlohmann::json(primitive.gltf().targets).dump() + nlohmann::json(primitive.gltf().attributes).dump();
   }
 
   static std::string featureKey(const GltfPrimitive& primitive) {
-    const auto& features = memberOf(memberOf(primitive.json(), "extensions"), "EXT_mesh_features");
-    return features.is_null() ? "" : features.dump() + memberOf(primitive.json(), "attributes").dump();
+    const auto features = gltfExtension(primitive.gltf(), "EXT_mesh_features");
+    return features.is_null() ? "" : features.dump() + nlohmann::json(primitive.gltf().attributes).dump();
   }
 
   bool fits(GltfPrimitive& primitive, const std::string& attribute, std::size_t rows, std::size_t count) {
@@ -147,7 +147,7 @@ class MeshReader {
   }
 
   void features(GltfPrimitive& primitive, Range range) {
-    const auto ids = featureIdsOf(file_, primitive.json(), "EXT_mesh_features", primitive.place());
+    const auto ids = featureIdsOf(file_, primitive.gltf(), "EXT_mesh_features", primitive.place());
     if (!ids.present || ids.attribute.empty() || file_.failed()) return;  // a feature for each vertex is no product
     std::size_t components = 0;
     const auto values = primitive.floats(ids.attribute, components);
@@ -204,8 +204,7 @@ bool GltfPose::operator==(const GltfPose& other) const {
 GltfMesh readGltfMesh(GltfFile& file, std::size_t index, const GltfMaterials& materials, std::uint32_t no_material,
                       const GltfPose& pose, Report& report) {
   const std::string place = "/meshes/" + std::to_string(index);
-  const auto& primitives = memberOf(file.element("meshes", index, place), "primitives");
-  if (!primitives.is_array()) file.fail(place + "/primitives", "is not an array");
+  const auto& primitives = file.element(file.model().meshes, "meshes", index, place).primitives;
   MeshReader reader(file, materials, no_material, pose, report);
   for (std::size_t i = 0; !file.failed() && i < primitives.size(); ++i)
     reader.add(primitives[i], place + "/primitives/" + std::to_string(i));
@@ -214,13 +213,13 @@ GltfMesh readGltfMesh(GltfFile& file, std::size_t index, const GltfMaterials& ma
 
 Mesh readGltfPoints(GltfFile& file, std::size_t index) {
   const std::string place = "/meshes/" + std::to_string(index);
-  const auto& primitives = memberOf(file.element("meshes", index, place), "primitives");
+  const auto& primitives = file.element(file.model().meshes, "meshes", index, place).primitives;
   Report ignored;
   GltfMaterials none;
   none.without_material.vertex_alpha = true;  // our own file: nothing is left out
   const GltfPose rest;
   MeshReader reader(file, none, 0, rest, ignored);
-  if (primitives.is_array() && !primitives.empty()) reader.addPoints(primitives[0], place + "/primitives/0");
+  if (!primitives.empty()) reader.addPoints(primitives[0], place + "/primitives/0");
   return reader.take().mesh;
 }
 

@@ -151,11 +151,11 @@ bool isName(const std::string& key, std::string_view name) {
 
 }  // namespace
 
-GltfFeatureIds featureIdsOf(GltfFile& file, const Json& object, const char* extension, const std::string& place) {
+GltfFeatureIds featureIdsOf(GltfFile& file, const Json& extension, const std::string& place) {
   GltfFeatureIds result;
-  const auto& sets = memberOf(memberOf(memberOf(object, "extensions"), extension), "featureIds");
+  const auto& sets = memberOf(extension, "featureIds");
   for (std::size_t i = 0; sets.is_array() && i < sets.size() && !result.present; ++i) {
-    const std::string where = place + "/extensions/" + extension + "/featureIds/" + std::to_string(i);
+    const std::string where = place + "/featureIds/" + std::to_string(i);
     const auto table = file.index(sets[i], "propertyTable", where);
     const auto attribute = file.index(sets[i], "attribute", where);
     if (!table || memberOf(sets[i], "texture").is_object()) continue;
@@ -166,7 +166,7 @@ GltfFeatureIds featureIdsOf(GltfFile& file, const Json& object, const char* exte
 }
 
 void addFeature(GltfFile& file, const GltfFeature& feature, Product& product) {
-  const auto& metadata = memberOf(memberOf(file.json(), "extensions"), "EXT_structural_metadata");
+  const auto& metadata = memberOf(file.extensions(), "EXT_structural_metadata");
   const auto& tables = memberOf(metadata, "propertyTables");
   const std::string place = "/extensions/EXT_structural_metadata/propertyTables/" + std::to_string(feature.table);
   if (!tables.is_array() || feature.table >= tables.size()) return file.fail(place, "does not exist");

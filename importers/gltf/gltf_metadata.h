@@ -23,8 +23,11 @@ struct GltfFeatureIds {
   std::size_t table = 0;
   std::optional<std::size_t> null;  // an id that stands for nothing
 };
-GltfFeatureIds featureIdsOf(GltfFile& file, const nlohmann::json& object, const char* extension,
-                            const std::string& place);
+GltfFeatureIds featureIdsOf(GltfFile& file, const nlohmann::json& extension, const std::string& place);
+template <class T>
+GltfFeatureIds featureIdsOf(GltfFile& file, const T& object, const char* extension, const std::string& place) {
+  return featureIdsOf(file, gltfExtension(object, extension), place + "/extensions/" + extension);
+}
 
 // The row of a property table as properties: the set is the class of the table, arrays are joined by commas.
 void addFeature(GltfFile& file, const GltfFeature& feature, Product& product);

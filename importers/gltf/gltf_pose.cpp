@@ -11,13 +11,13 @@ using Positions = std::vector<Eigen::Vector3f>;
 
 // glTF 2.0 §3.7.2.2: position + Σ weight · target.
 void morph(GltfFile& file, GltfPrimitive& primitive, const std::vector<double>& weights, Positions& positions) {
-  const auto& targets = memberOf(primitive.json(), "targets");
-  for (std::size_t t = 0; targets.is_array() && t < std::min(targets.size(), weights.size()); ++t) {
+  const auto& targets = primitive.gltf().targets;
+  for (std::size_t t = 0; t < std::min(targets.size(), weights.size()); ++t) {
     if (weights[t] == 0) continue;
     const std::string place = primitive.place() + "/targets/" + std::to_string(t);
-    const auto accessor = file.index(targets[t], "POSITION", place);
-    if (!accessor) continue;  // it moves normals or colours only
-    const auto moves = file.vectors3(*accessor, place + "/POSITION");
+    const auto accessor = targets[t].find("POSITION");
+    if (accessor == targets[t].end()) continue;  // it moves normals or colours only
+    const auto moves = file.vectors3(static_cast<std::size_t>(accessor->second), place + "/POSITION");
     if (!file.failed() && moves.size() != positions.size())
       file.fail(place + "/POSITION", "count differs from the mesh's positions");
     if (file.failed()) return;

@@ -26,20 +26,18 @@ std::vector<Triangle> trianglesOf(std::size_t mode, const std::vector<std::uint3
 
 }  // namespace
 
-GltfPrimitive::GltfPrimitive(GltfFile& file, const nlohmann::json& json, std::string place)
-    : file_(file), json_(json), place_(std::move(place)) {
-  mode_ = file_.natural(json_, "mode", kTriangles, place_);
+GltfPrimitive::GltfPrimitive(GltfFile& file, const tinygltf::Primitive& primitive, std::string place)
+    : file_(file), gltf_(primitive), place_(std::move(place)), mode_(static_cast<std::size_t>(primitive.mode)) {
   if (mode_ > kFan) file_.fail(place_ + "/mode", "is " + std::to_string(mode_) + "; valid modes are 0 to 6");
   // The specification lets a client skip such a primitive; a surface without a place cannot be scanned.
   if (!accessor("POSITION")) file_.fail(place_ + "/attributes", "has no POSITION: nothing to scan");
-  const auto& draco = memberOf(memberOf(json_, "extensions"), "KHR_draco_mesh_compression");
+  const auto draco = gltfExtension(gltf_, "KHR_draco_mesh_compression");
   if (!file_.failed() && isSurface() && draco.is_object())
-    draco_ =
-        decodeDraco(file_, draco, memberOf(json_, "attributes"), place_ + "/extensions/KHR_draco_mesh_compression");
+    draco_ = decodeDraco(file_, draco, gltf_.attributes, place_ + "/extensions/KHR_draco_mesh_compression");
 }
 
 std::string GltfPrimitive::whatItIs() {
-  const auto indices = file_.index(json_, "indices", place_);
+  const auto indices = gltfIndex(gltf_.indices);
   const auto counted = indices ? indices : accessor("POSITION");
   const std::size_t n = counted ? file_.countOf(*counted, place_) : 0;
   switch (mode_) {
@@ -50,8 +48,9 @@ std::string GltfPrimitive::whatItIs() {
   }
 }
 
-std::optional<std::size_t> GltfPrimitive::accessor(const std::string& attribute) {
-  return file_.index(memberOf(json_, "attributes"), attribute.c_str(), place_ + "/attributes");
+std::optional<std::size_t> GltfPrimitive::accessor(const std::string& attribute) const {
+  const auto found = gltf_.attributes.find(attribute);
+  return found == gltf_.attributes.end() ? std::nullopt : gltfIndex(found->second);
 }
 
 std::vector<Eigen::Vector3f> GltfPrimitive::positions() {
@@ -81,7 +80,7 @@ std::vector<float> GltfPrimitive::floats(const std::string& attribute, std::size
 }
 
 std::vector<std::uint32_t> GltfPrimitive::order(std::size_t vertices) {
-  if (const auto indices = file_.index(json_, "indices", place_)) return file_.indices(*indices, place_ + "/indices");
+  if (const auto indices = gltfIndex(gltf_.indices)) return file_.indices(*indices, place_ + "/indices");
   if (!file_.spend(vertices * 16, place_)) return {};
   std::vector<std::uint32_t> all(vertices);
   std::iota(all.begin(), all.end(), 0U);

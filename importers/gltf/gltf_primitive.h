@@ -22,8 +22,8 @@ struct DracoPrimitive {
   std::size_t vertices = 0;
   std::map<std::string, Column> columns;
 };
-DracoPrimitive decodeDraco(GltfFile& file, const nlohmann::json& extension, const nlohmann::json& attributes,
-                           const std::string& place);
+DracoPrimitive decodeDraco(GltfFile& file, const nlohmann::json& extension,
+                           const std::map<std::string, int>& attributes, const std::string& place);
 
 // One primitive of a mesh: its attributes and triangles, whether compressed or not.
 class GltfPrimitive {
@@ -31,9 +31,9 @@ class GltfPrimitive {
   enum Mode : std::size_t { kPoints = 0, kLines, kLineLoop, kLineStrip, kTriangles, kStrip, kFan };
 
   // A fault of the file where it has no POSITION.
-  GltfPrimitive(GltfFile& file, const nlohmann::json& json, std::string place);
+  GltfPrimitive(GltfFile& file, const tinygltf::Primitive& primitive, std::string place);
 
-  const nlohmann::json& json() const { return json_; }
+  const tinygltf::Primitive& gltf() const { return gltf_; }
   const std::string& place() const { return place_; }
   std::size_t mode() const { return mode_; }
   bool isSurface() const { return mode_ >= kTriangles; }
@@ -41,7 +41,7 @@ class GltfPrimitive {
   std::string whatItIs();  // "24 points", for the report
 
   // Of an attribute, the accessor that identifies it; nothing where the primitive has no such attribute.
-  std::optional<std::size_t> accessor(const std::string& attribute);
+  std::optional<std::size_t> accessor(const std::string& attribute) const;
   std::vector<Eigen::Vector3f> positions();
   // Values in rows of 2, 3 or 4; `components` says how many, and must be one that the caller can use.
   std::vector<float> floats(const std::string& attribute, std::size_t& components);
@@ -52,7 +52,7 @@ class GltfPrimitive {
   std::vector<std::uint32_t> order(std::size_t vertices);
 
   GltfFile& file_;
-  const nlohmann::json& json_;
+  const tinygltf::Primitive& gltf_;
   std::string place_;
   std::size_t mode_ = kTriangles;
   std::optional<DracoPrimitive> draco_;

@@ -18,9 +18,9 @@ const Json& unwrapped(const Json& value) {
   return value;
 }
 
-void addXmp(GltfFile& file, const Json& object, const char* extension, std::vector<Property>& properties) {
-  const auto& packet = memberOf(memberOf(memberOf(object, "extensions"), extension), "packet");
-  const auto& packets = memberOf(memberOf(memberOf(file.json(), "extensions"), extension), "packets");
+void addXmp(GltfFile& file, const Json& extensions, const char* extension, std::vector<Property>& properties) {
+  const auto& packet = memberOf(memberOf(extensions, extension), "packet");
+  const auto& packets = memberOf(memberOf(file.extensions(), extension), "packets");
   if (!packet.is_number_unsigned() || !packets.is_array() || packet.get<std::size_t>() >= packets.size()) return;
   const auto& chosen = packets[packet.get<std::size_t>()];
   if (!chosen.is_object()) return;
@@ -36,16 +36,15 @@ void restoreTexts(const Json& list, std::vector<std::string>& texts) {
 
 }  // namespace
 
-void addGltfProperties(GltfFile& file, const Json& object, std::vector<Property>& properties) {
-  const auto& extras = memberOf(object, "extras");
+void addGltfProperties(GltfFile& file, const Json& extras, const Json& extensions, std::vector<Property>& properties) {
   if (extras.is_object()) {
     for (const auto& [key, value] : extras.items())
       if (key != "standpoint") properties.push_back({"", key, asText(value)});
   } else if (!extras.is_null()) {
     properties.push_back({"", "extras", asText(extras)});
   }
-  addXmp(file, object, "KHR_xmp_json_ld", properties);
-  addXmp(file, object, "KHR_xmp", properties);
+  addXmp(file, extensions, "KHR_xmp_json_ld", properties);
+  addXmp(file, extensions, "KHR_xmp", properties);
 }
 
 Json toExtras(const Product& p) {

@@ -7,7 +7,12 @@
 namespace standpoint {
 
 // What an object of the file (a node, a mesh) says of itself in `extras` and in XMP packets, as properties.
-void addGltfProperties(GltfFile& file, const nlohmann::json& object, std::vector<Property>& properties);
+void addGltfProperties(GltfFile& file, const nlohmann::json& extras, const nlohmann::json& extensions,
+                       std::vector<Property>& properties);
+template <class T>
+void addGltfProperties(GltfFile& file, const T& object, std::vector<Property>& properties) {
+  addGltfProperties(file, gltfExtras(object), gltfExtensions(object), properties);
+}
 
 // A product as `extras` of a node that we export, in words that other programs show, and back.
 nlohmann::json toExtras(const Product& product);

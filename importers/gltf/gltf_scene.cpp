@@ -18,42 +18,23 @@ Eigen::Affine3d compose(const std::vector<double>& t, const std::vector<double>&
   return result;
 }
 
-Eigen::Affine3d placement(GltfFile& file, const nlohmann::json& json, const std::string& place) {
-  const auto matrix = file.numbers(json, "matrix", 16, place);
-  if (!matrix.empty()) {
-    Eigen::Affine3d result = Eigen::Affine3d::Identity();
-    for (int c = 0; c < 4; ++c)
-      for (int r = 0; r < 3; ++r) result.matrix()(r, c) = matrix[static_cast<std::size_t>(4 * c + r)];
-    return result;
-  }
-  return compose(file.numbers(json, "translation", 3, place), file.numbers(json, "rotation", 4, place),
-                 file.numbers(json, "scale", 3, place));
-}
-
-// Indices of an array of indices such as /scenes/0/nodes, last first, ready for a stack.
-std::vector<std::size_t> reversed(GltfFile& file, const nlohmann::json& object, const char* key,
-                                  const std::string& place) {
-  std::vector<std::size_t> result;
-  const auto& list = memberOf(object, key);
-  if (!list.is_null() && !list.is_array()) file.fail(place + "/" + key, "is not an array");
-  if (!list.is_array()) return result;
-  for (auto it = list.rbegin(); it != list.rend(); ++it) {
-    if (!it->is_number_unsigned()) {
-      file.fail(place + "/" + key, "contains an invalid index");
-      return {};
-    }
-    result.push_back(it->get<std::size_t>());
-  }
+Eigen::Affine3d placement(const tinygltf::Node& node) {
+  if (node.matrix.empty()) return compose(node.translation, node.rotation, node.scale);
+  Eigen::Affine3d result = Eigen::Affine3d::Identity();
+  for (int c = 0; c < 4; ++c)
+    for (int r = 0; r < 3; ++r) result.matrix()(r, c) = node.matrix[static_cast<std::size_t>(4 * c + r)];
   return result;
 }
 
-std::vector<std::size_t> rootNodes(GltfFile& file) {
-  std::vector<bool> is_child(file.count("nodes"), false);
-  for (std::size_t i = 0; i < is_child.size(); ++i) {
-    const std::string place = "/nodes/" + std::to_string(i);
-    for (const auto child : reversed(file, file.element("nodes", i, place), "children", place))
+// Indices such as /scenes/0/nodes, last first, ready for a stack.
+std::vector<std::size_t> reversed(const std::vector<int>& list) { return {list.rbegin(), list.rend()}; }
+
+std::vector<std::size_t> rootNodes(const GltfFile& file) {
+  const auto& nodes = file.model().nodes;
+  std::vector<bool> is_child(nodes.size(), false);
+  for (const auto& node : nodes)
+    for (const auto child : reversed(node.children))
       if (child < is_child.size()) is_child[child] = true;
-  }
   std::vector<std::size_t> roots;
   for (std::size_t i = is_child.size(); i-- > 0;)
     if (!is_child[i]) roots.push_back(i);
@@ -76,31 +57,32 @@ std::vector<bool> walk(GltfFile& file, const std::vector<std::size_t>& roots, co
     for (const auto index : last_first) stack.push_back({index, parent, asked_by});
   };
   push(roots, {}, from);
-  std::vector<bool> seen(file.count("nodes"), false);
+  std::vector<bool> seen(file.model().nodes.size(), false);
   while (!stack.empty() && !file.failed()) {
     const Entry entry = std::move(stack.back());
     stack.pop_back();
     GltfNode node = entry.parent;
     node.index = entry.index;
     node.place = "/nodes/" + std::to_string(entry.index);
-    node.json = &file.element("nodes", entry.index, entry.asked_by);
+    node.gltf = &file.element(file.model().nodes, "nodes", entry.index, entry.asked_by);
     if (file.failed()) break;
     if (seen[entry.index]) {
       file.fail(node.place, "has two parents: node hierarchies must be trees");
       break;
     }
     seen[entry.index] = true;
-    node.world_from_node = entry.parent.world_from_node * placement(file, *node.json, node.place);
+    node.world_from_node = entry.parent.world_from_node * placement(*node.gltf);
     if (!node.world_from_node.matrix().allFinite()) file.fail(node.place, "its placement is not finite");
-    const auto& ours = memberOf(memberOf(*node.json, "extras"), "standpoint");
+    const auto extras = gltfExtras(*node.gltf);
+    const auto& ours = memberOf(extras, "standpoint");
     if (const auto product = file.index(ours, "product", node.place + "/extras/standpoint");
         product && product != node.product) {
       node.product = product;
-      node.product_json = node.json;
+      node.product_node = node.gltf;
     }
     if (file.failed()) break;
     visit(node);
-    push(reversed(file, *node.json, "children", node.place), node, node.place);
+    push(reversed(node.gltf->children), node, node.place);
   }
   return seen;
 }
@@ -108,27 +90,25 @@ std::vector<bool> walk(GltfFile& file, const std::vector<std::size_t>& roots, co
 }  // namespace
 
 std::vector<bool> walkScene(GltfFile& file, const Visit& visit) {
-  const auto& scenes = memberOf(file.json(), "scenes");
-  if (!scenes.is_null() && !scenes.is_array()) file.fail("/scenes", "is not an array");
   if (file.failed()) return {};
-  if (file.count("scenes") == 0) return walk(file, rootNodes(file), "", visit);
-  const auto scene = file.index(file.json(), "scene", "").value_or(0);
+  const auto& model = file.model();
+  if (model.scenes.empty()) return walk(file, rootNodes(file), "", visit);
+  const auto scene = gltfIndex(model.defaultScene).value_or(0);
   const std::string place = "/scenes/" + std::to_string(scene);
-  return walk(file, reversed(file, file.element("scenes", scene, "/scene"), "nodes", place), place, visit);
+  return walk(file, reversed(file.element(model.scenes, "scenes", scene, "/scene").nodes), place, visit);
 }
 
 std::vector<Eigen::Affine3d> jointsOf(GltfFile& file, std::size_t skin, const std::string& asked_by) {
   const std::string place = "/skins/" + std::to_string(skin);
-  const auto& json = file.element("skins", skin, asked_by);
-  auto joints = reversed(file, json, "joints", place);
-  std::reverse(joints.begin(), joints.end());
+  const auto& gltf = file.element(file.model().skins, "skins", skin, asked_by);
+  const std::vector<std::size_t> joints(gltf.joints.begin(), gltf.joints.end());
   std::vector<float> inverse_bind;
-  if (const auto accessor = file.index(json, "inverseBindMatrices", place)) {
+  if (const auto accessor = gltfIndex(gltf.inverseBindMatrices)) {
     inverse_bind = file.floats(*accessor, 16, place + "/inverseBindMatrices");
     if (inverse_bind.size() < 16 * joints.size())
       file.fail(place + "/inverseBindMatrices", "has fewer matrices than the skin has joints");
   }
-  std::vector<Eigen::Affine3d> world(file.count("nodes"), Eigen::Affine3d::Identity());
+  std::vector<Eigen::Affine3d> world(file.model().nodes.size(), Eigen::Affine3d::Identity());
   walk(file, rootNodes(file), "", [&](const GltfNode& node) { world[node.index] = node.world_from_node; });
   std::vector<Eigen::Affine3d> result;
   for (std::size_t i = 0; i < joints.size() && !file.failed(); ++i) {
@@ -145,7 +125,7 @@ std::vector<Eigen::Affine3d> jointsOf(GltfFile& file, std::size_t skin, const st
 }
 
 std::vector<Eigen::Affine3d> instancesOf(GltfFile& file, const GltfNode& node) {
-  const auto& extension = memberOf(memberOf(*node.json, "extensions"), "EXT_mesh_gpu_instancing");
+  const auto extension = gltfExtension(*node.gltf, "EXT_mesh_gpu_instancing");
   if (!extension.is_object()) return {Eigen::Affine3d::Identity()};
   const std::string place = node.place + "/extensions/EXT_mesh_gpu_instancing/attributes";
   const auto column = [&](const char* name, std::size_t components) {

@@ -13,11 +13,11 @@ namespace standpoint {
 struct GltfNode {
   std::size_t index = 0;
   std::string place;  // "/nodes/7"
-  const nlohmann::json* json = nullptr;
+  const tinygltf::Node* gltf = nullptr;
   Eigen::Affine3d world_from_node = Eigen::Affine3d::Identity();  // glTF's world, Y up
   // In a file of ours: the product that it or a node above it stands for, and the node that says so.
   std::optional<std::size_t> product;
-  const nlohmann::json* product_json = nullptr;
+  const tinygltf::Node* product_node = nullptr;
 };
 
 // Visits the nodes of the default scene (of all root nodes where the file has no scene), parents first, in the file's

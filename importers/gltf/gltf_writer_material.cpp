@@ -39,17 +39,19 @@ Json extensionsOf(const Surface& s) {
 
 }  // namespace
 
-Json gltfMaterial(const Surface& s) {
+tinygltf::Material gltfMaterial(const Surface& s) {
   const auto& c = s.colour;
-  Json material = {{"name", s.name}, {"extras", {{"standpoint", extrasOf(s)}}}};
-  material["pbrMetallicRoughness"] = {
-      {"baseColorFactor", {linearFromSrgb(c.r), linearFromSrgb(c.g), linearFromSrgb(c.b), unit(c.a)}},
-      {"metallicFactor", unit(s.metallic.value_or(0.0F))},
-      {"roughnessFactor", unit(s.roughness.value_or(1.0F))}};
-  if (c.a < 1) material["alphaMode"] = "BLEND";
-  Json extensions = extensionsOf(s);
-  material["doubleSided"] = !extensions.contains("KHR_materials_volume");  // a volume has an inside
-  if (!extensions.empty()) material["extensions"] = std::move(extensions);
+  tinygltf::Material material;
+  material.name = gltfName(s.name);
+  material.extras = gltfValue({{"standpoint", extrasOf(s)}});
+  auto& pbr = material.pbrMetallicRoughness;
+  pbr.baseColorFactor = {linearFromSrgb(c.r), linearFromSrgb(c.g), linearFromSrgb(c.b), unit(c.a)};
+  pbr.metallicFactor = unit(s.metallic.value_or(0.0F));
+  pbr.roughnessFactor = unit(s.roughness.value_or(1.0F));
+  if (c.a < 1) material.alphaMode = "BLEND";
+  const Json extensions = extensionsOf(s);
+  for (const auto& [name, extension] : extensions.items()) material.extensions[name] = gltfValue(extension);
+  material.doubleSided = !extensions.contains("KHR_materials_volume");  // a volume has an inside
   return material;
 }
 
