@@ -178,7 +178,7 @@ class MaterialReader {
     const auto& gltf =
         file_.element(model.samplers, "samplers", *sampler, "/textures/" + std::to_string(texture) + "/sampler");
     if (gltf.wrapS != TINYGLTF_TEXTURE_WRAP_REPEAT || gltf.wrapT != TINYGLTF_TEXTURE_WRAP_REPEAT)
-      not_kept_.add("that its image does not repeat beyond its edges (/samplers/" + std::to_string(*sampler) + ")",
+      not_kept_.add("the texture wrap mode (/samplers/" + std::to_string(*sampler) + ")",
                     place_);
   }
 

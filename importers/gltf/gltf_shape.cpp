@@ -123,7 +123,7 @@ void GltfShape::indices(Json& object, const char* key, const std::string& place)
   auto& list = object[key];
   if (!list.is_array()) return file_.fail(place + "/" + key, "is not an array");
   for (auto& element : list) {
-    if (!element.is_number_unsigned()) return file_.fail(place + "/" + key, "holds something that is not an index");
+    if (!element.is_number_unsigned()) return file_.fail(place + "/" + key, "contains an invalid index");
     element = std::min(element.get<std::size_t>(), kMaxInt);
   }
 }
