@@ -17,7 +17,7 @@ std::string duration(double seconds) {
   return fmt::format("{}:{:02} min", static_cast<int>(seconds) / 60, static_cast<int>(seconds) % 60);
 }
 
-void drawRunning(Editor& editor, Task& task, int i) {
+void drawRunning(Editor& editor, VerbTask& task, int i) {
   auto& progress = task.progress();
   ImGui::PushID(i);
   ImGui::TableNextRow();

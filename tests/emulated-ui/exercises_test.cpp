@@ -35,19 +35,19 @@ const Exercise& exercise(const std::string& id) {
 }
 
 // What came of it when `actions` were done; what the device refuses is left out, as a student would go on.
-struct Outcome {
+struct ExerciseRun {
   nlohmann::json marks;
   std::map<std::string, double> facts;
   std::vector<std::string> refused;
   nlohmann::json marks_before;  // when all was prepared and nothing done yet
 };
-Outcome rehearse(const Exercise& exercise, const Actions& actions, const std::vector<std::string>& facts = {}) {
+ExerciseRun rehearse(const Exercise& exercise, const Actions& actions, const std::vector<std::string>& facts = {}) {
   TemporaryFolder folder;
   Progress quiet;
   auto rehearsal = Rehearsal::start(exercise, {}, folder.path(), {}, quiet);
   EXPECT_TRUE(rehearsal) << describe(rehearsal.error());
   if (!rehearsal) return {};
-  Outcome outcome;
+  ExerciseRun outcome;
   outcome.marks_before = marksOf(**rehearsal, "", "en");
   for (const auto& action : actions)
     if (auto done = (*rehearsal)->act(action, quiet); !done)
@@ -59,8 +59,8 @@ Outcome rehearse(const Exercise& exercise, const Actions& actions, const std::ve
 }
 
 // The exercise's own solution, with the facts that prove its rules; carried out once.
-const Outcome& solved(const std::string& id) {
-  static std::map<std::string, Outcome> outcomes;
+const ExerciseRun& solved(const std::string& id) {
+  static std::map<std::string, ExerciseRun> outcomes;
   const auto known = outcomes.find(id);
   if (known != outcomes.end()) return known->second;
   const auto& e = exercise(id);
@@ -76,7 +76,7 @@ std::string lines(const std::vector<std::string>& rows) {
   return text;
 }
 
-bool held(const Outcome& outcome, const std::string& rule) {
+bool held(const ExerciseRun& outcome, const std::string& rule) {
   for (const auto& row : outcome.marks.at("rules"))
     if (row.at("id") == rule) return row.at("held").get<bool>();
   ADD_FAILURE() << "there is no rule " << rule;
@@ -233,7 +233,7 @@ class Mistaken {
     std::for_each(actions_.begin(), actions_.end(), change);
     return *this;
   }
-  Outcome outcome(const std::vector<std::string>& facts) const { return rehearse(exercise_, actions_, facts); }
+  ExerciseRun outcome(const std::vector<std::string>& facts) const { return rehearse(exercise_, actions_, facts); }
 
  private:
   const Exercise& exercise_;

@@ -131,7 +131,7 @@ TEST_F(AWalkerInTheScan, NotesGoIntoTheFilesRecord) {
 }
 
 TEST(FieldFault, IsReadAndWhatItIsNotIsRefused) {
-  const auto read = fieldFaultFrom({"walk=0.25", "stand=0.75", "until=0.5", "push=0", "noise=2"});
+  const auto read = FieldValue<FieldFault>::read({"walk=0.25", "stand=0.75", "until=0.5", "push=0", "noise=2"});
   ASSERT_TRUE(read);
   EXPECT_EQ(read->walked_at_share, 0.25);
   EXPECT_EQ(read->stood_at_share, 0.75);
@@ -140,7 +140,7 @@ TEST(FieldFault, IsReadAndWhatItIsNotIsRefused) {
   EXPECT_EQ(read->noise_factor, 2);
   for (const char* wrong :
        {"walk=1.1", "walk=-0.1", "walk=", "walk", "walk=x", "walk=0.5s", "run=0.5", "noise=0.5", "push=nan"})
-    EXPECT_FALSE(fieldFaultFrom({wrong})) << wrong;
+    EXPECT_FALSE(FieldValue<FieldFault>::read(json::array({wrong}))) << wrong;
 }
 
 }  // namespace
