@@ -46,9 +46,11 @@ std::string placeholder(const Parameter& p) {
 
 std::string helpOf(const Parameter& p) {
   std::string help = p.help;
-  if (!p.default_value.is_null())
-    help += fmt::format(" (default {})",
-                        p.default_value.is_string() ? p.default_value.get<std::string>() : p.default_value.dump());
+  const auto& value = p.default_value;
+  if (value.is_null()) return help;
+  help += fmt::format(" (default {})", value.is_string()         ? value.get<std::string>()
+                                       : value.is_number_float() ? fmt::format("{}", value.get<double>())
+                                                                 : value.dump());
   return help;
 }
 

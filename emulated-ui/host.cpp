@@ -16,7 +16,10 @@
 #include "pointclouds/files/file_access.h"
 #include "pointclouds/filters/cleaning.h"
 #include "pointclouds/formats.h"
+#include "project/file_verbs.h"
 #include "project/levelling.h"
+#include "project/registration.h"
+#include "project/survey_verbs.h"
 
 namespace standpoint {
 
@@ -89,26 +92,62 @@ Result<void> copyFile(const fs::path& from, const fs::path& to, Progress& progre
   return out->commit();
 }
 
-Result<Outcome> copyFiles(const Document& document, const TransferOrder& order, const fs::path& folder,
-                          Progress& progress) {
+Result<void> copyFiles(const TransferOrder& order, const fs::path& folder, Progress& progress) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), folder.string());
-  json copied = json::array();
   Report report;
   const double each = 1.0 / static_cast<double>(order.files.size());
+  double from_fraction = 0;
   for (const auto& file : order.files) {
     if (auto going = progress.check(); !going) return failure(going.error());
     fs::path to =
         folder / (fs::path(file).parent_path().filename().string() + " - " + fs::path(file).filename().string());
-    const double from_fraction = static_cast<double>(copied.size()) * each;
     progress.stage("Copying " + fs::path(file).filename().string(), from_fraction, from_fraction + each);
+    from_fraction += each;
     const auto done = order.extension.empty() ? copyFile(file, to, progress)
                                               : copyAs(file, to.replace_extension(order.extension), report, progress);
     if (!done) return failure(done.error());
-    copied.push_back(file);
   }
-  return Outcome{document, copied, report, {}, {}};
+  return {};
+}
+
+FieldFault faultsOf(const ScanOrder& order) {
+  FieldFault fault;
+  fault.until_fraction = order.until_fraction;
+  fault.noise_factor = std::max(1.0, order.noise_factor);
+  fault.pushed_at_share = order.tripod_moved_at_fraction;
+  fault.walked_at_share = order.passer_by_at_fraction;
+  if (order.operator_in_view) fault.stood_at_share = 0.5;
+  return fault;
+}
+
+const Scan* lastScanOf(const Document& document, const std::string& station_name) {
+  const auto* station = stationOf(document, station_name);
+  return station == nullptr || station->scans.empty() ? nullptr : &station->scans.back();
+}
+
+// Scans what was ordered. The device's own filters take their points out of the file before it is stored.
+Result<Scan> scanned(const Document& document, const ScanOrder& order, const ScanVerbOptions& wanted,
+                     Progress& progress) {
+  ScanVerbOptions options = wanted;
+  const fs::path& file = wanted.output;
+  if (!order.filters.empty()) options.output = file.parent_path() / (file.stem().string() + ".raw.e57");
+  const auto outcome = runScan(document, options, progress);
+  if (!outcome) return failure(outcome.error());
+  const auto* last = lastScanOf(outcome->document, order.station);
+  if (last == nullptr) return failure(ErrorKind::usage, "unknown station", order.station);
+  Scan scan = *last;
+  if (order.filters.empty()) return scan;
+  const auto filters = filtersFrom(order.filters);
+  if (!filters) return failure(filters.error());
+  const auto cleaned = cleanCloud(options.output, file, *filters, progress);
+  std::error_code ignored;
+  fs::remove(options.output, ignored);
+  if (!cleaned) return failure(cleaned.error());
+  scan.file = file.string();
+  scan.points = cleaned->points_out;
+  return scan;
 }
 
 }  // namespace
@@ -167,59 +206,31 @@ void DeviceHost::startScan(const ScanOrder& order, const Document& document, con
   std::error_code error;
   fs::create_directories(file_.parent_path(), error);
   if (error) return device_.orderFailed("Cannot create " + file_.parent_path().string() + ": " + error.message());
-  json options = scanOptions(order.instrument, order.settings, order.station, seed, file_);
-  if (order.panorama) options["panorama"] = true;
-  if (!order.compensator) options["compensator"] = "off";
-  json field_fault = json::array();
-  if (order.until_fraction < 1) field_fault.push_back(fmt::format("until={}", order.until_fraction));
-  if (order.noise_factor > 1) field_fault.push_back(fmt::format("noise={}", order.noise_factor));
-  if (order.tripod_moved_at_fraction)
-    field_fault.push_back(fmt::format("tripod_moved={}", *order.tripod_moved_at_fraction));
-  if (order.passer_by_at_fraction) field_fault.push_back(fmt::format("passer_by={}", *order.passer_by_at_fraction));
-  if (order.operator_in_view) field_fault.push_back("operator_in_view=0.5");
-  if (!field_fault.empty()) options["field-fault"] = field_fault;
-  if (truth) options["truth"] = true;
   notes_ = order.notes;
   if (const auto* station = stationOf(document, order.station)) {
     const auto readings =
         sensorReadings(document, *station, device_.type().definition.sensors, order.sensors, seed, order.number);
     notes_.insert(notes_.end(), readings.begin(), readings.end());
   }
-  for (const auto& [key, text] : notes_) options["note"].push_back(key + "=" + text);
-  const auto title = fmt::format("{}: {} at {}", device_.type().definition.title, order.name, order.station);
-  if (!order.filters.empty()) return startFiltered(title, order, document, options);
-  task_ = std::make_unique<Task>(title, *findVerb(verbs(), "scan"), leaning(document, order.station), options, wake_);
-}
-
-// The device's own filters: what they take is never stored.
-void DeviceHost::startFiltered(const std::string& title, const ScanOrder& order, const Document& document,
-                               const json& options) {
-  auto work = [options, filters = order.filters, file = file_, station = order.station](
-                  const Document& d, Progress& p) -> Result<Outcome> {
-    const fs::path raw = file.parent_path() / (file.stem().string() + ".raw.e57");
-    json all = options;
-    all["output"] = raw.string();
-    auto outcome = runVerb(*findVerb(verbs(), "scan"), d, all, p);
-    if (!outcome) return outcome;
-    std::vector<ChosenFilter> chosen;
-    for (const auto& text : filters) {
-      auto filter = filterFrom(text);
-      if (!filter) return failure(filter.error());
-      chosen.push_back(*std::move(filter));
-    }
-    const auto cleaned = cleanCloud(raw, file, chosen, p);
-    std::error_code ignored;
-    fs::remove(raw, ignored);
-    if (!cleaned) return failure(cleaned.error());
-    outcome->answer["stations"][0]["points"] = cleaned->points_out;
-    Job job = *outcome->document.job;
-    for (auto& s : job.stations)
-      if (s.name == station) s.scans.back().file = file.string(), s.scans.back().points = cleaned->points_out;
-    outcome->document.job = std::make_shared<const Job>(std::move(job));
-    return outcome;
-  };
-  task_ = std::make_unique<Task>(title, *findVerb(verbs(), "scan"), leaning(document, order.station), options, wake_,
-                                 std::move(work));
+  ScanVerbOptions options;
+  options.instrument = order.instrument;
+  options.settings = order.settings;
+  options.stations.names = {order.station};
+  options.seed = seed;
+  options.output = file_;
+  options.panorama = order.panorama;
+  options.compensator = order.compensator ? Switch::on : Switch::off;
+  options.field_fault = faultsOf(order);
+  options.truth = truth;
+  options.notes = notes_;
+  startTask(fmt::format("{}: {} at {}", device_.type().definition.title, order.name, order.station),
+            [order, options, d = leaning(document, order.station)](Progress& p) -> Result<Delivery> {
+              auto scan = scanned(d, order, options, p);
+              if (!scan) return failure(scan.error());
+              return [order, scan = *std::move(scan)](DeviceHost& host, const Document& now) {
+                host.takeScan(order, scan, now);
+              };
+            });
 }
 
 // The station leans as the device does: what its hands and the ground made of it.
@@ -235,9 +246,8 @@ Document DeviceHost::leaning(Document document, const std::string& station_name)
   return document;
 }
 
-void DeviceHost::startWork(const std::string& title, const Document& document, Task::Work work) {
-  task_ = std::make_unique<Task>(title, *findVerb(verbs(), "register"), document, json{{"files", json::array({"-"})}},
-                                 wake_, std::move(work));
+void DeviceHost::startTask(std::string title, Task<Delivery>::Work work) {
+  task_ = std::make_unique<Task<Delivery>>(std::move(title), std::move(work), wake_);
 }
 
 void DeviceHost::start(const Order& order, const Document& document, const fs::path& scans_folder) {
@@ -245,67 +255,70 @@ void DeviceHost::start(const Order& order, const Document& document, const fs::p
   running_ = order;
   if (const auto* scan = std::get_if<ScanOrder>(&order)) return startScan(*scan, document, scans_folder);
   if (const auto* link = std::get_if<LinkOrder>(&order)) {
-    json options = {{"files", {link->to_file, link->from_file}}, {"cloud", true}, {"seed", seed}};
+    RegisterOptions options;
+    options.files = {link->to_file, link->from_file};
+    options.cloud = true;
+    options.seed = seed;
     if (link->shift_x_m != 0 || link->shift_y_m != 0 || link->turn_deg != 0)
-      options["start-offset"] = fmt::format("{},{},{}", link->shift_x_m, link->shift_y_m, link->turn_deg);
-    task_ = std::make_unique<Task>("Link", *findVerb(verbs(), "register"), document, options, wake_);
+      options.start_offset = StartOffset{link->shift_x_m, link->shift_y_m, link->turn_deg};
+    startTask("Link", [document, options](Progress& p) -> Result<Delivery> {
+      const auto outcome = runRegister(document, options, p);
+      if (!outcome) return failure(outcome.error());
+      return [link = linkFrom(outcome->answer, outcome->document)](DeviceHost& host, const Document&) {
+        host.device_.linkDone(link);
+      };
+    });
   } else if (const auto* targets = std::get_if<TargetOrder>(&order)) {
-    startWork("Targets", document,
-              [file = targets->file, s = seed](const Document& d, Progress& p) { return targetsIn(d, file, s, p); });
+    startTask("Targets", [document, file = targets->file, s = seed](Progress& p) -> Result<Delivery> {
+      auto found = targetsIn(document, file, s, p);
+      if (!found) return failure(found.error());
+      return [found = *std::move(found)](DeviceHost& host, const Document&) { host.device_.targetsDone(found); };
+    });
   } else if (const auto* preview = std::get_if<PreviewOrder>(&order)) {
-    startWork("Preview", document, [this, file = preview->file](const Document& d, Progress& p) -> Result<Outcome> {
+    startTask("Preview", [file = preview->file](Progress& p) -> Result<Delivery> {
       auto read = readPreview(file, p);
       if (!read) return failure(read.error());
-      preview_ = *std::move(read);
-      return Outcome{d, json::object(), {}, {}, {}};
+      return
+          [file, read = *std::move(read)](DeviceHost& host, const Document&) { host.device_.previewDone(file, read); };
     });
   } else if (const auto* sight = std::get_if<SightOrder>(&order)) {
     std::error_code ignored;
     fs::create_directories(scans_folder, ignored);
-    startWork("Target", document,
-              [order = *sight, file = scans_folder / "target.e57", s = seed](const Document& d, Progress& p) {
-                return sightTarget(d, order, file, s, p);
-              });
+    startTask(
+        "Target",
+        [document, order = *sight, file = scans_folder / "target.e57", s = seed](Progress& p) -> Result<Delivery> {
+          auto target = sightTarget(document, order, file, s, p);
+          if (!target) return failure(target.error());
+          return [target = *std::move(target)](DeviceHost& host, const Document&) { host.device_.sightDone(target); };
+        });
   } else if (const auto* transfer = std::get_if<TransferOrder>(&order)) {
-    startWork("Transfer", document,
-              [order = *transfer, folder = scans_folder.parent_path() / kCopies](const Document& d, Progress& p) {
-                return copyFiles(d, order, folder, p);
+    startTask("Transfer",
+              [order = *transfer, folder = scans_folder.parent_path() / kCopies](Progress& p) -> Result<Delivery> {
+                if (auto copied = copyFiles(order, folder, p); !copied) return failure(copied.error());
+                return [files = order.files](DeviceHost& host, const Document&) { host.device_.transferDone(files); };
               });
   }
 }
 
-void DeviceHost::takeResult(Outcome outcome, const Document& document) {
-  if (const auto* scan = std::get_if<ScanOrder>(&*running_)) {
-    const auto& row = outcome.answer.at("stations").at(0);
-    StoredSetup s;
-    s.project = scan->project;
-    s.number = scan->number;
-    s.name = scan->name;
-    s.station = scan->station;
-    s.settings = scan->settings;
-    s.file = file_.string();
-    s.points = row.at("points").get<std::uint64_t>();
-    s.bytes = static_cast<double>(s.points) * device_.type().definition.body.bytes_per_point;
-    s.instrument_seconds = row.at("instrument_seconds").get<double>();
-    s.notes = notes_;
-    if (const auto* station = stationOf(document, scan->station)) {
-      s.plan_x_m = station->true_pose.translation.x();
-      s.plan_y_m = station->true_pose.translation.y();
-    }
-    station_ = scan->station;
-    if (const auto* station = stationOf(outcome.document, scan->station)) finished_ = station->scans.back();
-    device_.scanDone(std::move(s));
-  } else if (std::holds_alternative<LinkOrder>(*running_)) {
-    device_.linkDone(linkFrom(outcome.answer, outcome.document));
-  } else if (std::holds_alternative<TargetOrder>(*running_)) {
-    device_.targetsDone(targetsFrom(outcome.answer));
-  } else if (std::holds_alternative<SightOrder>(*running_)) {
-    device_.sightDone(targetsFrom(json::array({outcome.answer})).front());
-  } else if (const auto* preview = std::get_if<PreviewOrder>(&*running_)) {
-    device_.previewDone(preview->file, std::move(preview_));
-  } else if (const auto* transfer = std::get_if<TransferOrder>(&*running_)) {
-    device_.transferDone(transfer->files);
+void DeviceHost::takeScan(const ScanOrder& order, const Scan& scan, const Document& document) {
+  StoredSetup s;
+  s.project = order.project;
+  s.number = order.number;
+  s.name = order.name;
+  s.station = order.station;
+  s.settings = order.settings;
+  s.file = file_.string();
+  s.points = scan.points;
+  s.bytes = static_cast<double>(s.points) * device_.type().definition.body.bytes_per_point;
+  s.instrument_seconds = scan.instrument_seconds;
+  s.notes = notes_;
+  if (const auto* station = stationOf(document, order.station)) {
+    s.plan_x_m = station->true_pose.translation.x();
+    s.plan_y_m = station->true_pose.translation.y();
   }
+  station_ = order.station;
+  finished_ = scan;
+  device_.scanDone(std::move(s));
 }
 
 // The accepted set-up as the station's solved pose.
@@ -329,12 +342,12 @@ void DeviceHost::collect(const Document& document) {
   if (!task_) return;
   device_.orderMoved(task_->progress().fraction());
   if (!task_->done()) return;
-  auto outcome = task_->take();
+  const auto delivery = task_->take();
   task_.reset();
-  if (outcome) return takeResult(*std::move(outcome), document);
-  if (outcome.error().kind == ErrorKind::cancelled) return;
+  if (delivery) return (*delivery)(*this, document);
+  if (delivery.error().kind == ErrorKind::cancelled) return;
   if (std::holds_alternative<LinkOrder>(*running_)) return device_.linkDone({});  // nothing in common: no link
-  device_.orderFailed(describe(outcome.error()));
+  device_.orderFailed(describe(delivery.error()));
 }
 
 Result<void> DeviceHost::remember(const fs::path& scans_folder) {

@@ -10,6 +10,7 @@
 
 #include "emulated-ui/device/device.h"
 #include "project/task.h"
+#include "project/verb.h"
 
 namespace standpoint {
 
@@ -45,8 +46,10 @@ class DeviceHost {
   std::optional<Outcome> update(const Document& document, const std::filesystem::path& scans_folder, double seconds,
                                 bool may_store = true);
 
+  // What a task has computed, on its way to the device: called in the thread that owns the host.
+  using Delivery = std::function<void(DeviceHost&, const Document&)>;
   // The simulation that runs behind the device's screen; null when none does.
-  Task* task() { return task_.get(); }
+  Task<Delivery>* task() { return task_.get(); }
   bool busy() const { return device_.busy() || task_ != nullptr; }
   // Only our computing is waited for: the real instrument would be done, so the device's clock stands meanwhile.
   bool clockStands() const { return task_ != nullptr && device_.idles(); }
@@ -58,26 +61,23 @@ class DeviceHost {
   void start(const Order& order, const Document& document, const std::filesystem::path& scans_folder);
   void startScan(const ScanOrder& order, const Document& document, const std::filesystem::path& scans_folder);
   Document leaning(Document document, const std::string& station) const;
-  void startFiltered(const std::string& title, const ScanOrder& order, const Document& document,
-                     const nlohmann::json& options);
-  void startWork(const std::string& title, const Document& document, Task::Work work);
+  void startTask(std::string title, Task<Delivery>::Work work);
   void collect(const Document& document);
   Result<Outcome> oriented(const Document& document, const StationOrientation& orientation) const;
-  void takeResult(Outcome outcome, const Document& document);
+  void takeScan(const ScanOrder& order, const Scan& scan, const Document& document);
 
   Device device_;
   std::function<void()> wake_;
-  std::unique_ptr<Task> task_;
   std::optional<Order> running_;
   std::filesystem::path file_;
-  std::shared_ptr<const Job> known_of_;         // whose places the device was told
-  std::optional<Scan> finished_;                // waits for the device to store it
-  std::string station_;                         // of the finished scan
-  SettingValues notes_;                         // of the scan that runs
-  std::shared_ptr<const ScanPreview> preview_;  // that a task has read
+  std::shared_ptr<const Job> known_of_;  // whose places the device was told
+  std::optional<Scan> finished_;         // waits for the device to store it
+  std::string station_;                  // of the finished scan
+  SettingValues notes_;                  // of the scan that runs
   bool remembers_ = false;
   std::uint64_t kept_at_ = 0;  // events of the device when its memory was written last
   nlohmann::json kept_;
+  std::unique_ptr<Task<Delivery>> task_;  // last: it is joined before anything else here is gone
 };
 
 }  // namespace standpoint

@@ -21,13 +21,13 @@ const std::string kScans = "scans:";  // stands for the folder
 constexpr std::array kKeptEntries = {"button", "bundle", "profile", "profile_settings", "station_id"};
 
 // What was typed need not be sound UTF-8.
-std::string textOf(const json& j, int indent = -1) {
+std::string dumped(const json& j, int indent = -1) {
   return j.dump(indent, ' ', false, json::error_handler_t::replace);
 }
 
 // The folder as it begins a file's name within JSON.
 std::string inJson(const fs::path& folder) {
-  const auto quoted = textOf(json((folder / "").string()));
+  const auto quoted = dumped(json((folder / "").string()));
   return quoted.substr(1, quoted.size() - 2);
 }
 
@@ -249,14 +249,14 @@ json deviceMemory(const Device& device, const fs::path& scans_folder) {
   for (const auto& p : s.projects) m["projects"].push_back(toJson(p));
   for (const auto& t : s.sighted) m["sighted"].push_back(toJson(t));
   if (s.orientation) m["orientation"] = toJson(*s.orientation);
-  return json::parse(replaced(textOf(m), inJson(scans_folder), kScans));
+  return json::parse(replaced(dumped(m), inJson(scans_folder), kScans));
 }
 
 Result<void> recallMemory(Device& device, const json& memory, const fs::path& scans_folder) {
   try {
     if (memory.at("version").get<int>() != kMemoryVersion)
       return failure(ErrorKind::unusable, "created by a different version", "/version");
-    const auto m = json::parse(replaced(textOf(memory), kScans, inJson(scans_folder)));
+    const auto m = json::parse(replaced(dumped(memory), kScans, inJson(scans_folder)));
     DeviceState recalled = device.state();
     recallState(m, device.type(), recalled);
     const auto settings = m.at("settings").get<SettingValues>();
@@ -273,7 +273,7 @@ Result<void> writeMemory(const fs::path& file, const json& memory) {
   fs::create_directories(file.parent_path(), error);
   if (error)
     return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), file.parent_path().string());
-  return writeWholeText(file, textOf(memory, 1) + "\n");
+  return writeWholeText(file, dumped(memory, 1) + "\n");
 }
 
 fs::path memoryFile(const fs::path& scans_folder, const DeviceType& type) {

@@ -7,7 +7,7 @@
 
 #include "emulated-ui/device/orders.h"
 #include "emulated-ui/device/orientation.h"
-#include "project/verb.h"
+#include "project/document.h"
 
 namespace standpoint {
 
@@ -23,15 +23,11 @@ ControlList controlOf(const Document& document);
 Result<Eigen::Quaterniond> levelledFromScanner(const Station& station, const Instrument& instrument, bool compensator,
                                                std::uint64_t seed);
 
-// Options of the verb `scan`.
-nlohmann::json scanOptions(const std::string& instrument, const SettingValues& values, const std::string& station,
-                           std::uint64_t seed, const std::filesystem::path& file);
-
-// All targets of the job in a stored setup; rows for targetsFrom.
-Result<Outcome> targetsIn(const Document& document, const std::string& file, std::uint64_t seed, Progress& progress);
-// One target by a fine scan of a window about it, into `file`, which is gone afterwards; a row for targetsFrom.
-Result<Outcome> sightTarget(const Document& document, const SightOrder& order, const std::filesystem::path& file,
-                            std::uint64_t seed, Progress& progress);
-std::vector<FittedTarget> targetsFrom(const nlohmann::json& rows);
+// All targets of the job in a stored setup.
+Result<std::vector<FittedTarget>> targetsIn(const Document& document, const std::filesystem::path& file,
+                                            std::uint64_t seed, Progress& progress);
+// One target by a fine scan of a window about it, into `file`, which is gone afterwards.
+Result<FittedTarget> sightTarget(const Document& document, const SightOrder& order, const std::filesystem::path& file,
+                                 std::uint64_t seed, Progress& progress);
 
 }  // namespace standpoint

@@ -12,11 +12,13 @@
 
 namespace standpoint {
 
+constexpr double kDefaultDeviation_m = 0.015;  // of a surface, where nobody says how far it may move
+
 // What may be done to one product. A mesh that several products share is treated as the strictest of them asks.
 struct ProductAllowance {
   std::string lod;                 // what the level is called, for reports: "LoD 300"
   std::uint32_t budget_group = 0;  // the budget that it draws on: 0 = budget, k = further_budgets[k - 1]
-  double max_deviation_m = 0.015;
+  double max_deviation_m = kDefaultDeviation_m;
   double weight = 1;   // its error counts this many times against that of the others
   bool keep = false;   // stays as it is; its triangles still count
   bool drop = false;   // goes before anything is simplified, and is listed in the report
@@ -24,10 +26,10 @@ struct ProductAllowance {
 };
 
 struct OptimizeOptions {
-  std::uint64_t budget = 0;        // placed triangles in all; 0 = only what costs nothing (planar regions merged)
-  double max_deviation_m = 0.015;  // no collapse may cost more, per product
-  std::vector<ProductAllowance> products;      // one for each product, or empty: all alike
-  std::vector<std::uint64_t> further_budgets;  // of the shares 1, 2, …
+  std::uint64_t budget = 0;  // placed triangles in all; 0 = only what costs nothing (planar regions merged)
+  double max_deviation_m = kDefaultDeviation_m;  // no collapse may cost more, per product
+  std::vector<ProductAllowance> products;        // one for each product, or empty: all alike
+  std::vector<std::uint64_t> further_budgets;    // of the shares 1, 2, …
   bool hidden_faces =
       false;  // take away triangles that cannot be seen from anywhere (visibility.h); listed in the report
 };

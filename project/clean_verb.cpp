@@ -106,24 +106,47 @@ Result<void> writeReport(const fs::path& file, const std::string& text) {
 
 }  // namespace
 
-Result<Outcome> runClean(const Document& document, const json& options, Progress& progress) {
-  const fs::path in = options.at("in").get<std::string>();
-  std::error_code error;
-  if (!fs::exists(in, error)) return failure(ErrorKind::file_system, "file not found", in.string());
-  const fs::path report = options.value("report", "");
-  if (!report.empty() && report.extension() != ".json" && report.extension() != ".csv")
-    return failure(ErrorKind::usage, "unsupported report format: use .json or .csv", "--report");
-  for (const char* option : {"output", "report"})
-    if (const fs::path file = options.value(option, ""); !file.empty())
-      if (auto there = checkFolderOf(file, option == std::string_view("output") ? "--output" : "--report"); !there)
-        return failure(there.error());
+Result<std::vector<ChosenFilter>> filtersFrom(const std::vector<std::string>& texts) {
   std::vector<ChosenFilter> filters;
-  for (const auto& text : options.at("filters")) {
-    auto chosen = filterFrom(text.get<std::string>());
+  for (const auto& text : texts) {
+    auto chosen = filterFrom(text);
     if (!chosen) return failure(chosen.error());
     filters.push_back(*std::move(chosen));
   }
-  auto cleaning = cleanCloud(in, options.at("output").get<std::string>(), filters, progress);
+  return filters;
+}
+
+Result<std::vector<ChosenFilter>> FieldValue<std::vector<ChosenFilter>>::read(const json& texts) {
+  return filtersFrom(texts.get<std::vector<std::string>>());
+}
+
+json FieldValue<std::vector<ChosenFilter>>::write(const std::vector<ChosenFilter>& filters) {
+  json texts;
+  for (const auto& filter : filters) texts.push_back(filter.text);
+  return texts;
+}
+
+const Fields<CleanOptions>& cleanFields() {
+  using O = CleanOptions;
+  static const std::string filters =
+      "filters in this order, NAME or NAME:KEY=VALUE,…, in metres and degrees: " + filterList();
+  static const Fields<O> fields = {{"in", &O::in, "cloud to read", {.positional = true, .required = true}},
+                                   {"output", &O::output, "cloud to write", {.required = true}},
+                                   {"filters", &O::filters, filters.c_str(), {.required = true}},
+                                   {"report", &O::report, "file for the figures of each filter (.json, .csv)"}};
+  return fields;
+}
+
+Result<Outcome> runClean(const Document& document, const CleanOptions& options, Progress& progress) {
+  const fs::path &in = options.in, &report = options.report;
+  std::error_code error;
+  if (!fs::exists(in, error)) return failure(ErrorKind::file_system, "file not found", in.string());
+  if (!report.empty() && report.extension() != ".json" && report.extension() != ".csv")
+    return failure(ErrorKind::usage, "unsupported report format: use .json or .csv", "--report");
+  if (auto there = checkFolderOf(options.output, "--output"); !there) return failure(there.error());
+  if (!report.empty())
+    if (auto there = checkFolderOf(report, "--report"); !there) return failure(there.error());
+  auto cleaning = cleanCloud(in, options.output, options.filters, progress);
   if (!cleaning) return failure(cleaning.error());
   Outcome outcome{document, json::object(), std::move(cleaning->report), {}};
   json rows = json::array(), files = json::array();

@@ -30,9 +30,16 @@ json statisticsJson(const CloudStatistics& s) {
 
 }  // namespace
 
-Result<Outcome> runCompare(const Document& document, const json& options, Progress& progress) {
+const Fields<CompareOptions>& compareFields() {
+  using O = CompareOptions;
+  static const Fields<O> fields = {{"a", &O::a, "first cloud", {.positional = true, .required = true}},
+                                   {"b", &O::b, "second cloud", {.positional = true, .required = true}}};
+  return fields;
+}
+
+Result<Outcome> runCompare(const Document& document, const CompareOptions& options, Progress& progress) {
   progress.stage("Compare");
-  auto comparison = compareClouds(options.at("a").get<std::string>(), options.at("b").get<std::string>(), {}, progress);
+  auto comparison = compareClouds(options.a, options.b, {}, progress);
   if (!comparison) return failure(comparison.error());
   Outcome outcome{document, json::object(), comparison->report, {}};
   outcome.answer = {{"a", statisticsJson(comparison->a)},

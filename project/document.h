@@ -23,11 +23,11 @@ namespace standpoint {
 
 // How a lighter model was asked for, so that it can be asked for again when the model has changed.
 struct SimplificationRequest {
-  std::optional<std::uint64_t> budget;    // of the main part; nothing: the rules' own, without rules lossless
-  double max_deviation_m = 0.015;         // where no rules say how far
-  std::string lod_rules;                  // file, or "default"; empty: all products alike
-  std::vector<std::string> surroundings;  // selectors
-  bool by_view = false;                   // errors weigh by what is seen from the walkable surface
+  std::optional<std::uint64_t> budget;           // of the main part; nothing: the rules' own, without rules lossless
+  double max_deviation_m = kDefaultDeviation_m;  // where no rules say how far
+  std::filesystem::path lod_rules;               // file, or "default"; empty: all products alike
+  std::vector<std::string> surroundings;         // selectors
+  bool by_view = false;                          // errors weigh by what is seen from the walkable surface
   bool operator==(const SimplificationRequest&) const = default;
 };
 

@@ -93,12 +93,8 @@ Result<Levels> makeLevels(const Document& document, const std::vector<std::uint6
   return result;
 }
 
-GltfCollision collisionOf(const CollideResult& collision, const Environment& shapes, const std::string& naming) {
-  GltfCollision result{&shapes,
-                       {},
-                       naming == "unreal"  ? CollisionNaming::unreal
-                       : naming == "godot" ? CollisionNaming::godot
-                                           : CollisionNaming::physics};
+GltfCollision collisionOf(const CollideResult& collision, const Environment& shapes, CollisionNaming naming) {
+  GltfCollision result{&shapes, {}, naming};
   for (const auto& shape : collision.shapes) result.convex.push_back(shape.kind != CollisionShapeKind::mesh);
   return result;
 }
@@ -114,10 +110,10 @@ std::vector<const PhysicalMaterial*> physicalSurfaces(const Document& document,
   return physical;
 }
 
-Result<void> exportGltf(const Document& document, Environment& scene, const fs::path& file, const json& options,
-                        Outcome& outcome, Progress& progress) {
+Result<void> exportGltf(const Document& document, Environment& scene, const fs::path& file,
+                        const ExportOptions& options, Outcome& outcome, Progress& progress) {
   GltfCompanions companions;
-  const auto budgets = budgetsOf(options.value("levels", std::vector<std::string>{}), triangleCount(scene));
+  const auto budgets = budgetsOf(options.levels, triangleCount(scene));
   if (!budgets) return failure(budgets.error());
   auto levels = makeLevels(document, *budgets, outcome.report, progress);
   if (!levels) return failure(levels.error());
@@ -127,12 +123,12 @@ Result<void> exportGltf(const Document& document, Environment& scene, const fs::
   companions.physical = physicalSurfaces(document, all, LooksOfSplit::kept);
   if (!levels->answer.empty()) outcome.answer["levels"] = std::move(levels->answer);
   Environment shapes;
-  if (options.contains("collision")) {
+  if (options.collision) {
     if (!document.collision)
       return failure(ErrorKind::usage, "there are no collision shapes; compute them with `collide` first",
                      "--collision");
     shapes = collisionEnvironment(*document.collision);
-    companions.collision = collisionOf(*document.collision, shapes, options.at("collision"));
+    companions.collision = collisionOf(*document.collision, shapes, *options.collision);
     outcome.answer["collision_shapes"] = shapes.instances.size();
   }
   return exportEnvironmentGltf(scene, *document.georeference, file, progress, companions);
@@ -158,12 +154,29 @@ Result<void> exportPhysical(const Document& document, Environment& scene, const 
 
 }  // namespace
 
-Result<Outcome> runExport(const Document& document, const json& options, Progress& progress) {
-  const fs::path file = options.at("output").get<std::string>();
+std::span<const Choice<CollisionNaming>> choices(CollisionNaming) {
+  static constexpr std::array kNamings = {Choice<CollisionNaming>{"unreal", CollisionNaming::unreal},
+                                          Choice<CollisionNaming>{"godot", CollisionNaming::godot},
+                                          Choice<CollisionNaming>{"physics", CollisionNaming::physics}};
+  return kNamings;
+}
+
+const Fields<ExportOptions>& exportFields() {
+  using O = ExportOptions;
+  static const Fields<O> fields = {
+      {"output", &O::output, "file to write (.glb, .gltf, .obj; .xml for HELIOS++)", {.required = true}},
+      {"physical", &O::physical, "write the physical materials to the .obj instead of the appearance"},
+      {"levels", &O::levels, "triangles of simpler levels of detail, from fine to coarse, as MSFT_lod: 10000 2000"},
+      {"collision", &O::collision, "add the collision shapes, named for an engine"}};
+  return fields;
+}
+
+Result<Outcome> runExport(const Document& document, const ExportOptions& options, Progress& progress) {
+  const fs::path& file = options.output;
   progress.stage("Export " + file.filename().string());
   const auto extension = lowerExtension(file);
   const bool gltf = extension == ".glb" || extension == ".gltf", helios = extension == ".xml";
-  const bool physical = options.value("physical", false);
+  const bool physical = options.physical;
   if (!gltf && !helios && extension != ".obj")
     return failure(ErrorKind::usage,
                    fmt::format("unsupported format '{}'; use .glb, .gltf, .obj, or .xml for HELIOS++", extension),
@@ -172,7 +185,7 @@ Result<Outcome> runExport(const Document& document, const json& options, Progres
     return failure(ErrorKind::usage,
                    "this option applies to .obj only; glTF and HELIOS++ scenes always contain the physical materials",
                    "--physical");
-  if (!gltf && (options.contains("levels") || options.contains("collision")))
+  if (!gltf && (!options.levels.empty() || options.collision))
     return failure(ErrorKind::usage, "levels of detail and collision shapes can be exported to .glb or .gltf only",
                    "--output");
   if (auto there = checkFolderOf(file, "--output"); !there) return failure(there.error());

@@ -86,9 +86,10 @@ Trajectory standing(const Pose& pose) { return {{0}, {pose}}; }
 
 }  // namespace
 
-Result<FieldFault> fieldFaultFrom(const std::vector<std::string>& pairs) {
+Result<FieldFault> FieldValue<FieldFault>::read(const nlohmann::json& pairs) {
   FieldFault field_fault;
-  for (const auto& pair : pairs) {
+  for (const auto& each : pairs) {
+    const auto& pair = each.get_ref<const std::string&>();
     const auto equals = std::min(pair.find('='), pair.size());
     const auto key = pair.substr(0, equals);
     const auto text = equals < pair.size() ? pair.substr(equals + 1) : std::string();
@@ -110,10 +111,20 @@ Result<FieldFault> fieldFaultFrom(const std::vector<std::string>& pairs) {
       return failure(ErrorKind::usage,
                      fmt::format("invalid field fault '{}': use until=FRACTION, tripod_moved=FRACTION, "
                                  "passer_by=FRACTION, operator_in_view=FRACTION (0 to 1) or noise=FACTOR (1 to 100)",
-                                 pair),
-                     "--field-fault");
+                                 pair));
   }
   return field_fault;
+}
+
+nlohmann::json FieldValue<FieldFault>::write(const FieldFault& fault) {
+  nlohmann::json pairs;
+  const auto say = [&](const char* key, double value) { pairs.push_back(fmt::format("{}={}", key, value)); };
+  if (fault.until_fraction < 1) say("until", fault.until_fraction);
+  if (fault.noise_factor != 1) say("noise", fault.noise_factor);
+  if (fault.tripod_moved_at_fraction) say("tripod_moved", *fault.tripod_moved_at_fraction);
+  if (fault.passer_by_at_fraction) say("passer_by", *fault.passer_by_at_fraction);
+  if (fault.operator_at_fraction) say("operator_in_view", *fault.operator_at_fraction);
+  return pairs;
 }
 
 Pose tripodMoved(const Pose& pose) {

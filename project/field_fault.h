@@ -3,9 +3,9 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "core/result.h"
+#include "project/fields.h"
 #include "scanners/engine/ray_engine.h"
 
 namespace standpoint {
@@ -24,10 +24,14 @@ struct FieldFault {
   }
 };
 
-// From "until=0.5", "noise=2", "tripod_moved=0.4", "passer_by=0.5", "operator_in_view=0.5"; what is not so, or out of
-// bounds, is an error of
-// --field-fault.
-Result<FieldFault> fieldFaultFrom(const std::vector<std::string>& pairs);
+// "until=0.5", "noise=2", "push=0.4", "walk=0.5", "stand=0.5"; what is not so, or out of bounds, is an error.
+template <>
+struct FieldValue<FieldFault> {
+  static constexpr auto kKind = ParameterKind::pairs;
+  static void describe(Parameter&) {}
+  static Result<FieldFault> read(const nlohmann::json& pairs);
+  static nlohmann::json write(const FieldFault& fault);
+};
 
 // How a bumped tripod moves the instrument: 4 mm aside and 0.05° about its standing axis; a choice of ours.
 Pose tripodMoved(const Pose& pose);

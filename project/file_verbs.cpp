@@ -46,15 +46,14 @@ Result<void> mustExist(const fs::path& file) {
 }
 
 // IN into a labelled set, a folder.
-Result<Outcome> convertTo(const json& options, Outcome outcome, Progress& progress) {
-  const fs::path in = options.at("in").get<std::string>(), out = options.at("out").get<std::string>();
-  if (options.contains("as"))
-    return failure(ErrorKind::usage, "use --as for a file, --dataset for a folder", "convert");
-  const auto name = options.at("dataset").get<std::string>();
+Result<Outcome> convertTo(const ConvertOptions& options, Outcome outcome, Progress& progress) {
+  const fs::path &in = options.in, &out = options.out;
+  if (!options.as.empty()) return failure(ErrorKind::usage, "use --as for a file, --dataset for a folder", "convert");
+  const auto& name = options.dataset;
   const auto set = std::find_if(datasets().begin(), datasets().end(), [&](const Dataset& d) { return name == d.name; });
   if (set == datasets().end()) return failure(ErrorKind::usage, "unknown dataset '" + name + "'", "--dataset");
-  auto map = readClassMap(options.contains("classes") ? fs::path(options["classes"].get<std::string>())
-                                                      : dataFolder() / "pointclouds" / "classes" / (name + ".json"));
+  auto map = readClassMap(options.classes.empty() ? dataFolder() / "pointclouds" / "classes" / (name + ".json")
+                                                  : options.classes);
   if (!map) return failure(map.error());
   auto report = convertToDataset(in, out, *set, *std::move(map), progress);
   if (!report) return failure(report.error());
@@ -66,15 +65,35 @@ Result<Outcome> convertTo(const json& options, Outcome outcome, Progress& progre
 
 }  // namespace
 
-Result<Outcome> runConvert(const Document& document, const json& options, Progress& progress) {
-  const fs::path in = options.at("in").get<std::string>();
+const Fields<ConvertOptions>& convertFields() {
+  using O = ConvertOptions;
+  std::vector<const char*> sets;
+  for (const auto& set : datasets()) sets.push_back(set.name);
+  static const Fields<O> fields = {
+      {"in", &O::in, "cloud to read", {.positional = true, .required = true}},
+      {"out", &O::out, "cloud to write", {.positional = true, .required = true}},
+      {"as",
+       &O::as,
+       "an E57 of integers of 0.1 mm, or of range and angles; a PCD as a list of points instead of a grid; a LAS of "
+       "point format 8",
+       {.choices = {"scaled", "spherical", "points", "pdrf8"}}},
+      {"dataset",
+       &O::dataset,
+       "write a labelled training set to the new folder OUT; the scans must have labels",
+       {.choices = sets}},
+      {"classes", &O::classes,
+       "for --dataset: JSON file that maps IFC classes to those of the set (default: pointclouds/classes)"}};
+  return fields;
+}
+
+Result<Outcome> runConvert(const Document& document, const ConvertOptions& options, Progress& progress) {
+  const fs::path& in = options.in;
   if (auto ok = mustExist(in); !ok) return failure(ok.error());
   progress.stage("Convert " + in.filename().string());
   Outcome outcome{document, json::object(), {}, {}};
-  if (options.contains("dataset")) return convertTo(options, std::move(outcome), progress);
-  if (auto there = checkFolderOf(options.at("out").get<std::string>(), "OUT"); !there) return failure(there.error());
-  auto files =
-      convertCloud(in, options.at("out").get<std::string>(), options.value("as", ""), outcome.report, progress);
+  if (!options.dataset.empty()) return convertTo(options, std::move(outcome), progress);
+  if (auto there = checkFolderOf(options.out, "OUT"); !there) return failure(there.error());
+  auto files = convertCloud(in, options.out, options.as, outcome.report, progress);
   if (!files) return failure(files.error());
   json names = json::array();
   for (const auto& f : *files) names.push_back(f.string());
@@ -83,8 +102,14 @@ Result<Outcome> runConvert(const Document& document, const json& options, Progre
   return outcome;
 }
 
-Result<Outcome> runInfo(const Document& document, const json& options, Progress& progress) {
-  const fs::path file = options.at("file").get<std::string>();
+const Fields<InfoOptions>& infoFields() {
+  static const Fields<InfoOptions> fields = {
+      {"file", &InfoOptions::file, "the file, or the folder of a project", {.positional = true, .required = true}}};
+  return fields;
+}
+
+Result<Outcome> runInfo(const Document& document, const InfoOptions& options, Progress& progress) {
+  const fs::path& file = options.file;
   if (auto ok = mustExist(file); !ok) return failure(ok.error());
   progress.stage("Read " + file.filename().string());
   Outcome outcome{document, json::object(), {}, {}};
@@ -120,8 +145,16 @@ Result<Outcome> runInfo(const Document& document, const json& options, Progress&
   return outcome;
 }
 
-Result<Outcome> runJob(const Document& document, const json& options, Progress& progress) {
-  const fs::path file = options.at("job").get<std::string>();
+const Fields<JobOptions>& jobFields() {
+  static const Fields<JobOptions> fields = {{"job",
+                                             &JobOptions::job,
+                                             "JSON file: [{\"verb\": …, option: value, …}, …]",
+                                             {.positional = true, .required = true}}};
+  return fields;
+}
+
+Result<Outcome> runJob(const Document& document, const JobOptions& options, Progress& progress) {
+  const fs::path& file = options.job;
   std::ifstream in(file);
   if (!in) return failure(ErrorKind::file_system, "cannot read the file", file.string());
   json steps;
@@ -136,7 +169,7 @@ Result<Outcome> runJob(const Document& document, const json& options, Progress& 
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const auto place = fmt::format("{} /{}", file.string(), i);
     if (!steps[i].is_object() || !steps[i].contains("verb") || !steps[i]["verb"].is_string())
-      return failure(ErrorKind::unusable, "a step must be an object with a \"verb\"", place);
+      return failure(ErrorKind::unusable, "a step must be an object with a \"verb", place);
     const auto verb_name = steps[i]["verb"].get<std::string>();
     const Verb* verb = findVerb(verbs(), verb_name);
     if (verb == nullptr || verb_name == "run")

@@ -63,26 +63,35 @@ Result<void> locate(const Document& document, const Georeference& g, json& answe
 
 }  // namespace
 
-Result<Outcome> runGeoreference(const Document& document, const json& options, Progress& progress) {
+const Fields<GeoreferenceOptions>& georeferenceFields() {
+  using O = GeoreferenceOptions;
+  static const Fields<O> fields = {{"crs", &O::crs, "coordinate reference system, as EPSG:n"},
+                                   {"origin", &O::origin, "map coordinates E,N,H of the model's origin", {.unit = "m"}},
+                                   {"rotation-deg",
+                                    &O::rotation_deg,
+                                    "angle from map east to the model's X axis, counter-clockwise",
+                                    {.unit = "deg", .minimum = -360, .maximum = 360}}};
+  return fields;
+}
+
+Result<Outcome> runGeoreference(const Document& document, const GeoreferenceOptions& options, Progress& progress) {
   progress.stage("Georeference");
   Georeference g = *document.georeference;
-  if (options.contains("crs")) {
-    auto found = findCrs(options["crs"].get<std::string>());
+  if (!options.crs.empty()) {
+    auto found = findCrs(options.crs);
     if (!found) return failure(found.error());
     g.crs = found->code;
   }
-  if (options.contains("origin")) {
-    if (options["origin"].size() != 3) return failure(ErrorKind::usage, "--origin requires three numbers E,N,H");
+  if (options.origin) {
     MapConversion c = g.map_from_file.value_or(MapConversion{});
-    const Eigen::Vector3d origin = vectorFrom(options["origin"]);
-    c.eastings_m = origin.x();
-    c.northings_m = origin.y();
-    c.orthogonal_height_m = origin.z();
+    c.eastings_m = options.origin->x();
+    c.northings_m = options.origin->y();
+    c.orthogonal_height_m = options.origin->z();
     g.map_from_file = c;
   }
-  if (options.contains("rotation-deg")) {
+  if (options.rotation_deg) {
     MapConversion c = g.map_from_file.value_or(MapConversion{});
-    const double angle = options["rotation-deg"].get<double>() * kRadPerDeg;
+    const double angle = *options.rotation_deg * kRadPerDeg;
     c.x_axis_abscissa = std::cos(angle);
     c.x_axis_ordinate = std::sin(angle);
     g.map_from_file = c;
@@ -90,7 +99,7 @@ Result<Outcome> runGeoreference(const Document& document, const json& options, P
   Outcome outcome{document, georeferenceToJson(g), {}, {}};
   for (const char* key : {"geographic", "utm", "grid_convergence_deg", "scale_factor"}) outcome.answer[key] = nullptr;
   if (auto done = locate(document, g, outcome.answer, outcome.report); !done) return failure(done.error());
-  if (options.contains("crs") || options.contains("origin") || options.contains("rotation-deg")) {
+  if (!options.crs.empty() || options.origin || options.rotation_deg) {
     outcome.description = fmt::format("Set the georeference{}", g.crs.empty() ? "" : " to " + g.crs);
     outcome.document.georeference = std::make_shared<const Georeference>(g);
   }

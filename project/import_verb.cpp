@@ -2,6 +2,7 @@
 #include "project/import_verb.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -204,25 +205,23 @@ json productRows(const Environment& environment, const Eigen::Vector3d& shift_m)
   return rows;
 }
 
-Result<ImportOptions> importOptions(const json& options) {
+double metresOf(FileUnit unit) {
+  switch (unit) {
+    case FileUnit::metre: return 1;
+    case FileUnit::centimetre: return 0.01;
+    case FileUnit::millimetre: return 0.001;
+    case FileUnit::inch: return 0.0254;
+    case FileUnit::foot: return 0.3048;
+  }
+  return 1;
+}
+
+ImportOptions importOptions(const AddOptions& options) {
   ImportOptions result;
-  const auto shift = options.at("shift").get<std::string>();
-  if (shift == "none") {
-    result.shift = ShiftMode::none;
-  } else if (shift != "auto") {
-    auto numbers = parseNumbers(shift);
-    if (!numbers || numbers->size() != 3)
-      return failure(ErrorKind::usage, fmt::format("invalid shift '{}': use auto, none or E,N,H in metres", shift),
-                     "--shift");
-    result.shift = ShiftMode::given;
-    result.given_shift_m = vectorFrom(*numbers);
-  }
-  if (options.contains("up")) result.up = options["up"] == "z" ? UpAxis::z : UpAxis::y;
-  if (options.contains("unit")) {
-    static const std::map<std::string, double> metres = {
-        {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
-    result.metres_per_unit = metres.at(options["unit"].get<std::string>());
-  }
+  result.shift = options.shift.mode;
+  result.given_shift_m = options.shift.given_m;
+  if (options.up) result.up = *options.up;
+  if (options.unit) result.metres_per_unit = metresOf(*options.unit);
   return result;
 }
 
@@ -285,14 +284,63 @@ Result<Outcome> importModels(const Document& document, const std::vector<std::fi
   return outcome;
 }
 
-Result<Outcome> runImport(const Document& document, const json& options, Progress& progress) {
-  auto typed = importOptions(options);
-  if (!typed) return failure(typed.error());
-  std::vector<std::filesystem::path> files;
-  for (const auto& f : options.at("files")) files.emplace_back(f.get<std::string>());
-  const auto crs = options.value("crs", "");
-  return options.value("update", false) ? updateModels(document, std::move(files), *typed, crs, progress)
-                                        : importModels(document, files, *typed, crs, progress);
+Result<ShiftChoice> FieldValue<ShiftChoice>::read(const json& value) {
+  const auto text = value.get<std::string>();
+  if (text == "auto") return ShiftChoice{};
+  if (text == "none") return ShiftChoice{ShiftMode::none, Eigen::Vector3d::Zero()};
+  const auto numbers = parseNumbers(text);
+  if (!numbers || numbers->size() != 3)
+    return failure(ErrorKind::usage, fmt::format("invalid shift '{}': use auto, none or E,N,H in metres", text));
+  return ShiftChoice{ShiftMode::given, vectorFrom(*numbers)};
+}
+
+json FieldValue<ShiftChoice>::write(const ShiftChoice& shift) {
+  if (shift.mode == ShiftMode::given)
+    return fmt::format("{},{},{}", shift.given_m.x(), shift.given_m.y(), shift.given_m.z());
+  return shift.mode == ShiftMode::none ? "none" : "auto";
+}
+
+std::span<const Choice<FileUnit>> choices(FileUnit) {
+  static constexpr std::array kUnits = {Choice<FileUnit>{"m", FileUnit::metre},
+                                        Choice<FileUnit>{"cm", FileUnit::centimetre},
+                                        Choice<FileUnit>{"mm", FileUnit::millimetre},
+                                        Choice<FileUnit>{"in", FileUnit::inch}, Choice<FileUnit>{"ft", FileUnit::foot}};
+  return kUnits;
+}
+
+std::span<const Choice<UpAxis>> choices(UpAxis) {
+  static constexpr std::array kAxes = {Choice<UpAxis>{"y", UpAxis::y}, Choice<UpAxis>{"z", UpAxis::z}};
+  return kAxes;
+}
+
+const Fields<AddOptions>& addFields() {
+  using O = AddOptions;
+  static const Fields<O> fields = {{"files", &O::files, "the model files", {.positional = true, .required = true}},
+                                   {"shift", &O::shift, "global shift: auto, none, or E,N,H", {.unit = "m"}},
+                                   {"crs", &O::crs, "coordinate reference system, as EPSG:n"},
+                                   {"up", &O::up, "up axis of the file (default: that of the format)"},
+                                   {"unit", &O::unit, "unit of the file's coordinates (default: that of the format)"}};
+  return fields;
+}
+
+const Fields<ImportVerbOptions>& importFields() {
+  using O = ImportVerbOptions;
+  static const Fields<O> fields = {
+      {"files", &O::files, "the model files", {.positional = true, .required = true}},
+      {"output", &O::output, "folder of the new project"},
+      {"replace", &O::replace, "replace the contents of that folder"},
+      {"update", &O::update, "read a changed model; keep stations, targets and materials, and list the changes"},
+      {"shift", &O::shift, "global shift: auto, none, or E,N,H", {.unit = "m"}},
+      {"crs", &O::crs, "coordinate reference system, as EPSG:n"},
+      {"up", &O::up, "up axis of the file (default: that of the format)"},
+      {"unit", &O::unit, "unit of the file's coordinates (default: that of the format)"}};
+  return fields;
+}
+
+Result<Outcome> runImport(const Document& document, const ImportVerbOptions& options, Progress& progress) {
+  const auto typed = importOptions(options);
+  return options.update ? updateModels(document, options.files, typed, options.crs, progress)
+                        : importModels(document, options.files, typed, options.crs, progress);
 }
 
 Result<Outcome> addImported(const Document& document, Outcome imported, Progress& progress) {
@@ -326,8 +374,8 @@ Result<Outcome> addImported(const Document& document, Outcome imported, Progress
   return outcome;
 }
 
-Result<Outcome> runAdd(const Document& document, const json& options, Progress& progress) {
-  auto imported = runImport(Document(), options, progress);
+Result<Outcome> runAdd(const Document& document, const AddOptions& options, Progress& progress) {
+  auto imported = importModels(Document(), options.files, importOptions(options), options.crs, progress);
   if (!imported) return imported;
   return addImported(document, *std::move(imported), progress);
 }

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "importers/importers.h"
-#include "project/verb.h"
+#include "project/fields.h"
 
 namespace standpoint {
 
@@ -19,7 +22,38 @@ Result<Outcome> importModels(const Document& document, const std::vector<std::fi
 // dropped.
 Result<Outcome> addImported(const Document& document, Outcome imported, Progress& progress);
 
-Result<Outcome> runAdd(const Document& document, const nlohmann::json& options, Progress& progress);
-Result<Outcome> runImport(const Document& document, const nlohmann::json& options, Progress& progress);
+// The global shift of a model: "auto", "none", or "E,N,H" in metres.
+struct ShiftChoice {
+  ShiftMode mode = ShiftMode::automatic;
+  Eigen::Vector3d given_m = Eigen::Vector3d::Zero();
+};
+template <>
+struct FieldValue<ShiftChoice> {
+  static constexpr auto kKind = ParameterKind::text;
+  static void describe(Parameter&) {}
+  static Result<ShiftChoice> read(const nlohmann::json& text);
+  static nlohmann::json write(const ShiftChoice& shift);
+};
+
+enum class FileUnit { metre, centimetre, millimetre, inch, foot };
+std::span<const Choice<FileUnit>> choices(FileUnit);
+std::span<const Choice<UpAxis>> choices(UpAxis);
+
+struct AddOptions {
+  std::vector<std::filesystem::path> files;
+  ShiftChoice shift;
+  std::string crs;           // "EPSG:n"; empty: as the model says
+  std::optional<UpAxis> up;  // nothing: as the format says
+  std::optional<FileUnit> unit;
+};
+struct ImportVerbOptions : AddOptions {
+  std::filesystem::path output;  // the project's folder; for the door that writes it
+  bool replace = false;          // likewise
+  bool update = false;
+};
+const Fields<AddOptions>& addFields();
+const Fields<ImportVerbOptions>& importFields();
+Result<Outcome> runAdd(const Document& document, const AddOptions& options, Progress& progress);
+Result<Outcome> runImport(const Document& document, const ImportVerbOptions& options, Progress& progress);
 
 }  // namespace standpoint

@@ -36,9 +36,16 @@ json rowOf(const KnownInstrument& known) {
 
 }  // namespace
 
-Result<Outcome> runInstruments(const Document& document, const json& options, Progress&) {
+const Fields<InstrumentsOptions>& instrumentsFields() {
+  using O = InstrumentsOptions;
+  static const Fields<O> fields = {{"copy", &O::copy, "id of the instrument to copy into the folder of your own ones"},
+                                   {"as", &O::as, "id of the copy"}};
+  return fields;
+}
+
+Result<Outcome> runInstruments(const Document& document, const InstrumentsOptions& options, Progress&) {
   Outcome outcome{document, json::object(), {}, {}};
-  const auto id = options.value("copy", std::string()), new_id = options.value("as", std::string());
+  const auto &id = options.copy, &new_id = options.as;
   if (id.empty() != new_id.empty())
     return failure(ErrorKind::usage, "--copy ID and --as NEW must be used together", id.empty() ? "--copy" : "--as");
   if (!id.empty()) {

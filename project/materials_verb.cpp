@@ -228,7 +228,7 @@ Result<Outcome> assignDocumentMaterials(const Document& document, const Material
   if (!shipped) return failure(shipped.error());
   MaterialChoice choice = document.materials ? *document.materials : MaterialChoice();
   if (!request.rules.empty()) {
-    choice.rules_file = request.rules == "default" ? "" : request.rules;
+    choice.rules_file = request.rules == "default" ? "" : request.rules.string();
     choice.rules_text.clear();
   }
   if (!request.instrument.empty()) choice.instrument = request.instrument;
@@ -274,23 +274,47 @@ Result<Outcome> assignDocumentMaterials(const Document& document, const Material
   return outcome;
 }
 
-Result<Outcome> runMaterials(const Document& document, const json& options, Progress& progress) {
-  MaterialRequest request;
-  request.rules = options.value("rules", "");
-  for (const auto& file : options.value("library", std::vector<std::string>())) request.libraries.emplace_back(file);
-  request.forget = options.value("forget", request.forget);
-  for (const auto& text : options.value("assign", std::vector<std::string>())) {
+Result<std::vector<MaterialOverride>> FieldValue<std::vector<MaterialOverride>>::read(const json& texts) {
+  std::vector<MaterialOverride> overrides;
+  for (const auto& each : texts) {
+    const auto& text = each.get_ref<const std::string&>();
     const auto equals = text.rfind('=');
-    request.assign.push_back({text.substr(0, equals), text.substr(equals + 1)});
+    overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
   }
-  request.accept = options.value("accept", request.accept);
-  request.reopen = options.value("reopen", request.reopen);
-  request.because = options.value("because", "");
-  request.instrument = options.value("instrument", "");
-  auto outcome = assignDocumentMaterials(document, request, progress);
+  return overrides;
+}
+
+json FieldValue<std::vector<MaterialOverride>>::write(const std::vector<MaterialOverride>& overrides) {
+  json texts;
+  for (const auto& o : overrides) texts.push_back(o.selector + "=" + o.material);
+  return texts;
+}
+
+const Fields<MaterialsOptions>& materialsFields() {
+  using O = MaterialsOptions;
+  static const Fields<O> fields = {
+      {"rules", &O::rules, "file of own assignment rules, or `default`; kept in the project"},
+      {"library", &O::libraries, "files of own materials; kept in the project"},
+      {"forget", &O::forget, "ids of own materials to remove"},
+      {"assign", &O::assign,
+       "SELECTOR=MATERIAL, or SELECTOR=rules to go back to the rules; a selector is #id, a GlobalId, or conditions "
+       "joined by &: class:IfcWall, type:…, name:*glass*, storey:…, group:…, layer:…, material:…, colour:red; append "
+       "@0,0,1 for faces of that direction only, @0,0,1@X,Y,Z for the one of them at a point of the model's own frame"},
+      {"where", &O::where, "id of a material whose uses to list"},
+      {"accept", &O::accept, "ids of findings to accept, with --because"},
+      {"because", &O::because, "reason for accepting; kept in the project until the cause changes"},
+      {"reopen", &O::reopen, "ids of accepted findings to reopen"},
+      {"instrument", &O::instrument,
+       "id of the instrument whose wavelength needs figures (default: those used for scanning)"},
+      {"report", &O::report, "printable report to write (.html, .csv)"}};
+  return fields;
+}
+
+Result<Outcome> runMaterials(const Document& document, const MaterialsOptions& options, Progress& progress) {
+  auto outcome = assignDocumentMaterials(document, options, progress);
   if (!outcome) return outcome;
   const auto& choice = *outcome->document.materials;
-  if (const auto id = options.value("where", ""); !id.empty()) {
+  if (const auto& id = options.where; !id.empty()) {
     const auto shipped = readMaterialLibrary(libraryFolder());
     if (!shipped) return failure(shipped.error());
     const auto library = withOwn(*shipped, choice.own);
@@ -299,8 +323,9 @@ Result<Outcome> runMaterials(const Document& document, const json& options, Prog
     outcome->answer["where"] = whereAnswer(*document.environment(), choice.result, id);
     outcome->text = whereText(outcome->answer["where"]);
   }
-  if (const auto file = options.value("report", ""); !file.empty())
-    if (auto written = writeMaterialReport(outcome->document, file); !written) return failure(written.error());
+  if (!options.report.empty())
+    if (auto written = writeMaterialReport(outcome->document, options.report); !written)
+      return failure(written.error());
   return outcome;
 }
 

@@ -7,16 +7,23 @@
 #include <string>
 #include <vector>
 
-#include "project/verb.h"
+#include "project/fields.h"
 
 namespace standpoint {
 
-Result<Outcome> collideDocument(const Document& document, const CollideOptions& options, Progress& progress);
-Result<Outcome> runCollide(const Document& document, const nlohmann::json& options, Progress& progress);
+std::span<const Choice<DoorState>> choices(DoorState);
+struct CollideVerbOptions {
+  double agent_radius_m = CollideOptions{}.agent_radius_m;
+  double agent_height_m = CollideOptions{}.agent_height_m;
+  DoorState doors = DoorState::open;
+  std::vector<std::string> closed;  // selectors of doors, with DoorState::as_set; empty: those that were closed last
+};
+const Fields<CollideVerbOptions>& collideFields();
+Result<Outcome> runCollide(const Document& document, const CollideVerbOptions& options, Progress& progress);
 
 // What is said anew of the materials; the document keeps what was said before.
 struct MaterialRequest {
-  std::string rules;                             // a file, or "default"; empty: as they are
+  std::filesystem::path rules;                   // a file, or "default"; empty: as they are
   std::vector<std::filesystem::path> libraries;  // of own materials
   std::vector<std::string> forget;               // own materials, by id
   std::vector<MaterialOverride> assign;          // the material "rules" takes back what was said by that selector
@@ -25,8 +32,27 @@ struct MaterialRequest {
   std::string instrument;
 };
 Result<Outcome> assignDocumentMaterials(const Document& document, const MaterialRequest& request, Progress& progress);
-Result<Outcome> runMaterials(const Document& document, const nlohmann::json& options, Progress& progress);
+// SELECTOR=MATERIAL; a selector may hold "=" itself.
+template <>
+struct FieldValue<std::vector<MaterialOverride>> {
+  static constexpr auto kKind = ParameterKind::pairs;
+  static void describe(Parameter&) {}
+  static Result<std::vector<MaterialOverride>> read(const nlohmann::json& texts);
+  static nlohmann::json write(const std::vector<MaterialOverride>& overrides);
+};
+struct MaterialsOptions : MaterialRequest {
+  std::string where;             // id of a material: its uses are answered
+  std::filesystem::path report;  // to write
+};
+const Fields<MaterialsOptions>& materialsFields();
+Result<Outcome> runMaterials(const Document& document, const MaterialsOptions& options, Progress& progress);
 
-Result<Outcome> runGeoreference(const Document& document, const nlohmann::json& options, Progress& progress);
+struct GeoreferenceOptions {
+  std::string crs;                        // empty: as it is
+  std::optional<Eigen::Vector3d> origin;  // map coordinates E,N,H of the file's origin, m
+  std::optional<double> rotation_deg;
+};
+const Fields<GeoreferenceOptions>& georeferenceFields();
+Result<Outcome> runGeoreference(const Document& document, const GeoreferenceOptions& options, Progress& progress);
 
 }  // namespace standpoint

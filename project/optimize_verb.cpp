@@ -95,7 +95,24 @@ Result<SimplificationPlan> planLightening(const Document& document, const Simpli
   return plan;
 }
 
-Result<Outcome> optimizeDocument(const Document& document, const SimplificationRequest& request, Progress& progress) {
+const Fields<SimplificationRequest>& optimizeFields() {
+  using O = SimplificationRequest;
+  static const Fields<O> fields = {
+      {"budget", &O::budget, "placed triangles in all; 0 merges planar regions only", {.minimum = 0, .maximum = 1e12}},
+      {"max-deviation",
+       &O::max_deviation_m,
+       "maximum deviation of a surface where --lod has no limit for it",
+       {.unit = "m", .minimum = 0, .maximum = 1000}},
+      {"by-view", &O::by_view, "weigh errors by what is visible from the walkable surface; needs `collide` first"},
+      {"lod", &O::lod_rules, "file of level-of-detail rules, or `default` for LoD 300 with surroundings of LoD 200"},
+      {"surroundings", &O::surroundings,
+       "selectors of the surroundings of the main model: #id, class:…, name:…, storey:…"}};
+  return fields;
+}
+
+Result<Outcome> runOptimize(const Document& document, const SimplificationRequest& request, Progress& progress) {
+  if (!request.surroundings.empty() && request.lod_rules.empty())
+    return failure(ErrorKind::usage, "requires --lod", "surroundings");
   progress.stage("Optimise");
   auto plan = planLightening(document, request, progress);
   if (!plan) return failure(plan.error());
@@ -132,18 +149,6 @@ Result<Outcome> optimizeDocument(const Document& document, const SimplificationR
   for (const auto& allowance : options.products) simplified.levels.push_back(allowance.lod);
   outcome.document.simplified = std::make_shared<const SimplifiedModel>(std::move(simplified));
   return outcome;
-}
-
-Result<Outcome> runOptimize(const Document& document, const json& options, Progress& progress) {
-  if (options.contains("surroundings") && !options.contains("lod"))
-    return failure(ErrorKind::usage, "requires --lod", "surroundings");
-  SimplificationRequest request;
-  if (options.contains("budget")) request.budget = options.at("budget").get<std::uint64_t>();
-  request.max_deviation_m = options.at("max-deviation").get<double>();
-  request.by_view = options.value("by-view", false);
-  request.lod_rules = options.value("lod", "");
-  request.surroundings = options.value("surroundings", std::vector<std::string>{});
-  return optimizeDocument(document, request, progress);
 }
 
 }  // namespace standpoint

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "project/fields.h"
 #include "project/lod_rules.h"
 #include "project/verb.h"
 
@@ -14,7 +15,8 @@ struct SimplificationPlan {
 Result<SimplificationPlan> planLightening(const Document& document, const SimplificationRequest& request,
                                           const Progress& progress);
 
-Result<Outcome> optimizeDocument(const Document& document, const SimplificationRequest& request, Progress& progress);
-Result<Outcome> runOptimize(const Document& document, const nlohmann::json& options, Progress& progress);
+// The verb; its options are kept in the document with what came of them.
+const Fields<SimplificationRequest>& optimizeFields();
+Result<Outcome> runOptimize(const Document& document, const SimplificationRequest& request, Progress& progress);
 
 }  // namespace standpoint

@@ -27,7 +27,8 @@ std::string domain(const Parameter& p) {
     case ParameterKind::flag: return "true or false";
     case ParameterKind::choice: return fmt::format("one of {}", fmt::join(p.choices, ", "));
     case ParameterKind::triple:
-      return fmt::format("three numbers{}, none beyond 1e9", *p.unit != 0 ? fmt::format(" in {}", p.unit) : "");
+      return fmt::format("three numbers{}{}, none beyond 1e9", *p.unit != 0 ? fmt::format(" in {}", p.unit) : "",
+                         p.min_numbers < 3 ? " (the third may be left out)" : "");
     case ParameterKind::pairs: return "a list of key=value";
     case ParameterKind::list: return "a list of texts";
     case ParameterKind::path: return "a path";
@@ -53,7 +54,7 @@ bool fits(const Parameter& p, const json& value) {
       return value.is_string() && std::any_of(p.choices.begin(), p.choices.end(),
                                               [&](const char* c) { return value.get_ref<const std::string&>() == c; });
     case ParameterKind::triple:
-      return value.is_array() && (value.size() == 3 || value.size() == 2) &&
+      return value.is_array() && value.size() >= p.min_numbers && value.size() <= 3 &&
              std::all_of(value.begin(), value.end(),
                          [](const json& v) { return v.is_number() && std::abs(v.get<double>()) <= kFarthest; });
     case ParameterKind::pairs:
@@ -84,6 +85,9 @@ Result<json> checkOptions(const Verb& verb, const json& options) {
     if (!fits(*found, value))
       return failure(ErrorKind::usage, fmt::format("'{}' must be {}, not {}", key, domain(*found), value.dump()),
                      verb.name);
+    if (found->check)
+      if (auto ok = found->check(value); !ok)
+        return failure(ok.error().kind, ok.error().message, ok.error().source.empty() ? "--" + key : ok.error().source);
     complete[key] = value;
   }
   for (const auto& p : verb.parameters) {

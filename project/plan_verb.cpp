@@ -116,26 +116,25 @@ std::string textOf(const SurveyPlan& plan, const json& answer) {
   return text;
 }
 
-Result<PlanRequest> requestFrom(const Document& document, const json& options) {
+Result<PlanRequest> requestFrom(const Document& document, const PlanOptions& options) {
   PlanRequest request;
-  auto instrument = instrumentById(options.at("instrument").get<std::string>());
+  auto instrument = instrumentById(options.instrument);
   if (!instrument) return failure(instrument.error());
   request.instrument = *std::move(instrument);
-  auto settings = settingsFrom(request.instrument, options);
+  auto settings = resolveSettings(request.instrument, options.settings);
   if (!settings) return failure(settings.error());
   request.settings = *std::move(settings);
   if (!document.job->stations.empty()) {
-    auto stations = stationsFrom(*document.job, options.at("stations").get<std::string>());
+    auto stations = stationsFrom(*document.job, options.stations);
     if (!stations) return failure(stations.error());
     request.stations = *std::move(stations);
   }
-  if (options.contains("spacing")) request.wanted.max_spacing_m = options["spacing"].get<double>();
-  if (options.contains("max-incidence-deg"))
-    request.wanted.max_incidence_rad = options["max-incidence-deg"].get<double>() * kRadPerDeg;
-  if (options.contains("max-range")) request.wanted.max_range_m = options["max-range"].get<double>();
+  if (options.spacing_m) request.wanted.max_spacing_m = *options.spacing_m;
+  if (options.max_incidence_deg) request.wanted.max_incidence_rad = *options.max_incidence_deg * kRadPerDeg;
+  if (options.max_range_m) request.wanted.max_range_m = *options.max_range_m;
   request.channels.returns = request.instrument.waveform.max_returns > 1;
-  request.samples = options.at("samples").get<std::size_t>();
-  request.seed = options.at("seed").get<std::uint64_t>();
+  request.samples = options.samples;
+  request.seed = options.seed;
   return request;
 }
 
@@ -161,7 +160,30 @@ Result<json> proposalFor(const Document& document, const RayScene& scene, const 
 
 }  // namespace
 
-Result<Outcome> runPlan(const Document& document, const json& options, Progress& progress) {
+const Fields<PlanOptions>& planFields() {
+  using O = PlanOptions;
+  static const Fields<O> fields = {
+      {"stations", &O::stations, "all, or names separated by commas"},
+      {"instrument", &O::instrument, "id of the instrument, such as leica-rtc360", {.required = true}},
+      {"set", &O::settings, "settings in the device's own words, such as resolution=12mm"},
+      {"spacing",
+       &O::spacing_m,
+       "a surface counts as seen with a point for each square of at most this side",
+       {.unit = "m", .minimum = 0.0001, .maximum = 100}},
+      {"max-incidence-deg",
+       &O::max_incidence_deg,
+       "maximum angle of incidence of what counts as seen",
+       {.unit = "deg", .minimum = 1, .maximum = 90}},
+      {"max-range",
+       &O::max_range_m,
+       "maximum range of what counts as seen",
+       {.unit = "m", .minimum = 0.1, .maximum = 10000}},
+      {"samples", &O::samples, "number of sample points on the surfaces", {.minimum = 100, .maximum = 5000000}},
+      {"seed", &O::seed, "seed of the sample points", {.minimum = 0, .maximum = 9007199254740991.0}}};
+  return fields;
+}
+
+Result<Outcome> runPlan(const Document& document, const PlanOptions& options, Progress& progress) {
   auto request = requestFrom(document, options);
   if (!request) return failure(request.error());
   Outcome outcome{document, json::object(), {}, {}};

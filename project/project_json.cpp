@@ -132,7 +132,7 @@ json simplificationToJson(const SimplifiedModel& l) {
   json losses = json::array();
   for (const auto& loss : l.products) losses.push_back(lossToJson(loss));
   json part = {{"max_deviation_m", l.request.max_deviation_m},
-               {"lod_rules", l.request.lod_rules},
+               {"lod_rules", l.request.lod_rules.string()},
                {"surroundings", l.request.surroundings},
                {"all", lossToJson(l.all)},
                {"products", losses},

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include <fmt/format.h>
 
 #include "core/random.h"
 #include "core/units.h"
+#include "project/answers.h"
 #include "project/cloud_to_cloud.h"
 #include "project/registered_clouds.h"
 #include "project/registering.h"
@@ -32,31 +33,23 @@ Pose laidByEye(const Station& station, std::uint64_t seed) {
 }
 
 // Where the user has laid it by hand instead: moved and turned about itself in plan.
-Result<Pose> laidByHand(Pose pose, const json& options) {
-  if (!options.contains("start-offset")) return pose;
-  const auto text = options["start-offset"].get<std::string>();
-  double x_m = 0, y_m = 0, turn_deg = 0;
-  int read = 0;
-  const bool whole = std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &x_m, &y_m, &turn_deg, &read) == 3 &&
-                     static_cast<std::size_t>(read) == text.size();
-  if (!whole || !std::isfinite(x_m + y_m + turn_deg))
-    return failure(ErrorKind::usage, fmt::format("'{}' must be three numbers: x,y,turn in m and degrees", text),
-                   "--start-offset");
-  pose.translation += Vector3d(x_m, y_m, 0);
-  pose.rotation = Eigen::AngleAxisd(turn_deg * kRadPerDeg, Vector3d::UnitZ()) * pose.rotation;
+Pose laidByHand(Pose pose, const std::optional<StartOffset>& offset) {
+  if (!offset) return pose;
+  pose.translation += Vector3d(offset->x_m, offset->y_m, 0);
+  pose.rotation = Eigen::AngleAxisd(offset->turn_deg * kRadPerDeg, Vector3d::UnitZ()) * pose.rotation;
   return pose;
 }
 
-Result<std::size_t> heldStation(const Job& job, const TargetMeasurements& measured, const json& options) {
-  if (!options.contains("fix")) return measured.scans.front().station;
-  const auto name = options["fix"].get<std::string>();
+Result<std::size_t> heldStation(const Job& job, const TargetMeasurements& measured, const RegisterOptions& options) {
+  if (options.fix.empty()) return measured.scans.front().station;
+  const auto& name = options.fix;
   for (std::size_t i = 0; i < job.stations.size(); ++i)
     if (job.stations[i].name == name) return i;
   return failure(ErrorKind::usage, fmt::format("unknown station '{}'", name), "--fix");
 }
 
 // Station by station, each to all that are placed already; the held one first.
-Result<json> byClouds(Job& job, const TargetMeasurements& measured, std::size_t held, const json& options,
+Result<json> byClouds(Job& job, const TargetMeasurements& measured, std::size_t held, const RegisterOptions& options,
                       const Vector3d& shift_m, Report& report, Progress& progress) {
   std::vector<PlacedCloud> placed;
   std::vector<const ScannedStation*> waiting;
@@ -75,9 +68,8 @@ Result<json> byClouds(Job& job, const TargetMeasurements& measured, std::size_t 
   for (const auto* scan : waiting) {
     Station& station = job.stations[scan->station];
     progress.stage("Fitting " + station.name, 0.9, 1);
-    const auto start = laidByHand(laidByEye(station, options.at("seed").get<std::uint64_t>()), options);
-    if (!start) return failure(start.error());
-    const auto fit = fitCloudToClouds(scan->sample, *start, placed, options.at("reach").get<double>(), progress);
+    const auto start = laidByHand(laidByEye(station, options.seed), options.start_offset);
+    const auto fit = fitCloudToClouds(scan->sample, start, placed, options.reach_m, progress);
     if (!fit)
       return failure(fit.error().kind, fmt::format("station {}: {}", station.name, fit.error().message), scan->file);
     for (const auto& motion : fit->free)
@@ -96,13 +88,13 @@ Result<json> byClouds(Job& job, const TargetMeasurements& measured, std::size_t 
   return json{{"stations", std::move(stations)}};
 }
 
-Result<json> byTargets(Job& job, const TargetMeasurements& measured, std::size_t held, const json& options,
+Result<json> byTargets(Job& job, const TargetMeasurements& measured, std::size_t held, const RegisterOptions& options,
                        const Vector3d& shift_m, Report& report) {
   RegistrationRequest request;
   request.held = held;
-  request.matching = options.at("by") == "geometry" ? TargetMatching::by_geometry : TargetMatching::by_names;
-  if (options.contains("control")) {
-    auto control = readControlPoints(options["control"].get<std::string>(), shift_m);
+  request.matching = options.by;
+  if (!options.control.empty()) {
+    auto control = readControlPoints(options.control, shift_m);
     if (!control) return failure(control.error());
     request.control = *std::move(control);
     job.control_points = request.control;
@@ -117,28 +109,71 @@ Result<json> byTargets(Job& job, const TargetMeasurements& measured, std::size_t
 
 }  // namespace
 
-Result<Outcome> runRegister(const Document& document, const json& options, Progress& progress) {
-  const bool cloud = options.value("cloud", false);
-  if (cloud && options.contains("control"))
+std::span<const Choice<TargetMatching>> choices(TargetMatching) {
+  static constexpr std::array kMatchings = {Choice<TargetMatching>{"names", TargetMatching::by_names},
+                                            Choice<TargetMatching>{"geometry", TargetMatching::by_geometry}};
+  return kMatchings;
+}
+
+Result<StartOffset> FieldValue<StartOffset>::read(const json& value) {
+  const auto& text = value.get_ref<const std::string&>();
+  const auto numbers = parseNumbers(text);
+  if (!numbers || numbers->size() != 3 || !vectorFrom(*numbers).allFinite())
+    return failure(ErrorKind::usage, fmt::format("'{}' must be three numbers: x,y,turn in m and degrees", text));
+  const auto v = vectorFrom(*numbers);
+  return StartOffset{v.x(), v.y(), v.z()};
+}
+
+json FieldValue<StartOffset>::write(const StartOffset& offset) {
+  return fmt::format("{},{},{}", offset.x_m, offset.y_m, offset.turn_deg);
+}
+
+const Fields<RegisterOptions>& registerFields() {
+  using O = RegisterOptions;
+  static const Fields<O> fields = {
+      {"files", &O::files, "the scans (E57, PTX), one of each station", {.positional = true, .required = true}},
+      {"fix", &O::fix, "station that keeps its pose (default: the first)"},
+      {"by", &O::by, "match targets by their names, or by the distances between them"},
+      {"control", &O::control, "text file of control points: name X Y Z [sigma in mm]"},
+      {"cloud", &O::cloud, "register cloud to cloud instead of by targets"},
+      {"output", &O::output,
+       "a folder for copies of the scans with their solved poses, or a file for a single scan file"},
+      {"reach",
+       &O::reach_m,
+       "maximum distance of a point from its surface for --cloud",
+       {.unit = "m", .minimum = 0.01, .maximum = 100}},
+      {"start-offset", &O::start_offset,
+       "x,y,turn for --cloud, in m and degrees: offset of each scan before the fit from the rough alignment by eye"},
+      {"click",
+       &O::click_m,
+       "maximum distance of the operator's click from the target; the measurement starts there",
+       {.unit = "m", .minimum = 0, .maximum = 0.5}},
+      {"seed", &O::seed, "seed of the operator's hand", {.minimum = 0, .maximum = 9007199254740991.0}}};
+  return fields;
+}
+
+Result<Outcome> runRegister(const Document& document, const RegisterOptions& options, Progress& progress) {
+  const bool cloud = options.cloud;
+  if (cloud && !options.control.empty())
     return failure(ErrorKind::usage, "--cloud and --control cannot be combined", "--control");
   if (!cloud && document.job->targets.size() < 3)
     return failure(ErrorKind::usage, fmt::format("the project has {} targets, at least three are required: add targets "
                                                  "with `target` before scanning, or register with --cloud",
                                                  document.job->targets.size()));
   MeasuringRequest request;
-  for (const auto& file : options.at("files")) request.files.emplace_back(file.get<std::string>());
+  request.files = options.files;
   std::vector<std::filesystem::path> written;
-  if (options.contains("output")) {
-    auto to = registeredFiles(request.files, options["output"].get<std::string>());
+  if (!options.output.empty()) {
+    auto to = registeredFiles(request.files, options.output);
     if (!to) return failure(to.error());
     written = *std::move(to);
   }
-  request.seed = options.at("seed").get<std::uint64_t>();
-  request.click_m = options.at("click").get<double>();
+  request.seed = options.seed;
+  request.click_m = options.click_m;
   request.targets = !cloud, request.sample = cloud;
   const auto measured = measureTargets(document, request, progress);
   if (!measured) return failure(measured.error());
-  if (measured->scans.size() < (options.contains("control") ? 1U : 2U))
+  if (measured->scans.size() < (options.control.empty() ? 2U : 1U))
     return failure(ErrorKind::usage,
                    "a single station cannot be registered: specify scans of at least two, or use --control", "files");
   Outcome outcome{document, json::object(), measured->report, {}};

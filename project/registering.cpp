@@ -126,14 +126,21 @@ void tell(const SurfaceFit& fit, const std::string& name, Report& report) {
 
 }  // namespace
 
-Result<std::vector<PlacePair>> placePairsFrom(const json& texts) {
+Result<std::vector<PlacePair>> FieldValue<std::vector<PlacePair>>::read(const json& texts) {
   std::vector<PlacePair> pairs;
   for (const auto& text : texts) {
-    auto pair = placePairFrom(text.get<std::string>());
+    const auto pair = placePairFrom(text.get<std::string>());
     if (!pair) return failure(pair.error());
     pairs.push_back(*pair);
   }
   return pairs;
+}
+
+json FieldValue<std::vector<PlacePair>>::write(const std::vector<PlacePair>& pairs) {
+  json texts;
+  for (const auto& [cloud, model] : pairs)
+    texts.push_back(fmt::format("{},{},{}={},{},{}", cloud.x(), cloud.y(), cloud.z(), model.x(), model.y(), model.z()));
+  return texts;
 }
 
 Result<SurfaceFit> fitCloudToModel(const Document& document, const CloudSample& sample, const Pose& file_from_cloud,

@@ -8,7 +8,7 @@
 #include "core/surface_fit.h"
 #include "pointclouds/statistics/cloud_sample.h"
 #include "project/document.h"
-#include "project/verb.h"
+#include "project/fields.h"
 
 namespace standpoint {
 
@@ -17,7 +17,13 @@ struct PlacePair {
   Eigen::Vector3d cloud_m = Eigen::Vector3d::Zero(), model_m = Eigen::Vector3d::Zero();
 };
 // "x,y,z=X,Y,Z" of each; errors name the pair.
-Result<std::vector<PlacePair>> placePairsFrom(const nlohmann::json& texts);
+template <>
+struct FieldValue<std::vector<PlacePair>> {
+  static constexpr auto kKind = ParameterKind::pairs;
+  static void describe(Parameter&) {}
+  static Result<std::vector<PlacePair>> read(const nlohmann::json& texts);
+  static nlohmann::json write(const std::vector<PlacePair>& pairs);
+};
 
 // Fits the cloud to the model's scene from where `file_from_cloud` puts it; the fit's poses are in the model's file
 // frame.

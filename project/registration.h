@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -8,8 +9,8 @@
 
 #include "core/surface_fit.h"
 #include "core/target_network.h"
+#include "project/fields.h"
 #include "project/target_measuring.h"
-#include "project/verb.h"
 
 namespace standpoint {
 
@@ -38,7 +39,34 @@ Result<TargetRegistration> registerByTargets(const Job& job, const TargetMeasure
 // One line each: name X Y Z [σ in mm], in the file's frame; # begins a comment.
 Result<std::vector<ControlPoint>> readControlPoints(const std::filesystem::path& file, const Eigen::Vector3d& shift_m);
 
-Result<Outcome> runRegister(const Document& document, const nlohmann::json& options, Progress& progress);
+std::span<const Choice<TargetMatching>> choices(TargetMatching);
+
+// "x,y,turn": an offset in plan, m, and a turn about itself, degrees.
+struct StartOffset {
+  double x_m = 0, y_m = 0, turn_deg = 0;
+};
+template <>
+struct FieldValue<StartOffset> {
+  static constexpr auto kKind = ParameterKind::text;
+  static void describe(Parameter&) {}
+  static Result<StartOffset> read(const nlohmann::json& text);
+  static nlohmann::json write(const StartOffset& offset);
+};
+
+struct RegisterOptions {
+  std::vector<std::filesystem::path> files;
+  std::string fix;  // station that keeps its pose; empty: the first
+  TargetMatching by = TargetMatching::by_names;
+  std::filesystem::path control;
+  bool cloud = false;
+  std::filesystem::path output;
+  double reach_m = 0.5;                     // of `cloud`
+  std::optional<StartOffset> start_offset;  // likewise
+  double click_m = MeasuringRequest{}.click_m;
+  std::uint64_t seed = 1;
+};
+const Fields<RegisterOptions>& registerFields();
+Result<Outcome> runRegister(const Document& document, const RegisterOptions& options, Progress& progress);
 
 // The answer's parts.
 nlohmann::json measuredRows(const Job& job, const TargetMeasurements& measured);

@@ -34,8 +34,8 @@ struct ScanSurroundings {
   std::shared_ptr<PointSink> watcher;
 };
 
-// The verb `scan`; its options are checked already.
-Result<Outcome> runScan(const Document& document, const nlohmann::json& options, const ScanSurroundings& company,
+// The verb `scan` with company.
+Result<Outcome> runScan(const Document& document, const ScanVerbOptions& options, const ScanSurroundings& company,
                         Progress& progress);
 
 }  // namespace standpoint

@@ -2,10 +2,11 @@
 #include "project/scan_request.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <array>
 
 #include <fmt/format.h>
 
+#include "core/units.h"
 #include "project/instruments.h"
 #include "project/model_verbs.h"
 #include "project/output_place.h"
@@ -18,17 +19,12 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-// --shard i/n keeps the stations i, i+n, i+2n, …; every random number belongs to its station, so shards together give
-// the same bytes as the whole.
-Result<void> shard(std::vector<std::size_t>& stations, const std::string& text) {
-  unsigned i = 0;
-  unsigned n = 0;
-  if (std::sscanf(text.c_str(), "%u/%u", &i, &n) != 2 || n == 0 || i == 0 || i > n)
-    return failure(ErrorKind::usage, fmt::format("'{}' must be i/n with 1 <= i <= n", text), "--shard");
+// Keeps the stations i, i+n, i+2n, …; every random number belongs to its station, so shards together give the same
+// bytes as the whole.
+std::vector<std::size_t> shardOf(const std::vector<std::size_t>& stations, const Shard& shard) {
   std::vector<std::size_t> kept;
-  for (std::size_t k = i - 1; k < stations.size(); k += n) kept.push_back(stations[k]);
-  stations = std::move(kept);
-  return {};
+  for (std::size_t k = shard.index - 1; k < stations.size(); k += shard.count) kept.push_back(stations[k]);
+  return kept;
 }
 
 Result<void> chooseOutput(ScanRequest& request, const fs::path& output) {
@@ -54,14 +50,43 @@ Result<void> chooseOutput(ScanRequest& request, const fs::path& output) {
   return {};
 }
 
-Result<Effects> effectsFrom(const json& options) {
-  if (options.value("ideal", false)) {
-    if (options.contains("without"))
-      return failure(ErrorKind::usage, "an ideal scan already excludes all effects", "--without");
-    return Effects::none();
-  }
-  return options.contains("without") ? effectsWithout(options["without"].get<std::string>())
-                                     : Result<Effects>(Effects());
+Result<Effects> effectsFrom(const ScanVerbOptions& options) {
+  if (!options.ideal) return options.without.value_or(Effects());
+  if (options.without) return failure(ErrorKind::usage, "an ideal scan already excludes all effects", "--without");
+  return Effects::none();
+}
+
+Result<void> choosePanorama(ScanRequest& request, const ScanVerbOptions& options) {
+  request.panorama = options.panorama;
+  if (request.panorama && !request.settings.imaging)
+    return failure(ErrorKind::usage, "a panorama requires settings that take images", "--panorama");
+  if (!request.panorama && !request.settings.laser)
+    return failure(ErrorKind::usage, "these settings measure no points and no panorama is requested", "--set");
+  if (!options.panorama_columns) return {};
+  const auto columns = *options.panorama_columns;
+  if (!request.panorama) return failure(ErrorKind::usage, "requires --panorama", "--panorama-size");
+  if (columns % 2 != 0)
+    return failure(ErrorKind::usage,
+                   fmt::format("{} is odd: use an even width, since the height is half the width", columns),
+                   "--panorama-size");
+  request.instrument.camera.columns = columns;
+  request.panorama_columns = columns;
+  return {};
+}
+
+// What differs from clear air, as weatherFrom() reads it.
+std::string textOf(const Weather& w) {
+  std::string text;
+  const auto say = [&](const char* key, double value, double usual) {
+    if (value != usual) text += fmt::format("{}{}={}", text.empty() ? "" : " ", key, value);
+  };
+  constexpr Weather kUsual;
+  say("visibility", w.visibility_km, kUsual.visibility_km);
+  say("rain", w.rain_mm_h, kUsual.rain_mm_h);
+  say("snow", w.snow_mm_h, kUsual.snow_mm_h);
+  say("fog", w.fog_mor_m, kUsual.fog_mor_m);
+  say("dust", w.dust_mor_m, kUsual.dust_mor_m);
+  return text;
 }
 
 }  // namespace
@@ -85,35 +110,35 @@ ScanChoice choiceOf(const ScanRequest& request) {
           .panorama_columns = request.panorama_columns};
 }
 
-Result<std::vector<std::size_t>> stationsFrom(const Job& job, const std::string& wanted) {
+ScanVerbOptions optionsOf(const ScanChoice& choice) {
+  ScanVerbOptions options;
+  options.instrument = choice.instrument;
+  options.settings = choice.settings;
+  options.seed = choice.seed;
+  options.ideal = choice.effects == Effects::none();
+  if (!options.ideal && choice.effects != Effects()) options.without = choice.effects;
+  if (choice.weather != Weather()) options.weather = choice.weather;
+  options.truth = choice.truth;
+  options.compensator = choice.compensator ? Switch::on : Switch::off;
+  options.panorama = choice.panorama;
+  if (choice.panorama && choice.panorama_columns > 0) options.panorama_columns = choice.panorama_columns;
+  return options;
+}
+
+Result<std::vector<std::size_t>> stationsFrom(const Job& job, const StationNames& wanted) {
   std::vector<std::size_t> result;
   if (job.stations.empty())
     return failure(ErrorKind::usage,
                    "there are no stations: add one with `standpoint station PROJECT --add S1 --on X,Y`", "--stations");
-  if (wanted == "all") {
-    for (std::size_t i = 0; i < job.stations.size(); ++i) result.push_back(i);
-    return result;
-  }
-  for (std::size_t from = 0; from <= wanted.size();) {
-    const auto comma = std::min(wanted.find(',', from), wanted.size());
-    const auto name = wanted.substr(from, comma - from);
+  for (const auto& name : wanted.names) {
     const auto at =
         std::find_if(job.stations.begin(), job.stations.end(), [&](const Station& s) { return s.name == name; });
     if (at == job.stations.end())
       return failure(ErrorKind::usage, fmt::format("unknown station '{}'", name), "--stations");
     result.push_back(static_cast<std::size_t>(at - job.stations.begin()));
-    from = comma + 1;
   }
+  for (std::size_t i = 0; wanted.names.empty() && i < job.stations.size(); ++i) result.push_back(i);
   return result;
-}
-
-Result<ScanSettings> settingsFrom(const Instrument& instrument, const json& options) {
-  SettingValues values;
-  for (const auto& pair : options.value("set", json::array())) {
-    const auto text = pair.get<std::string>();
-    values.emplace_back(text.substr(0, text.find('=')), text.substr(text.find('=') + 1));
-  }
-  return resolveSettings(instrument, values);
 }
 
 fs::path fileOf(const ScanRequest& request, const Station& station) {
@@ -124,72 +149,99 @@ fs::path fileOf(const ScanRequest& request, const Station& station) {
   return request.output / (station.name + request.format->extension);
 }
 
-Result<ScanRequest> scanRequestFrom(const Document& document, const json& options) {
+Result<Effects> FieldValue<Effects>::read(const json& text) { return effectsWithout(text.get<std::string>()); }
+json FieldValue<Effects>::write(Effects effects) { return leftOut(effects); }
+Result<Weather> FieldValue<Weather>::read(const json& text) { return weatherFrom(text.get<std::string>()); }
+json FieldValue<Weather>::write(const Weather& weather) { return textOf(weather); }
+Result<Sun> FieldValue<Sun>::read(const json& text) { return sunFrom(text.get<std::string>()); }
+json FieldValue<Sun>::write(const Sun& sun) {
+  return fmt::format("{},{},{}", sun.azimuth_rad / kRadPerDeg, sun.elevation_rad / kRadPerDeg, sun.irradiance_W_m2);
+}
+
+std::span<const Choice<Switch>> choices(Switch) {
+  static constexpr std::array kSwitches = {Choice<Switch>{"on", Switch::on}, Choice<Switch>{"off", Switch::off}};
+  return kSwitches;
+}
+
+const Fields<ScanVerbOptions>& scanFields() {
+  using O = ScanVerbOptions;
+  static const std::string effects = "effects to leave out: " + effectList();
+  static const Fields<O> fields = {
+      {"stations", &O::stations, "all, or names separated by commas"},
+      {"instrument", &O::instrument, "id of the instrument, such as leica-rtc360", {.required = true}},
+      {"set", &O::settings, "settings in the device's own words, such as resolution=12mm"},
+      {"seed", &O::seed, "seed of the noise", {.minimum = 0, .maximum = 9007199254740991.0}},
+      {"ideal", &O::ideal, "no effects: the first surface on the axis of each pulse, exactly"},
+      {"without", &O::without, effects.c_str()},
+      {"weather", &O::weather, "visibility=KM rain=MM/H snow=MM/H fog=M dust=M, separated by spaces or commas"},
+      {"sun", &O::sun, "AZIMUTH,ELEVATION[,W/m2] in degrees, clockwise from the file's Y; lux too: 135,40,80000lux"},
+      {"interference",
+       &O::interference,
+       "probability of a return from another instrument's light",
+       {.minimum = 0, .maximum = 1}},
+      {"field-fault", &O::field_fault,
+       "faults in the field, at a fraction of the columns or of the turn: until=FRACTION ends the scan, push=FRACTION "
+       "moves the tripod, noise=FACTOR, walk=FRACTION a person passing, stand=FRACTION the operator in view"},
+      {"note", &O::notes, "key=text for the file's record of each scan, such as operator=NAME"},
+      {"panorama", &O::panorama, "take a panorama at each station and colour the points from it"},
+      {"panorama-size",
+       &O::panorama_columns,
+       "width of --panorama, twice its height (default: that of the instrument's camera)",
+       {.unit = "pixels", .minimum = 256, .maximum = 32768}},
+      {"compensator", &O::compensator, "off: tilted points from a station out of level"},
+      {"truth", &O::truth, "write the truth of each point: time, return, true place, range, incidence, power, origin"},
+      {"as",
+       &O::as,
+       "an E57 of integers of 0.1 mm, or of range and angles; a PCD as a list of points instead of a grid; a LAS of "
+       "point format 8",
+       {.choices = {"scaled", "spherical", "points", "pdrf8"}}},
+      {"threads", &O::threads, "0 = all; the result is the same", {.minimum = 0, .maximum = 1024}},
+      {"resume", &O::resume, "continue a run that was cancelled or crashed; keep its finished stations"},
+      {"shard", &O::shard, "i/n: only every n-th station from the i-th, for a batch on several machines"},
+      {"output",
+       &O::output,
+       "a folder, or a file (.e57, .ptx, .las, .pcd, …); an E57, PTX or LAS holds all stations",
+       {.required = true}}};
+  return fields;
+}
+
+Result<ScanRequest> scanRequestFrom(const Document& document, const ScanVerbOptions& options) {
   ScanRequest request;
-  auto instrument = instrumentById(options.at("instrument").get<std::string>());
+  auto instrument = instrumentById(options.instrument);
   if (!instrument) return failure(instrument.error());
   request.instrument = *std::move(instrument);
-  auto settings = settingsFrom(request.instrument, options);
+  auto settings = resolveSettings(request.instrument, options.settings);
   if (!settings) return failure(settings.error());
   request.settings = *std::move(settings);
   request.instrument.camera = request.settings.camera;
   if (const auto most = chosenEffect(request.instrument, request.settings.values, "most_returns"))
     request.instrument.waveform.max_returns = static_cast<int>(*most);
-  request.options.seed = options.at("seed").get<std::uint64_t>();
-  if (auto effects = effectsFrom(options); effects)
-    request.options.effects = *effects;
-  else
-    return failure(effects.error());
-  if (options.contains("weather")) {
-    auto weather = weatherFrom(options["weather"].get<std::string>());
-    if (!weather) return failure(weather.error());
-    request.options.weather = *weather;
-  }
-  if (options.contains("sun")) {
-    auto sun = sunFrom(options["sun"].get<std::string>());
-    if (!sun) return failure(sun.error());
-    request.options.sun = *sun;
-  }
-  request.options.interference = options.value("interference", 0.0);
-  if (options.contains("field-fault")) {
-    auto field_fault = fieldFaultFrom(options["field-fault"].get<std::vector<std::string>>());
-    if (!field_fault) return failure(field_fault.error());
-    request.field_fault = *field_fault;
-  }
-  if (options.contains("note")) request.notes = options["note"].get<std::vector<std::string>>();
-  request.levelling = {.compensator = options.at("compensator") == "on",
+  request.options.seed = options.seed;
+  const auto effects = effectsFrom(options);
+  if (!effects) return failure(effects.error());
+  request.options.effects = *effects;
+  request.options.weather = options.weather.value_or(request.options.weather);
+  request.options.sun = options.sun;
+  request.options.interference = options.interference;
+  request.field_fault = options.field_fault;
+  for (const auto& [key, text] : options.notes) request.notes.push_back(key + "=" + text);
+  request.levelling = {.compensator = options.compensator == Switch::on,
                        .exact = !request.options.effects.has(Effect::levelling),
                        .seed = request.options.seed};
-  request.panorama = options.value("panorama", false);
-  if (request.panorama && !request.settings.imaging)
-    return failure(ErrorKind::usage, "a panorama requires settings that take images", "--panorama");
-  if (!request.panorama && !request.settings.laser)
-    return failure(ErrorKind::usage, "these settings measure no points and no panorama is requested", "--set");
-  if (options.contains("panorama-size")) {
-    const auto columns = options["panorama-size"].get<std::uint32_t>();
-    if (!request.panorama) return failure(ErrorKind::usage, "requires --panorama", "--panorama-size");
-    if (columns % 2 != 0)
-      return failure(ErrorKind::usage,
-                     fmt::format("{} is odd: use an even width, since the height is half the width", columns),
-                     "--panorama-size");
-    request.instrument.camera.columns = columns;
-    request.panorama_columns = columns;
-  }
-  const bool truth = options.value("truth", false);
+  if (auto ok = choosePanorama(request, options); !ok) return failure(ok.error());
+  const bool truth = options.truth;
   request.options.channels = {
       .time = truth, .returns = truth || request.instrument.waveform.max_returns > 1, .truth = truth};
-  request.options.threads = options.at("threads").get<int>();
-  auto stations = stationsFrom(*document.job, options.at("stations").get<std::string>());
+  request.options.threads = options.threads;
+  auto stations = stationsFrom(*document.job, options.stations);
   if (!stations) return failure(stations.error());
-  request.stations = *std::move(stations);
-  if (options.contains("shard"))
-    if (auto ok = shard(request.stations, options["shard"].get<std::string>()); !ok) return failure(ok.error());
-  if (auto ok = chooseOutput(request, options.at("output").get<std::string>()); !ok) return failure(ok.error());
-  request.as = options.value("as", "");
+  request.stations = options.shard ? shardOf(*stations, *options.shard) : *std::move(stations);
+  if (auto ok = chooseOutput(request, options.output); !ok) return failure(ok.error());
+  request.as = options.as;
   const auto writer = writerOf(*request.format, request.as);
   if (!writer) return failure(writer.error());
   request.writer = *writer;
-  request.resume = options.value("resume", false);
+  request.resume = options.resume;
   return request;
 }
 

@@ -5,12 +5,11 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "pointclouds/formats.h"
 #include "project/document.h"
 #include "project/field_fault.h"
 #include "project/levelling.h"
+#include "project/survey_verbs.h"
 #include "scanners/engine/ray_engine.h"
 
 namespace standpoint {
@@ -34,17 +33,16 @@ struct ScanRequest {
   bool resume = false;             // stations that an earlier run finished are not scanned again
 };
 
-// What of it the next scan would begin with.
+// What of it the next scan would begin with, and the options that ask for that.
 ScanChoice choiceOf(const ScanRequest& request);
+ScanVerbOptions optionsOf(const ScanChoice& choice);
 // The effects that are left out, separated by commas: what effectsWithout reads.
 std::string leftOut(Effects effects);
 
-Result<ScanRequest> scanRequestFrom(const Document& document, const nlohmann::json& options);
+Result<ScanRequest> scanRequestFrom(const Document& document, const ScanVerbOptions& options);
 
-// "all", or names separated by commas: indices into the job.
-Result<std::vector<std::size_t>> stationsFrom(const Job& job, const std::string& wanted);
-// The instrument with what --set says.
-Result<ScanSettings> settingsFrom(const Instrument& instrument, const nlohmann::json& options);
+// Indices into the job.
+Result<std::vector<std::size_t>> stationsFrom(const Job& job, const StationNames& wanted);
 // What the document assigns, else what the default rules would, and the note that says so.
 Result<MaterialAssignment> scanAssignment(const Document& document, Progress& progress);
 void noteDefaultRules(const Document& document, Report& report);

@@ -323,11 +323,11 @@ class ScanRun {
 
 }  // namespace
 
-Result<Outcome> runScan(const Document& document, const json& options, Progress& progress) {
+Result<Outcome> runScan(const Document& document, const ScanVerbOptions& options, Progress& progress) {
   return runScan(document, options, ScanSurroundings(), progress);
 }
 
-Result<Outcome> runScan(const Document& document, const json& options, const ScanSurroundings& company,
+Result<Outcome> runScan(const Document& document, const ScanVerbOptions& options, const ScanSurroundings& company,
                         Progress& progress) {
   auto request = scanRequestFrom(document, options);
   if (!request) return failure(request.error());

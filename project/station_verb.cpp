@@ -29,13 +29,13 @@ struct Setup {
   bool free = false;  // it hangs or is held: no ground is asked for
 };
 
-Result<Setup> setupFrom(const json& options) {
+Result<Setup> setupFrom(const StationOptions& options) {
   Setup setup;
   auto stand = readTripodStand(tripodStandFile());
   if (!stand) return failure(stand.error());
   setup.stand = *stand;
-  if (options.contains("instrument")) {
-    const auto instrument = instrumentById(options["instrument"].get<std::string>());
+  if (!options.instrument.empty()) {
+    const auto instrument = instrumentById(options.instrument);
     if (!instrument) return failure(instrument.error());
     if (instrument->moving)
       return failure(
@@ -45,8 +45,8 @@ Result<Setup> setupFrom(const json& options) {
     setup.trunnion_m = instrument->trunnion_height_m;
     setup.height_m = instrument->tripod_height_m;
   }
-  setup.height_m = options.value("height", setup.height_m);
-  setup.free = options.value("stand", "tripod") == "free";
+  setup.height_m = options.height_m.value_or(setup.height_m);
+  setup.free = options.stand == StationStand::free;
   return setup;
 }
 
@@ -65,16 +65,13 @@ std::vector<double> heightsBelow(const RayScene& scene, double x, double y) {
   }
 }
 
-bool saysLevel(const json& options) { return options.contains("tilt-deg") || options.contains("levelling-error-deg"); }
+bool saysLevel(const StationOptions& options) { return options.tilt_deg || options.levelling_error_deg; }
 
 // Turned by its yaw and then leant over by its tilt, as stated or drawn.
-Eigen::Quaterniond standingRotation(const json& options, const std::string& name) {
-  Tilt tilt{options.value("tilt-deg", 0.0) * kRadPerDeg, options.value("tilt-towards-deg", 0.0) * kRadPerDeg};
-  if (options.contains("levelling-error-deg"))
-    tilt = drawnTilt(options["levelling-error-deg"].get<double>() * kRadPerDeg, options.at("seed").get<std::uint64_t>(),
-                     name);
-  const double yaw = options.at("yaw-deg").get<double>() * kRadPerDeg;
-  return rotationOf(yaw, tilt);
+Eigen::Quaterniond standingRotation(const StationOptions& options, const std::string& name) {
+  Tilt tilt{options.tilt_deg.value_or(0) * kRadPerDeg, options.tilt_towards_deg * kRadPerDeg};
+  if (options.levelling_error_deg) tilt = drawnTilt(*options.levelling_error_deg * kRadPerDeg, options.seed, name);
+  return rotationOf(options.yaw_deg * kRadPerDeg, tilt);
 }
 
 json stationRow(const Station& s, const Georeference& g) {
@@ -129,27 +126,25 @@ Result<Eigen::Vector3d> bestPlace(const Document& document, const StationPlaceme
 }
 
 // The instrument's centre in the local frame, from --at or --on.
-Result<Eigen::Vector3d> centreFrom(const RayScene& scene, const Georeference& g, const json& options, double height) {
-  if (options.contains("at")) {
-    if (options["at"].size() != 3) return failure(ErrorKind::usage, "--at requires three numbers X,Y,Z in metres");
-    return vectorFrom(options["at"]) - g.shift_m;
-  }
-  const auto& on = options.at("on");
-  const double x = on[0].get<double>() - g.shift_m.x();
-  const double y = on[1].get<double>() - g.shift_m.y();
+Result<Eigen::Vector3d> centreFrom(const RayScene& scene, const Georeference& g, const StationOptions& options,
+                                   double height) {
+  if (options.at) return *options.at - g.shift_m;
+  const auto& on = *options.on;
+  const double x = on.x_m - g.shift_m.x();
+  const double y = on.y_m - g.shift_m.y();
   const auto floors = floorsAt(scene, x, y, height);
   if (floors.empty())
     return failure(ErrorKind::unusable,
                    fmt::format("no floor at ({}, {}) with {:.2f} m of free height for the tripod; choose another "
                                "place, or specify the instrument centre with --at X,Y,Z",
-                               on[0].get<double>(), on[1].get<double>(), height + kRoomAbove_m));
-  if (on.size() == 2) return Eigen::Vector3d(x, y, floors.front() + height);
-  const double z = on[2].get<double>() - g.shift_m.z();
+                               on.x_m, on.y_m, height + kRoomAbove_m));
+  if (!on.z_m) return Eigen::Vector3d(x, y, floors.front() + height);
+  const double z = *on.z_m - g.shift_m.z();
   const auto nearest = *std::min_element(floors.begin(), floors.end(),
                                          [z](double a, double b) { return std::abs(a - z) < std::abs(b - z); });
   if (std::abs(nearest - z) > kFloorSearch_m)
     return failure(ErrorKind::unusable, fmt::format("no floor within {} m of height {}; the nearest floor is at {:.3f}",
-                                                    kFloorSearch_m, on[2].get<double>(), nearest + g.shift_m.z()));
+                                                    kFloorSearch_m, *on.z_m, nearest + g.shift_m.z()));
   return Eigen::Vector3d(x, y, nearest + height);
 }
 
@@ -158,18 +153,18 @@ tl::unexpected<Error> refused(const std::string& name, const Refusal& why) {
 }
 
 // `before` is what moves: where no place is said but a tilt is, it stays where it is.
-Result<Station> place(const Document& document, const std::string& name, const json& options, const Station* before,
-                      Report& report, Progress& progress) {
-  if (options.contains("at") && options.contains("on"))
+Result<Station> place(const Document& document, const std::string& name, const StationOptions& options,
+                      const Station* before, Report& report, Progress& progress) {
+  if (options.at && options.on)
     return failure(ErrorKind::usage, "specify either --at X,Y,Z (instrument centre) or --on X,Y[,Z] (floor)");
   const auto setup = setupFrom(options);
   if (!setup) return failure(setup.error());
   auto scene = RayScene::build(document.environment(), progress);
   if (!scene) return failure(scene.error());
   const StationPlacement placement(**scene, setup->stand, setup->trunnion_m);
-  const bool somewhere = options.contains("at") || options.contains("on");
+  const bool somewhere = options.at || options.on;
   const bool stays = !somewhere && before != nullptr && saysLevel(options);
-  if (!setup->free && !options.contains("at") && !stays)
+  if (!setup->free && !options.at && !stays)
     if (auto why = placement.badHeight(setup->height_m)) return refused(name, *why);
   auto centre = stays       ? Result<Eigen::Vector3d>(before->true_pose.translation)
                 : somewhere ? centreFrom(**scene, *document.georeference, options, setup->height_m)
@@ -212,18 +207,61 @@ std::vector<double> floorsAt(const RayScene& scene, double x_m, double y_m, doub
   return floors;
 }
 
-Result<Outcome> runStation(const Document& document, const json& options, Progress& progress) {
+std::span<const Choice<StationStand>> choices(StationStand) {
+  static constexpr std::array kStands = {Choice<StationStand>{"tripod", StationStand::tripod},
+                                         Choice<StationStand>{"free", StationStand::free}};
+  return kStands;
+}
+
+const Fields<StationOptions>& stationFields() {
+  using O = StationOptions;
+  static const Fields<O> fields = {
+      {"add", &O::add, "name of a new station"},
+      {"move", &O::move, "name of the station to move"},
+      {"remove", &O::remove, "name of the station to remove"},
+      {"at", &O::at, "X,Y,Z of the instrument's centre, in the file's frame", {.unit = "m"}},
+      {"on",
+       &O::on,
+       "X,Y[,Z] of the floor, to which the tripod adds its height; without Z the lowest floor with room",
+       {.unit = "m"}},
+      {"height",
+       &O::height_m,
+       "height of the instrument's centre above the floor (default: the instrument's, else 1.6)",
+       {.unit = "m", .minimum = 0.1, .maximum = 10}},
+      {"instrument", &O::instrument, "id of the instrument to set up, for its heights"},
+      {"stand", &O::stand, "free: suspended or hand-held; only its clearance is checked"},
+      {"tilt-deg",
+       &O::tilt_deg,
+       "tilt of the standing axis from the plumb line",
+       {.unit = "deg", .minimum = 0, .maximum = 60}},
+      {"tilt-towards-deg",
+       &O::tilt_towards_deg,
+       "direction of the tilt, counter-clockwise from the file's X",
+       {.unit = "deg", .minimum = -360, .maximum = 360}},
+      {"levelling-error-deg",
+       &O::levelling_error_deg,
+       "maximum of a tilt drawn by seed and name, instead of a stated one",
+       {.unit = "deg", .minimum = 0, .maximum = 60}},
+      {"seed", &O::seed, "seed of that tilt", {.minimum = 0, .maximum = 9007199254740991.0}},
+      {"yaw-deg",
+       &O::yaw_deg,
+       "direction of the instrument's X axis, counter-clockwise from the file's X",
+       {.unit = "deg", .minimum = -360, .maximum = 360}}};
+  return fields;
+}
+
+Result<Outcome> runStation(const Document& document, const StationOptions& options, Progress& progress) {
   progress.stage("Station");
-  const int asked = static_cast<int>(options.contains("add")) + static_cast<int>(options.contains("move")) +
-                    static_cast<int>(options.contains("remove"));
+  const int asked = static_cast<int>(options.add.has_value()) + static_cast<int>(options.move.has_value()) +
+                    static_cast<int>(options.remove.has_value());
   if (asked > 1) return failure(ErrorKind::usage, "specify one of --add NAME, --move NAME, --remove NAME");
-  if (options.contains("tilt-deg") && options.contains("levelling-error-deg"))
+  if (options.tilt_deg && options.levelling_error_deg)
     return failure(ErrorKind::usage, "use either --tilt-deg, or --levelling-error-deg for a random tilt");
   Outcome outcome{document, json::object(), {}, {}};
   Job job = *document.job;
   const auto& g = *document.georeference;
-  if (options.contains("add")) {
-    const auto name = options["add"].get<std::string>();
+  if (options.add) {
+    const auto& name = *options.add;
     if (name.empty() || name.find_first_of(",/\\") != std::string::npos)
       return failure(ErrorKind::usage,
                      fmt::format("invalid station name '{}': commas and slashes are not allowed", name));
@@ -234,8 +272,8 @@ Result<Outcome> runStation(const Document& document, const json& options, Progre
     outcome.answer["placed"] = stationRow(*station, g);
     outcome.description = "Added station " + name;
     job.stations.push_back(*std::move(station));
-  } else if (options.contains("move")) {
-    const auto name = options["move"].get<std::string>();
+  } else if (options.move) {
+    const auto& name = *options.move;
     const auto at = find(job, name);
     if (at == job.stations.end()) return noStation(job, name);
     auto station = place(document, name, options, &*at, outcome.report, progress);
@@ -245,8 +283,8 @@ Result<Outcome> runStation(const Document& document, const json& options, Progre
     *at = *std::move(station);
     outcome.answer["placed"] = stationRow(*at, g);
     outcome.description = fmt::format("Moved station {} by {:.2f} m", name, distance);
-  } else if (options.contains("remove")) {
-    const auto name = options["remove"].get<std::string>();
+  } else if (options.remove) {
+    const auto& name = *options.remove;
     const auto at = find(job, name);
     if (at == job.stations.end()) return noStation(job, name);
     job.stations.erase(at);

@@ -19,8 +19,6 @@ namespace standpoint {
 namespace {
 
 using Eigen::Vector3d;
-using nlohmann::json;
-
 constexpr double kSurfaceSearch_m = 0.5;  // of --on-surface
 constexpr double kPlate_m = 0.002;        // a plate in front of its wall
 constexpr double kTallestPole_m = 2.5;
@@ -84,19 +82,19 @@ Result<void> fits(const Document& document, const RayScene& scene, const Target&
   return {};
 }
 
-Result<double> floorFor(const RayScene& scene, const json& on, const Vector3d& shift, double height) {
-  const auto floors = floorsAt(scene, on[0].get<double>() - shift.x(), on[1].get<double>() - shift.y(), height);
+Result<double> floorFor(const RayScene& scene, const FloorPlace& on, const Vector3d& shift, double height) {
+  const auto floors = floorsAt(scene, on.x_m - shift.x(), on.y_m - shift.y(), height);
   if (floors.empty())
     return failure(ErrorKind::unusable, fmt::format("no floor at ({}, {}) with {:.2f} m of free height for the target "
                                                     "tripod; choose another place or a smaller --height",
-                                                    on[0].get<double>(), on[1].get<double>(), height));
-  if (on.size() == 2) return floors.front();
-  const double z = on[2].get<double>() - shift.z();
+                                                    on.x_m, on.y_m, height));
+  if (!on.z_m) return floors.front();
+  const double z = *on.z_m - shift.z();
   const double nearest = *std::min_element(floors.begin(), floors.end(),
                                            [z](double a, double b) { return std::abs(a - z) < std::abs(b - z); });
   if (std::abs(nearest - z) <= kFloorSearch_m) return nearest;
   return failure(ErrorKind::unusable, fmt::format("no floor within {} m of height {}; the nearest floor is at {:.3f}",
-                                                  kFloorSearch_m, on[2].get<double>(), nearest + shift.z()));
+                                                  kFloorSearch_m, *on.z_m, nearest + shift.z()));
 }
 
 // A plate on a tripod is turned and tilted to the nearest station.
@@ -150,16 +148,17 @@ std::string nameOf(const Product& p) {
   return fmt::format("{} {} '{}'", p.ifc_class.empty() ? "object" : p.ifc_class, p.id, p.name);
 }
 
-Result<Target> targetArticleFrom(const TargetKinds& kinds, const json& options) {
+Result<Target> targetArticleFrom(const TargetKinds& kinds, const TargetOptions& options) {
   Target t;
-  t.name = options.at("add").get<std::string>();
+  t.name = options.add.value_or("");
   if (t.name.empty() || t.name.find_first_of(",= \t") != std::string::npos)
     return failure(ErrorKind::usage,
                    fmt::format("invalid target name '{}': spaces, commas and equals signs are not allowed", t.name));
-  const auto type = options.value("type", std::string()), kind = options.value("kind", std::string());
+  const auto& type = options.type;
+  const auto kind = options.kind;
   const auto found = std::find_if(kinds.articles.begin(), kinds.articles.end(), [&](const TargetArticle& a) {
     if (!type.empty()) return a.id == type;
-    return kind.empty() || (kind == "sphere") == (a.shape == TargetKind::sphere);
+    return !kind || *kind == a.shape;
   });
   if (found == kinds.articles.end()) {
     std::vector<std::string> ids;
@@ -167,47 +166,46 @@ Result<Target> targetArticleFrom(const TargetKinds& kinds, const json& options) 
     return failure(ErrorKind::usage, fmt::format("unknown target '{}'; available: {}", type, fmt::join(ids, ", ")),
                    "--type");
   }
-  if (!type.empty() && !kind.empty() && (kind == "sphere") != (found->shape == TargetKind::sphere))
-    return failure(ErrorKind::usage, fmt::format("'{}' is not a {}: leave out --kind", type, kind), "--kind");
+  if (!type.empty() && kind && *kind != found->shape)
+    return failure(ErrorKind::usage,
+                   fmt::format("'{}' is not a {}: leave out --kind", type,
+                               *kind == TargetKind::sphere ? "sphere" : "checkerboard"),
+                   "--kind");
   t.kind = found->shape;
-  t.size_m = options.value("size", found->size_m);
+  t.size_m = options.size_m.value_or(found->size_m);
   return t;
 }
 
-Result<Target> placedTarget(const Document& document, const RayScene& scene, Target t, const json& options,
+Result<Target> placedTarget(const Document& document, const RayScene& scene, Target t, const TargetOptions& options,
                             std::string& stands, Report& report) {
   const Vector3d& shift = document.georeference->shift_m;
-  const int ways = static_cast<int>(options.contains("at")) + static_cast<int>(options.contains("on")) +
-                   static_cast<int>(options.contains("on-surface"));
+  const int ways = static_cast<int>(options.at.has_value()) + static_cast<int>(options.on.has_value()) +
+                   static_cast<int>(options.on_surface.has_value());
   if (ways != 1)
     return failure(ErrorKind::usage,
                    "specify one of --at X,Y,Z (target centre), --on X,Y[,Z] (floor below its tripod), --on-surface "
                    "X,Y,Z (attach to the nearest surface)");
-  if (options.contains("on")) {
-    const auto& on = options["on"];
-    const double height = options.at("height").get<double>();
-    const auto floor = floorFor(scene, on, shift, height);
+  if (options.on) {
+    const double height = options.height_m;
+    const auto floor = floorFor(scene, *options.on, shift, height);
     if (!floor) return failure(floor.error());
-    t.centre = {on[0].get<double>() - shift.x(), on[1].get<double>() - shift.y(), *floor + height};
+    t.centre = {options.on->x_m - shift.x(), options.on->y_m - shift.y(), *floor + height};
     t.normal = towardsNearestStation(document, t.centre);
     stands = fmt::format("a tripod of {:.2f} m", height);
   } else {
-    const char* way = options.contains("at") ? "at" : "on-surface";
-    if (options[way].size() != 3)
-      return failure(ErrorKind::usage, fmt::format("--{} requires three numbers X,Y,Z in metres", way));
-    t.centre = vectorFrom(options[way]) - shift;
+    t.centre = (options.at ? *options.at : *options.on_surface) - shift;
   }
-  if (options.contains("on-surface")) {
+  if (options.on_surface) {
     const Vector3d place = t.centre;
-    if (auto ok = stick(document, scene, place, options.at("stand-off").get<double>(), t, stands, report); !ok)
+    if (auto ok = stick(document, scene, place, options.stand_off_m, t, stands, report); !ok)
       return failure(ok.error());
-  } else if (options.contains("normal")) {
-    if (options["normal"].size() != 3 || vectorFrom(options["normal"]).norm() < 1e-9)
+  } else if (options.normal) {
+    if (options.normal->norm() < 1e-9)
       return failure(ErrorKind::usage, "--normal requires three numbers, not all zero");
-    t.normal = vectorFrom(options["normal"]).normalized();
+    t.normal = options.normal->normalized();
   }
   if (auto ok = fits(document, scene, t); !ok) return failure(ok.error());
-  if (options.contains("at") && !isHeld(scene, t))
+  if (options.at && !isHeld(scene, t))
     report.warn(t.name, fmt::format("floating: no adjacent surface, and no floor within {} m below", kTallestPole_m));
   return t;
 }

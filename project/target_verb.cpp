@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -28,13 +29,8 @@ json targetRow(const Target& t, const Georeference& g) {
 
 // Builds the rays' scene, which only adding and looking need.
 Result<json> sightRows(const Document& document, const RayScene& scene, const TargetKinds& kinds,
-                       const std::vector<Target>& targets, const json& options, Report& report) {
-  SightRequest request;
-  request.instrument = options.value("instrument", std::string());
-  for (const auto& pair : options.value("set", json::array())) {
-    const auto text = pair.get<std::string>();
-    request.settings.emplace_back(text.substr(0, text.find('=')), text.substr(text.find('=') + 1));
-  }
+                       const std::vector<Target>& targets, const TargetOptions& options, Report& report) {
+  const SightRequest request{options.instrument, options.settings};
   json rows = json::object();
   for (const auto& t : targets) {
     const auto sights = sightsOf(document, scene, t, kinds.rules, request);
@@ -45,7 +41,8 @@ Result<json> sightRows(const Document& document, const RayScene& scene, const Ta
   return rows;
 }
 
-Result<Target> addedTarget(const Document& document, const json& options, Outcome& outcome, Progress& progress) {
+Result<Target> addedTarget(const Document& document, const TargetOptions& options, Outcome& outcome,
+                           Progress& progress) {
   const auto kinds = readTargetKinds(dataFolder() / "scanners" / "targets" / "kinds.json");
   if (!kinds) return failure(kinds.error());
   auto article = targetArticleFrom(*kinds, options);
@@ -67,7 +64,7 @@ Result<Target> addedTarget(const Document& document, const json& options, Outcom
   return target;
 }
 
-Result<json> sightsOfAll(const Document& document, const json& options, Report& report, Progress& progress) {
+Result<json> sightsOfAll(const Document& document, const TargetOptions& options, Report& report, Progress& progress) {
   const auto kinds = readTargetKinds(dataFolder() / "scanners" / "targets" / "kinds.json");
   if (!kinds) return failure(kinds.error());
   auto scene = RayScene::build(document.environment(), progress);
@@ -133,28 +130,56 @@ PhysicalMaterial paint(const char* id, const char* label, double reflectance) {
 
 }  // namespace
 
-Result<Outcome> runTarget(const Document& document, const json& options, Progress& progress) {
+std::span<const Choice<TargetKind>> choices(TargetKind) {
+  static constexpr std::array kKinds = {Choice<TargetKind>{"sphere", TargetKind::sphere},
+                                        Choice<TargetKind>{"checkerboard", TargetKind::checkerboard}};
+  return kKinds;
+}
+
+const Fields<TargetOptions>& targetFields() {
+  using O = TargetOptions;
+  static const Fields<O> fields = {
+      {"add", &O::add, "name of a new target"},
+      {"remove", &O::remove, "name of the target to remove"},
+      {"at", &O::at, "X,Y,Z of its centre, in the file's frame", {.unit = "m"}},
+      {"on", &O::on, "X,Y[,Z] of the floor for its tripod or pole; without Z the lowest with room", {.unit = "m"}},
+      {"height", &O::height_m, "height of its centre above that floor", {.unit = "m", .minimum = 0.05, .maximum = 5}},
+      {"on-surface", &O::on_surface, "X,Y,Z near the wall, column or ceiling to attach it to", {.unit = "m"}},
+      {"stand-off",
+       &O::stand_off_m,
+       "depth of a magnetic base or bracket between surface and target",
+       {.unit = "m", .minimum = 0, .maximum = 1}},
+      {"type", &O::type,
+       "article of scanners/targets/kinds.json: sphere-145, sphere-200, sphere-139, paper-150, bw-114, bw-152"},
+      {"kind", &O::kind, "kind of target where no article is named"},
+      {"size", &O::size_m, "diameter or side (default: the article's)", {.unit = "m", .minimum = 0.01, .maximum = 2}},
+      {"normal", &O::normal, "direction that a checkerboard faces (default on a tripod: the nearest station)"},
+      {"sight", &O::sight, "list how each station sees each target"},
+      {"instrument", &O::instrument, "id of the measuring instrument (default: those used for scanning)"},
+      {"set", &O::settings, "settings of the instrument, as of scan"}};
+  return fields;
+}
+
+Result<Outcome> runTarget(const Document& document, const TargetOptions& options, Progress& progress) {
   progress.stage("Target");
-  if (options.contains("add") && options.contains("remove"))
-    return failure(ErrorKind::usage, "specify one of --add NAME, --remove NAME");
+  if (options.add && options.remove) return failure(ErrorKind::usage, "specify one of --add NAME, --remove NAME");
   Outcome outcome{document, json::object(), {}, {}};
   Job job = *document.job;
   const auto& g = *document.georeference;
   const auto find = [&](const std::string& wanted) {
     return std::find_if(job.targets.begin(), job.targets.end(), [&](const Target& t) { return t.name == wanted; });
   };
-  if (options.contains("add")) {
+  if (options.add) {
     auto target = addedTarget(document, options, outcome, progress);
     if (!target) return failure(target.error());
     outcome.description = "Added target " + target->name;
     job.targets.push_back(*std::move(target));
-  } else if (options.contains("remove")) {
-    const auto at = find(options["remove"].get<std::string>());
-    if (at == job.targets.end())
-      return failure(ErrorKind::usage, fmt::format("unknown target '{}'", options["remove"].get<std::string>()));
+  } else if (options.remove) {
+    const auto at = find(*options.remove);
+    if (at == job.targets.end()) return failure(ErrorKind::usage, fmt::format("unknown target '{}'", *options.remove));
     outcome.description = "Removed target " + at->name;
     job.targets.erase(at);
-  } else if (options.value("sight", false)) {
+  } else if (options.sight) {
     auto sights = sightsOfAll(document, options, outcome.report, progress);
     if (!sights) return failure(sights.error());
     outcome.answer["seen_from"] = *std::move(sights);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -65,21 +66,39 @@ std::string nameOf(const Product* product) { return product->name.empty() ? prod
 
 }  // namespace
 
-Result<Outcome> runTreat(const Document& document, const json& options, Progress& progress) {
-  const auto selectors = options.value("products", std::vector<std::string>{});
+std::span<const Choice<TreatmentKind>> choices(TreatmentKind) {
+  static constexpr std::array kTreatments = {Choice<TreatmentKind>{"excluded", TreatmentKind::excluded},
+                                             Choice<TreatmentKind>{"kept", TreatmentKind::kept},
+                                             Choice<TreatmentKind>{"simplified", TreatmentKind::simplified},
+                                             Choice<TreatmentKind>{"rules", TreatmentKind::as_rules}};
+  return kTreatments;
+}
+
+const Fields<TreatOptions>& treatFields() {
+  using O = TreatOptions;
+  static const Fields<O> fields = {
+      {"products", &O::products, "#id, a GlobalId, class:IfcFurniture, name:*chair*, storey:…", {.positional = true}},
+      {"as", &O::as, "`excluded`: not in the scene; `kept`: never simplified; `rules`: back to the rules"},
+      {"max-deviation",
+       &O::max_deviation_m,
+       "with simplified: maximum deviation of the surface",
+       {.unit = "m", .minimum = 0, .maximum = 1000}},
+      {"weight", &O::weight, "with simplified: factor on the product's error", {.minimum = 0.001, .maximum = 1000}}};
+  return fields;
+}
+
+Result<Outcome> runTreat(const Document& document, const TreatOptions& options, Progress& progress) {
+  const auto& selectors = options.products;
   const auto now = document.treatments ? *document.treatments : std::vector<Treatment>{};
   if (selectors.empty()) {
-    if (options.contains("as"))
+    if (options.as)
       return failure(ErrorKind::usage, "specify products: #id, a GlobalId, class:IfcFurniture, name:*chair*, storey:…",
                      "products");
     return Outcome{document, answerOf(*document.imported, now), {}, {}};
   }
-  if (!options.contains("as"))
-    return failure(ErrorKind::usage, "specify a treatment: excluded, kept, simplified or rules", "--as");
-  const auto kind = treatmentKind(options.at("as"));
-  Treatment treatment{{}, kind, {}, {}};
-  if (options.contains("max-deviation")) treatment.max_deviation_m = options.at("max-deviation").get<double>();
-  if (options.contains("weight")) treatment.weight = options.at("weight").get<double>();
+  if (!options.as) return failure(ErrorKind::usage, "specify a treatment: excluded, kept, simplified or rules", "--as");
+  const auto kind = *options.as;
+  Treatment treatment{{}, kind, options.max_deviation_m, options.weight};
   if (kind != TreatmentKind::simplified && (treatment.max_deviation_m || treatment.weight))
     return failure(ErrorKind::usage, "limits require --as simplified",
                    treatment.weight ? "--weight" : "--max-deviation");

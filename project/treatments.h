@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "project/verb.h"
+#include "project/fields.h"
 
 namespace standpoint {
 
@@ -29,6 +29,14 @@ TreatmentKind treatmentKind(const std::string& word);
 nlohmann::json treatmentsToJson(const std::vector<Treatment>& treatments);
 std::vector<Treatment> treatmentsFrom(const nlohmann::json& rows);  // throws nlohmann's exceptions
 
-Result<Outcome> runTreat(const Document& document, const nlohmann::json& options, Progress& progress);
+std::span<const Choice<TreatmentKind>> choices(TreatmentKind);
+struct TreatOptions {
+  std::vector<std::string> products;  // selectors; empty: list what was said
+  std::optional<TreatmentKind> as;
+  std::optional<double> max_deviation_m;  // with TreatmentKind::simplified, as the next
+  std::optional<double> weight;
+};
+const Fields<TreatOptions>& treatFields();
+Result<Outcome> runTreat(const Document& document, const TreatOptions& options, Progress& progress);
 
 }  // namespace standpoint

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -20,6 +21,7 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr std::array kActions = {"add", "move", "register", "remove", "show", "hide"};
+enum class Action { add, move, fit, remove, show, hide };  // of kActions
 
 json underlayRow(const Underlay& u) {
   std::error_code ignored;
@@ -35,17 +37,12 @@ json underlayRow(const Underlay& u) {
           {"visible", u.visible}};
 }
 
-bool posed(const json& options) { return options.contains("at") || options.contains("yaw-deg"); }
+bool posed(const UnderlayOptions& options) { return options.at || options.yaw_deg; }
 
 // What is not said stays as it is.
-Result<Pose> posedBy(const json& options, Pose pose) {
-  if (options.contains("at")) {
-    if (options["at"].size() != 3)
-      return failure(ErrorKind::usage, "--at requires X,Y,Z of the cloud's origin in metres");
-    pose.translation = vectorFrom(options["at"]);
-  }
-  if (options.contains("yaw-deg"))
-    pose.rotation = Eigen::AngleAxisd(options["yaw-deg"].get<double>() * kRadPerDeg, Eigen::Vector3d::UnitZ());
+Pose posedBy(const UnderlayOptions& options, Pose pose) {
+  if (options.at) pose.translation = *options.at;
+  if (options.yaw_deg) pose.rotation = Eigen::AngleAxisd(*options.yaw_deg * kRadPerDeg, Eigen::Vector3d::UnitZ());
   if (pose.rotation.w() < 0) pose.rotation.coeffs() *= -1;
   return pose;
 }
@@ -59,8 +56,9 @@ std::string freeName(const Underlays& underlays, const std::string& wanted) {
   return name;
 }
 
-Result<Underlay> addedUnderlay(const Document& document, const json& options, Report& report, Progress& progress) {
-  const fs::path file = fs::absolute(options["add"].get<std::string>()).lexically_normal();
+Result<Underlay> addedUnderlay(const Document& document, const UnderlayOptions& options, Report& report,
+                               Progress& progress) {
+  const fs::path file = fs::absolute(*options.add).lexically_normal();
   progress.stage("Reading " + file.filename().string());
   std::error_code ignored;
   if (!fs::exists(file, ignored)) return failure(ErrorKind::file_system, "file not found", file.string());
@@ -71,16 +69,14 @@ Result<Underlay> addedUnderlay(const Document& document, const json& options, Re
   for (const auto& issue : extent->report.issues)
     report.issues.push_back({std::min(issue.severity, Severity::warning), issue.source, issue.message});
   Underlay u;
-  u.name = freeName(document.underlays, options.value("name", file.stem().string()));
+  u.name = freeName(document.underlays, options.name.empty() ? file.stem().string() : options.name);
   u.file = file.string();
   u.format = extent->format;
   u.points = extent->points;
   u.bounds_cloud_m = extent->bounds_file_m;
   u.crs = extent->crs;
   if (posed(options)) {
-    auto pose = posedBy(options, {});
-    if (!pose) return failure(pose.error());
-    u.file_from_cloud = *pose;
+    u.file_from_cloud = posedBy(options, {});
     return u;
   }
   Bounds model = bounds(*document.imported);
@@ -92,21 +88,10 @@ Result<Underlay> addedUnderlay(const Document& document, const json& options, Re
   return u;
 }
 
-Result<Underlay> registeredUnderlay(const Outcome& outcome, const Underlay& underlay, const json& options, json& answer,
-                                    Report& report, Progress& progress) {
-  RegisterRequest request;
-  auto pairs = placePairsFrom(options.value("pairs", json::array()));
-  if (!pairs) return failure(pairs.error());
-  request.pairs = *std::move(pairs);
-  request.to_surface = options.value("icp", false);
-  request.reach_m = options.at("reach").get<double>();
-  return registered(outcome.document, underlay, request, answer, report, progress);
-}
-
-Result<void> change(Outcome& outcome, const char* action, const json& options, Progress& progress) {
+Result<void> change(Outcome& outcome, Action what, const std::string& name, const UnderlayOptions& options,
+                    Progress& progress) {
   auto& underlays = outcome.document.underlays;
   auto& description = outcome.description;
-  const auto name = options[action].get<std::string>();
   const auto at = std::find_if(underlays.begin(), underlays.end(), [&](const auto& u) { return u->name == name; });
   if (at == underlays.end()) {
     std::vector<std::string> names;
@@ -114,29 +99,27 @@ Result<void> change(Outcome& outcome, const char* action, const json& options, P
     return failure(ErrorKind::usage, fmt::format("unknown underlay '{}'; available: {}", name,
                                                  names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
   }
-  const std::string_view what = action;
-  if (what == "remove") {
+  if (what == Action::remove) {
     description = "Removed underlay " + name;
     underlays.erase(at);
     return {};
   }
   Underlay changed = **at;
-  if (what == "move") {
+  if (what == Action::move) {
     if (!posed(options)) return failure(ErrorKind::usage, "specify the new position: --at X,Y,Z, --yaw-deg A");
-    auto pose = posedBy(options, changed.file_from_cloud);
-    if (!pose) return failure(pose.error());
-    const double by_m = (pose->translation - changed.file_from_cloud.translation).norm();
-    changed.file_from_cloud = *pose;
+    const auto pose = posedBy(options, changed.file_from_cloud);
+    const double by_m = (pose.translation - changed.file_from_cloud.translation).norm();
+    changed.file_from_cloud = pose;
     description = fmt::format("Moved underlay {} by {:.3f} m", name, by_m);
-  } else if (what == "register") {
+  } else if (what == Action::fit) {
     json answer;
-    auto done = registeredUnderlay(outcome, changed, options, answer, outcome.report, progress);
+    auto done = registered(outcome.document, changed, options, answer, outcome.report, progress);
     if (!done) return failure(done.error());
     changed = *std::move(done);
     outcome.answer["registered"] = std::move(answer);
     description = fmt::format("Registered underlay {}", name);
   } else {
-    changed.visible = what == "show";
+    changed.visible = what == Action::show;
     description = fmt::format("{} underlay {}", changed.visible ? "Showed" : "Hid", name);
   }
   *at = std::make_shared<const Underlay>(std::move(changed));
@@ -147,26 +130,56 @@ Result<void> change(Outcome& outcome, const char* action, const json& options, P
 
 Bounds boundsInFile(const Underlay& u) { return moved(u.file_from_cloud, u.bounds_cloud_m); }
 
-Result<Outcome> runUnderlay(const Document& document, const json& options, Progress& progress) {
+const Fields<UnderlayOptions>& underlayFields() {
+  using O = UnderlayOptions;
+  static const Fields<O> fields = {
+      {"add", &O::add, "cloud file (.e57, .las, .ply, .ptx, .pts, .xyz)"},
+      {"name", &O::name, "name of what is added (default: the file's)"},
+      {"move", &O::move, "name of the underlay to move"},
+      {"register", &O::fit, "name of the underlay to register to the model, by --pairs, --icp, or both in this order"},
+      {"pairs", &O::pairs, "three or more x,y,z=X,Y,Z: a place in the cloud's file, and in the model's"},
+      {"icp", &O::to_surface, "fit the cloud to the model's surface, starting at its present place"},
+      {"reach",
+       &O::reach_m,
+       "maximum distance of a point from its surface for --icp",
+       {.unit = "m", .minimum = 0.01, .maximum = 100}},
+      {"remove", &O::remove, "name of the underlay to remove"},
+      {"show", &O::show, "name of the underlay to show"},
+      {"hide", &O::hide, "name of the underlay to hide"},
+      {"at",
+       &O::at,
+       "X,Y,Z of the cloud's origin in the file's frame (default: by the map conversion, else as the cloud is)",
+       {.unit = "m"}},
+      {"yaw-deg",
+       &O::yaw_deg,
+       "angle from the file's X axis to the cloud's, counter-clockwise",
+       {.unit = "deg", .minimum = -360, .maximum = 360}}};
+  return fields;
+}
+
+Result<Outcome> runUnderlay(const Document& document, const UnderlayOptions& options, Progress& progress) {
   progress.stage("Underlay");
-  const char* action = nullptr;
-  for (const char* each : kActions) {
-    if (!options.contains(each)) continue;
+  const auto added_file = options.add ? std::optional(options.add->string()) : std::nullopt;
+  const std::array said = {&added_file, &options.move, &options.fit, &options.remove, &options.show, &options.hide};
+  std::optional<Action> action;
+  for (std::size_t i = 0; i < said.size(); ++i) {
+    if (!said[i]->has_value()) continue;
     if (action) return failure(ErrorKind::usage, fmt::format("specify one of --{}", fmt::join(kActions, ", --")));
-    action = each;
+    action = static_cast<Action>(i);
   }
-  if (!(action && std::string_view(action) == "register") && (options.contains("pairs") || options.value("icp", false)))
+  if (action != Action::fit && (!options.pairs.empty() || options.to_surface))
     return failure(ErrorKind::usage, "--pairs and --icp require --register NAME");
   Outcome outcome{document, json::object(), {}, {}};
   auto& underlays = outcome.document.underlays;
-  if (action && std::string_view(action) == "add") {
+  if (action == Action::add) {
     auto added = addedUnderlay(document, options, outcome.report, progress);
     if (!added) return failure(added.error());
     outcome.answer["placed"] = underlayRow(*added);
     outcome.description = fmt::format("Added underlay {}: {} points", added->name, added->points);
     underlays.push_back(std::make_shared<const Underlay>(*std::move(added)));
   } else if (action) {
-    if (auto changed = change(outcome, action, options, progress); !changed) return failure(changed.error());
+    const auto& name = **said[static_cast<std::size_t>(*action)];
+    if (auto changed = change(outcome, *action, name, options, progress); !changed) return failure(changed.error());
   }
   json rows = json::array();
   for (const auto& u : underlays) rows.push_back(underlayRow(*u));

@@ -3,11 +3,14 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include "project/verb.h"
+#include "project/fields.h"
+#include "project/registering.h"
 
 namespace standpoint {
 
@@ -22,6 +25,15 @@ Underlays underlaysFrom(const nlohmann::json& part, const std::filesystem::path&
 Bounds boundsInFile(const Underlay& underlay);
 
 // Adds, moves, registers, shows, hides, removes or lists clouds that lie under the model.
-Result<Outcome> runUnderlay(const Document& document, const nlohmann::json& options, Progress& progress);
+// Of the actions at most one; none lists.
+struct UnderlayOptions : RegisterRequest {  // for `fit`
+  std::optional<std::filesystem::path> add;
+  std::string name;  // of what is added; empty: the file's
+  std::optional<std::string> move, fit, remove, show, hide;
+  std::optional<Eigen::Vector3d> at;  // the cloud's origin in the file's frame, m
+  std::optional<double> yaw_deg;
+};
+const Fields<UnderlayOptions>& underlayFields();
+Result<Outcome> runUnderlay(const Document& document, const UnderlayOptions& options, Progress& progress);
 
 }  // namespace standpoint

@@ -128,7 +128,7 @@ struct Update {
     auto request = before.simplified->request;
     if (std::exchange(request.by_view, false))
       outcome.report.note("optimize", "visibility in the changed model is unknown: visibility weights are not applied");
-    auto light = optimizeDocument(outcome.document, request, progress);
+    auto light = runOptimize(outcome.document, request, progress);
     if (!light) return failure(light.error());
     outcome.document.simplified = light->document.simplified;
     outcome.report.append(light->report);

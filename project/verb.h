@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,7 +24,7 @@ enum class ParameterKind {
   flag,     // true when given
   choice,   // one of Parameter::choices
   path,     // file or folder
-  triple,   // "E,N,H" or "X,Y,Z": array of three numbers
+  triple,   // "E,N,H" or "X,Y,Z": array of Parameter::min_numbers to three numbers
   pairs,    // "key=value ...": array of strings
   list,     // array of strings
 };
@@ -39,6 +40,9 @@ struct Parameter {
   std::vector<const char*> choices = {};
   bool positional = false;
   bool required = false;
+  std::size_t min_numbers = 3;  // of a triple; 2 where the height may be left out
+  // Of a value that fits the kind: an error where its text says nothing that the verb can use. Empty: all that fits.
+  std::function<Result<void>(const nlohmann::json&)> check = {};
 };
 
 enum class VerbScope {
@@ -59,13 +63,14 @@ struct Outcome {
   std::string text = {};
 };
 
-// A verb never changes its argument: undo is the previous value.
+// An action as the doors see it: `run` takes options that checkOptions has passed. A verb's own function is typed;
+// verbOf() of project/fields.h makes the entry. A verb never changes its argument: undo is the previous value.
 struct Verb {
   const char* name;  // "optimize"
   const char* summary;
   VerbScope scope;
   std::vector<Parameter> parameters;  // without the project itself
-  Result<Outcome> (*run)(const Document&, const nlohmann::json& options, Progress&);
+  std::function<Result<Outcome>(const Document&, const nlohmann::json& options, Progress&)> run;
 };
 
 // The tables of verbs: this one and emulated-ui's; the doors join them.

@@ -3,13 +3,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include "project/verb.h"
+#include "project/fields.h"
 
 namespace standpoint {
 
@@ -38,6 +39,14 @@ std::shared_ptr<const Verification> verificationFrom(const nlohmann::json& part)
 
 // Compares the intensities of an underlay with what its surfaces' materials should send back. A verb of its own and no
 // option of `materials`, which assigns: this one assigns nothing, and its options mean nothing to an assignment.
-Result<Outcome> runVerify(const Document& document, const nlohmann::json& options, Progress& progress);
+struct VerifyOptions {
+  std::string underlay;                 // its name; empty: the only one
+  std::string instrument;               // id; empty: as the cloud says
+  std::optional<Eigen::Vector3d> from;  // the station in the model's file frame, m
+  double tolerance_m = 0.03;
+  std::size_t points = 2000000;  // maximum drawn from the cloud
+};
+const Fields<VerifyOptions>& verifyFields();
+Result<Outcome> runVerify(const Document& document, const VerifyOptions& options, Progress& progress);
 
 }  // namespace standpoint

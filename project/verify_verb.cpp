@@ -28,13 +28,13 @@ std::string lower(std::string text) {
   return text;
 }
 
-Result<std::shared_ptr<const Underlay>> underlayFor(const Document& document, const json& options) {
+Result<std::shared_ptr<const Underlay>> underlayFor(const Document& document, const VerifyOptions& options) {
   const auto& all = document.underlays;
   if (all.empty())
     return failure(ErrorKind::usage, "there is no underlay: add one with `standpoint underlay PROJECT --add FILE`",
                    "verify");
-  if (!options.contains("underlay") && all.size() == 1) return all.front();
-  const auto name = options.value("underlay", std::string());
+  const auto& name = options.underlay;
+  if (name.empty() && all.size() == 1) return all.front();
   std::vector<std::string> names;
   for (const auto& u : all) {
     if (u->name == name) return u;
@@ -47,8 +47,8 @@ Result<std::shared_ptr<const Underlay>> underlayFor(const Document& document, co
 }
 
 // The one that is named, else the one whose maker and model the cloud's scans name.
-Result<Instrument> instrumentFor(const json& options, const CloudSample& sample, Report& report) {
-  if (const auto id = options.value("instrument", std::string()); !id.empty()) return instrumentById(id);
+Result<Instrument> instrumentFor(const VerifyOptions& options, const CloudSample& sample, Report& report) {
+  if (!options.instrument.empty()) return instrumentById(options.instrument);
   const auto all = knownInstruments();
   if (!all) return failure(all.error());
   // The longest model that fits: "Focus S350" before "Focus".
@@ -71,8 +71,8 @@ Result<Instrument> instrumentFor(const json& options, const CloudSample& sample,
   return *best;
 }
 
-Result<CloudSample> usableSample(const Underlay& underlay, const json& options, Progress& progress) {
-  auto sample = sampleCloud(underlay.file, options.at("points").get<std::size_t>(), progress);
+Result<CloudSample> usableSample(const Underlay& underlay, const VerifyOptions& options, Progress& progress) {
+  auto sample = sampleCloud(underlay.file, options.points, progress);
   if (!sample) return failure(sample.error());
   if (sample->intensity.empty())
     return failure(ErrorKind::unusable,
@@ -87,11 +87,8 @@ Result<CloudSample> usableSample(const Underlay& underlay, const json& options, 
         underlay.name);
   std::size_t without = 0;
   for (auto& scan : sample->scans) {
-    if (options.contains("from")) {
-      if (options["from"].size() != 3) return failure(ErrorKind::usage, "must be X,Y,Z in metres", "--from");
-      const Pose& pose = underlay.file_from_cloud;
-      if (!scan.station) scan.station = pose.rotation.conjugate() * (vectorFrom(options["from"]) - pose.translation);
-    }
+    const Pose& pose = underlay.file_from_cloud;
+    if (options.from && !scan.station) scan.station = pose.rotation.conjugate() * (*options.from - pose.translation);
     without += scan.station ? 0 : 1;
   }
   if (without == sample->scans.size())
@@ -104,7 +101,7 @@ Result<CloudSample> usableSample(const Underlay& underlay, const json& options, 
 
 Result<VerifyFound> found(const Document& document, const Underlay& underlay, const CloudSample& sample,
                           const Instrument& instrument, const std::vector<PhysicalMaterial>& library,
-                          const json& options, Progress& progress) {
+                          const VerifyOptions& options, Progress& progress) {
   VerifyFound f;
   f.underlay = underlay.name;
   f.instrument = &instrument;
@@ -120,7 +117,7 @@ Result<VerifyFound> found(const Document& document, const Underlay& underlay, co
                                                              &document.materials->result.assignment);
   const Expectation expectation(*scene, assignment, ReturnLaw(instrument, *settings));
   MeetingTolerance tolerance;
-  tolerance.met_m = options.at("tolerance").get<double>();
+  tolerance.met_m = options.tolerance_m;
   tolerance.window_m = std::max(tolerance.window_m, tolerance.met_m);
   progress.stage("Beams to the points", 0.45, 0.6);
   auto measured =
@@ -172,7 +169,25 @@ void judgePlacement(VerifyFound& f) {
 
 }  // namespace
 
-Result<Outcome> runVerify(const Document& document, const json& options, Progress& progress) {
+const Fields<VerifyOptions>& verifyFields() {
+  using O = VerifyOptions;
+  static const Fields<O> fields = {
+      {"underlay", &O::underlay, "name of the underlay (default: the only one)", {.positional = true}},
+      {"instrument", &O::instrument,
+       "id of the instrument that measured, for its wavelength (default: as the cloud says)"},
+      {"from", &O::from, "X,Y,Z of the station in the model's file frame, where the cloud has none", {.unit = "m"}},
+      {"tolerance",
+       &O::tolerance_m,
+       "maximum distance of compared points from their surface",
+       {.unit = "m", .minimum = 0.001, .maximum = 0.2}},
+      {"points",
+       &O::points,
+       "maximum number of points, drawn evenly from the cloud",
+       {.minimum = 1000, .maximum = 20000000}}};
+  return fields;
+}
+
+Result<Outcome> runVerify(const Document& document, const VerifyOptions& options, Progress& progress) {
   progress.stage("Verify", 0, 0.4);
   auto underlay = underlayFor(document, options);
   if (!underlay) return failure(underlay.error());

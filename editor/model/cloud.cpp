@@ -95,28 +95,19 @@ Result<Cloud> sampleCloud(const std::filesystem::path& file, const Eigen::Vector
   return cloud;
 }
 
-CloudLoader::~CloudLoader() { stop(); }
-
-void CloudLoader::stop() {
-  if (progress_) progress_->cancel();
-  if (worker_.joinable()) worker_.join();
-}
-
 void CloudLoader::start(const std::filesystem::path& file, const Eigen::Vector3d& shift_m, std::function<void()> wake) {
-  stop();
-  progress_ = std::make_unique<Progress>();
-  done_.store(false);
-  worker_ = std::thread([this, file, shift_m, wake = std::move(wake)] {
-    result_ = sampleCloud(file, shift_m, kMostShownPoints, *progress_);
-    done_.store(true);
-    if (wake) wake();
-  });
+  task_.reset();
+  task_ = std::make_unique<Task<Cloud>>(
+      "Show " + file.filename().string(),
+      [file, shift_m](Progress& progress) { return sampleCloud(file, shift_m, kMostShownPoints, progress); },
+      std::move(wake));
 }
 
 std::optional<Result<Cloud>> CloudLoader::take() {
-  if (!worker_.joinable() || !done_.load()) return std::nullopt;
-  worker_.join();
-  return std::move(result_);
+  if (!task_ || !task_->done()) return std::nullopt;
+  auto cloud = task_->take();
+  task_.reset();
+  return cloud;
 }
 
 }  // namespace standpoint

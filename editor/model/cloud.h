@@ -2,14 +2,12 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <Eigen/Core>
@@ -17,6 +15,7 @@
 #include "core/points.h"
 #include "core/progress.h"
 #include "core/result.h"
+#include "project/task.h"
 
 namespace standpoint {
 
@@ -64,19 +63,14 @@ Result<Cloud> sampleCloud(const std::filesystem::path& file, const Eigen::Vector
 // Reads a cloud in the background.
 class CloudLoader {
  public:
-  ~CloudLoader();
   void start(const std::filesystem::path& file, const Eigen::Vector3d& shift_m, std::function<void()> wake);
-  bool busy() const { return worker_.joinable() && !done_.load(); }
-  Progress* progress() { return busy() ? progress_.get() : nullptr; }
+  bool busy() const { return task_ && !task_->done(); }
+  Progress* progress() { return busy() ? &task_->progress() : nullptr; }
   // What the last start brought; once.
   std::optional<Result<Cloud>> take();
 
  private:
-  void stop();
-  std::unique_ptr<Progress> progress_;
-  std::thread worker_;
-  std::atomic<bool> done_{false};
-  Result<Cloud> result_ = failure(ErrorKind::internal, "not read");
+  std::unique_ptr<Task<Cloud>> task_;
 };
 
 }  // namespace standpoint

@@ -68,41 +68,29 @@ std::array<std::uint8_t, 4> deviationColour(double distance_m, double full_scale
   return colour;
 }
 
-DeviationView::~DeviationView() { stop(); }
-
-void DeviationView::stop() {
-  if (progress_) progress_->cancel();
-  wait();
-}
-
-void DeviationView::wait() {
-  if (worker_.joinable()) worker_.join();
-}
-
 void DeviationView::follow(const Document& document, const std::function<void()>& wake) {
   const auto lighter = document.simplified ? document.simplified->environment : nullptr;
   if (document.imported == original_ && lighter == lighter_) return;
-  stop();
-  result_.reset();
+  task_.reset();
   original_ = document.imported;
   lighter_ = lighter;
   if (!original_ || !lighter_) return;
-  progress_ = std::make_unique<Progress>();
-  done_.store(false);
   const double limit_m = document.simplified->request.lod_rules.empty() ? document.simplified->request.max_deviation_m
                                                                         : document.simplified->all.max_deviation_m;
-  worker_ = std::thread([this, limit_m, wake] {
-    result_ = compare(original_, lighter_, limit_m, *progress_);
-    done_.store(true);
-    if (wake) wake();
-  });
+  using Compared = std::shared_ptr<const Comparison>;
+  task_ = std::make_unique<Task<Compared>>(
+      "Compare with the original",
+      [original = original_, lighter, limit_m](Progress& progress) -> Result<Compared> {
+        return compare(original, lighter, limit_m, progress);
+      },
+      wake);
 }
 
 std::shared_ptr<const Comparison> DeviationView::of(const Document& document) const {
-  if (!done_.load() || !document.simplified || document.imported != original_ ||
+  if (!task_ || !task_->done() || !document.simplified || document.imported != original_ ||
       document.simplified->environment != lighter_)
     return nullptr;
-  return result_;
+  return task_->result().value_or(nullptr);
 }
 
 }  // namespace standpoint

@@ -2,14 +2,13 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <functional>
 #include <memory>
-#include <thread>
 #include <vector>
 
 #include "optimizer/surface/vertex_deviation.h"
 #include "project/document.h"
+#include "project/task.h"
 
 namespace standpoint {
 
@@ -38,21 +37,18 @@ std::array<std::uint8_t, 4> deviationColour(double distance_m, double full_scale
 // Compares the lighter model with the original in the background, once for each pair.
 class DeviationView {
  public:
-  ~DeviationView();
   // To be called when the document may have changed and the comparison is asked for.
   void follow(const Document& document, const std::function<void()>& wake);
   // Of this document; null until it is there.
   std::shared_ptr<const Comparison> of(const Document& document) const;
-  bool busy() const { return worker_.joinable() && !done_.load(); }
-  void wait();
+  bool busy() const { return task_ && !task_->done(); }
+  void wait() {
+    if (task_) task_->wait();
+  }
 
  private:
-  void stop();
   std::shared_ptr<const Environment> original_, lighter_;  // of what is computed or there
-  std::unique_ptr<Progress> progress_;
-  std::thread worker_;
-  std::atomic<bool> done_{false};
-  std::shared_ptr<const Comparison> result_;
+  std::unique_ptr<Task<std::shared_ptr<const Comparison>>> task_;
 };
 
 }  // namespace standpoint

@@ -111,7 +111,12 @@ void ImportPreview::start() {
     leaving_.push_back(std::move(task_));
   }
   read_with_ = overrides;
-  task_ = std::make_unique<Task>("Read " + fileNames(), *verb_, Document(), importOptions(files_, overrides), wake_);
+  task_ = std::make_unique<Task<Outcome>>(
+      "Read " + fileNames(),
+      [verb = verb_, options = importOptions(files_, overrides)](Progress& progress) {
+        return runVerb(*verb, Document(), options, progress);
+      },
+      wake_);
 }
 
 void ImportPreview::readAgain() {

@@ -71,7 +71,7 @@ class ImportPreview {
   bool changed() const { return !(overrides == read_with_); }
   const std::vector<std::filesystem::path>& files() const { return files_; }
   std::string fileNames() const;
-  Task* task() const { return task_.get(); }
+  Task<Outcome>* task() const { return task_.get(); }
   const Outcome* outcome() const { return outcome_ ? &*outcome_ : nullptr; }
   const ImportFacts& facts() const { return facts_; }
   // Of the last reading, with an empty message when it went well. When only other overrides failed, what was read
@@ -88,8 +88,8 @@ class ImportPreview {
   std::vector<std::filesystem::path> files_;
   const Verb* verb_ = nullptr;
   std::function<void()> wake_;
-  std::unique_ptr<Task> task_;
-  std::vector<std::unique_ptr<Task>> leaving_;  // cancelled, not yet done
+  std::unique_ptr<Task<Outcome>> task_;
+  std::vector<std::unique_ptr<Task<Outcome>>> leaving_;  // cancelled, not yet done
   std::optional<Outcome> outcome_;
   ImportOverrides read_with_, outcome_with_;
   ImportFacts facts_;

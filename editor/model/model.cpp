@@ -54,8 +54,11 @@ void Model::showCloud(const std::filesystem::path& file) {
 bool Model::startScan(nlohmann::json options, std::string title) {
   auto live = std::make_shared<LiveCloud>(shift_m(), wake);
   const ScanSurroundings company{scan_readiness.at_hand(), live};
-  const auto work = [company](const Document& document, const nlohmann::json& filled, Progress& progress) {
-    return runScan(document, filled, company, progress);
+  const auto work = [company](const Document& document, const nlohmann::json& filled,
+                              Progress& progress) -> Result<Outcome> {
+    const auto typed = optionsFrom(scanFields(), filled);
+    if (!typed) return failure(typed.error());
+    return runScan(document, *typed, company, progress);
   };
   if (!session.start("scan", std::move(options), std::move(title), work)) return false;
   live_ = std::move(live);

@@ -18,38 +18,20 @@ bool shown(const RayHit& hit, const ViewState& view) {
 
 }  // namespace
 
-Picker::~Picker() { stop(); }
-
-void Picker::stop() {
-  if (progress_) progress_->cancel();
-  if (builder_.joinable()) builder_.join();
-}
-
-void Picker::wait() {
-  if (builder_.joinable()) builder_.join();
-}
-
 void Picker::follow(const std::shared_ptr<const Environment>& environment, const std::function<void()>& wake) {
   if (environment == environment_) return;
-  stop();
-  ready_.store(false, std::memory_order_release);
-  scene_.reset();
+  task_.reset();
   environment_ = environment;
   if (!environment_) return;
-  progress_ = std::make_unique<Progress>();
-  builder_ = std::thread([this, environment, wake] {
-    auto scene = RayScene::build(environment, *progress_);
-    if (scene) {
-      scene_ = std::move(*scene);
-      ready_.store(true, std::memory_order_release);
-    }
-    if (wake) wake();
-  });
+  using Scene = std::shared_ptr<const RayScene>;
+  task_ = std::make_unique<Task<Scene>>(
+      "Prepare picking",
+      [environment](Progress& progress) -> Result<Scene> { return RayScene::build(environment, progress); }, wake);
 }
 
 std::optional<RayHit> Picker::pick(const ViewRay& ray, const ViewState& view) const {
   if (!ready() || view.environment != environment_) return std::nullopt;
-  return firstShown(*scene_, ray, view);
+  return firstShown(*scene(), ray, view);
 }
 
 std::optional<RayHit> firstShown(const RayScene& scene, const ViewRay& ray, const ViewState& view) {

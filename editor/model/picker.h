@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
-#include <thread>
 
-#include "core/progress.h"
 #include "editor/model/camera.h"
 #include "editor/model/view_state.h"
+#include "project/task.h"
 #include "scanners/engine/ray_engine.h"
 
 namespace standpoint {
@@ -21,17 +19,14 @@ std::optional<RayHit> firstShown(const RayScene& scene, const ViewRay& ray, cons
 // beside the interface; until it is ready nothing can be picked.
 class Picker {
  public:
-  Picker() = default;
-  ~Picker();
-  Picker(const Picker&) = delete;
-  Picker& operator=(const Picker&) = delete;
-
   // Builds anew when the environment is another one. `wake` is called from the builder when it is done.
   void follow(const std::shared_ptr<const Environment>& environment, const std::function<void()>& wake);
-  bool ready() const { return ready_.load(std::memory_order_acquire); }
-  void wait();
+  bool ready() const { return task_ && task_->done() && task_->result(); }
+  void wait() {
+    if (task_) task_->wait();
+  }
   // Of what it follows; null until it is ready.
-  std::shared_ptr<const RayScene> scene() const { return ready() ? scene_ : nullptr; }
+  std::shared_ptr<const RayScene> scene() const { return ready() ? *task_->result() : nullptr; }
 
   // As firstShown(); none where the view is of another environment.
   std::optional<RayHit> pick(const ViewRay& ray, const ViewState& view) const;
@@ -39,13 +34,8 @@ class Picker {
   bool sees(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const ViewState& view) const;
 
  private:
-  void stop();
-
   std::shared_ptr<const Environment> environment_;
-  std::shared_ptr<const RayScene> scene_;
-  std::unique_ptr<Progress> progress_;
-  std::thread builder_;
-  std::atomic<bool> ready_{false};
+  std::unique_ptr<Task<std::shared_ptr<const RayScene>>> task_;
 };
 
 }  // namespace standpoint

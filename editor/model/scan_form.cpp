@@ -16,36 +16,9 @@ std::string joined(std::string a, const std::string& b, const char* gap) {
   return a.empty() ? b : std::move(a) + gap + b;
 }
 
-// As `--weather` takes it; nothing where the air is clear.
-std::string weatherOption(const Weather& w) {
-  std::string text;
-  if (w.visibility_km != Weather().visibility_km) text = fmt::format("visibility={}", w.visibility_km);
-  if (w.rain_mm_h > 0) text = joined(text, fmt::format("rain={}", w.rain_mm_h), " ");
-  if (w.snow_mm_h > 0) text = joined(text, fmt::format("snow={}", w.snow_mm_h), " ");
-  if (w.fog_mor_m > 0) text = joined(text, fmt::format("fog={}", w.fog_mor_m), " ");
-  if (w.dust_mor_m > 0) text = joined(text, fmt::format("dust={}", w.dust_mor_m), " ");
-  return text;
-}
-
 }  // namespace
 
-nlohmann::json scanOptions(const ScanChoice& asked) {
-  nlohmann::json set = nlohmann::json::array();
-  for (const auto& [key, value] : asked.settings) set.push_back(key + "=" + value);
-  nlohmann::json options = {{"instrument", asked.instrument},
-                            {"set", std::move(set)},
-                            {"seed", asked.seed},
-                            {"compensator", asked.compensator ? "on" : "off"}};
-  if (asked.effects == Effects::none())
-    options["ideal"] = true;
-  else if (const auto without = leftOut(asked.effects); !without.empty())
-    options["without"] = without;
-  if (const auto weather = weatherOption(asked.weather); !weather.empty()) options["weather"] = weather;
-  if (asked.truth) options["truth"] = true;
-  if (asked.panorama) options["panorama"] = true;
-  if (asked.panorama && asked.panorama_columns > 0) options["panorama-size"] = asked.panorama_columns;
-  return options;
-}
+nlohmann::json scanOptions(const ScanChoice& asked) { return jobOptions(scanFields(), optionsOf(asked)); }
 
 void chooseInstrument(ScanChoice& asked, const Instrument& instrument) {
   asked.instrument = instrument.id;

@@ -3,21 +3,10 @@
 
 namespace standpoint {
 
-ScanReadiness::~ScanReadiness() { stop(); }
-
-void ScanReadiness::stop() {
-  if (progress_) progress_->cancel();
-  if (worker_.joinable()) worker_.join();
-}
-
-void ScanReadiness::wait() {
-  if (worker_.joinable()) worker_.join();
-}
-
 std::shared_ptr<const ScanPreparation> ScanReadiness::at_hand() {
-  if (done_.exchange(false)) {
-    wait();
-    made_ = std::move(result_);
+  if (task_ && task_->done()) {
+    if (auto made = task_->take()) made_ = *std::move(made);
+    task_.reset();
   }
   return made_;
 }
@@ -31,16 +20,12 @@ void ScanReadiness::follow(const Document& document, const std::shared_ptr<const
     wish_ = wish;
     return;
   }
-  stop();
-  done_.store(false);
+  task_.reset();
   made_.reset();  // two of a large model need not lie in memory
   wish_ = wish;
-  progress_ = std::make_unique<Progress>();
-  worker_ = std::thread([this, document, of_model, wake] {
-    if (auto prepared = prepareScan(document, of_model, *progress_)) result_ = *std::move(prepared);
-    done_.store(true);
-    if (wake) wake();
-  });
+  task_ = std::make_unique<Task<std::shared_ptr<const ScanPreparation>>>(
+      "Prepare scans", [document, of_model](Progress& progress) { return prepareScan(document, of_model, progress); },
+      wake);
 }
 
 }  // namespace standpoint

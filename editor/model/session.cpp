@@ -102,28 +102,30 @@ std::string Session::whyNotAdopt() const { return whyHeld(); }
 
 std::string Session::whyNotSave() const { return whyNot("save-project"); }
 
-bool Session::launch(const Verb& wanted, json options, std::string title) {
-  if (title.empty()) title = wanted.summary;
-  running_.push_back(std::make_unique<Task>(std::move(title), wanted, document(), std::move(options), wake_));
-  return true;
+void Session::launch(const Verb& wanted, json options, std::string title, Task<Outcome>::Work work) {
+  running_.push_back(std::make_unique<VerbTask>(std::move(title), wanted, std::move(options), std::move(work), wake_));
 }
 
 bool Session::start(std::string_view name, json options, std::string title) {
   if (!whyNot(name).empty()) return false;
-  return launch(*verb(name), std::move(options), std::move(title));
+  const Verb& wanted = *verb(name);
+  auto work = [&wanted, snapshot = document(), options](Progress& progress) {
+    return runVerb(wanted, snapshot, options, progress);
+  };
+  launch(wanted, std::move(options), title.empty() ? wanted.summary : std::move(title), std::move(work));
+  return true;
 }
 
 bool Session::start(std::string_view name, json options, std::string title, Work work) {
   if (!whyNot(name).empty()) return false;
   const Verb& wanted = *verb(name);
-  auto checked = [&wanted, options, work = std::move(work)](const Document& document,
-                                                            Progress& progress) -> Result<Outcome> {
+  auto checked = [&wanted, snapshot = document(), options,
+                  work = std::move(work)](Progress& progress) -> Result<Outcome> {
     auto filled = checkOptions(wanted, options);
     if (!filled) return failure(filled.error());
-    return work(document, *filled, progress);
+    return work(snapshot, *filled, progress);
   };
-  running_.push_back(
-      std::make_unique<Task>(std::move(title), wanted, document(), std::move(options), wake_, std::move(checked)));
+  launch(wanted, std::move(options), std::move(title), std::move(checked));
   return true;
 }
 
@@ -206,15 +208,14 @@ bool Session::adoptImport(Outcome outcome) {
 
 bool Session::startAdding(Outcome outcome, std::string title) {
   if (!whyNot("add").empty()) return false;
-  auto rest = [read = std::move(outcome)](const Document& document, Progress& progress) {
-    return addImported(document, read, progress);
+  auto rest = [snapshot = document(), read = std::move(outcome)](Progress& progress) {
+    return addImported(snapshot, read, progress);
   };
-  running_.push_back(
-      std::make_unique<Task>(std::move(title), *verb("add"), document(), json::object(), wake_, std::move(rest)));
+  launch(*verb("add"), json::object(), std::move(title), std::move(rest));
   return true;
 }
 
-void Session::takeResult(Task& task) {
+void Session::takeResult(VerbTask& task) {
   auto result = task.take();
   if (result)
     succeed(task, std::move(*result));
@@ -223,7 +224,7 @@ void Session::takeResult(Task& task) {
   if (finished_.size() > kRememberedTasks) finished_.pop_back();
 }
 
-void Session::succeed(Task& task, Outcome outcome) {
+void Session::succeed(VerbTask& task, Outcome outcome) {
   const std::string_view verb_name = task.verb().name;
   if (verb_name == "save-recovery") return;
   const bool begins_project = task.verb().scope == VerbScope::creates && !task.options().value("update", false);
@@ -256,7 +257,7 @@ void Session::succeed(Task& task, Outcome outcome) {
   if (done) done(task.verb(), task.options());
 }
 
-void Session::fail(const Task& task, const Error& error) {
+void Session::fail(const VerbTask& task, const Error& error) {
   const bool cancelled = error.kind == ErrorKind::cancelled;
   finished_.push_front({task.title(), task.verb().name, false, cancelled, cancelled ? "Cancelled" : describe(error),
                         timeOfDay(), task.seconds(), nlohmann::json::object()});

@@ -34,6 +34,20 @@ struct ShownError {
   Error error;
 };
 
+// A verb that runs in the background on a snapshot.
+class VerbTask : public Task<Outcome> {
+ public:
+  VerbTask(std::string title, const Verb& verb, nlohmann::json options, Work work, std::function<void()> wake)
+      : Task(std::move(title), std::move(work), std::move(wake)), verb_(verb), options_(std::move(options)) {}
+  const Verb& verb() const { return verb_; }
+  const nlohmann::json& options() const { return options_; }
+
+ private:
+  // The work has copies of its own: it may outlive these for as long as the base joins.
+  const Verb& verb_;
+  nlohmann::json options_;
+};
+
 // One open project: its history, what runs on it, and what was said about it. Knows neither ImGui nor a window.
 // Everything that changes the document is a verb that runs as a task on a snapshot; poll() brings its result in.
 class Session {
@@ -85,7 +99,7 @@ class Session {
   // not.
   bool startAdding(Outcome outcome, std::string title);
 
-  const std::vector<std::unique_ptr<Task>>& running() const { return running_; }
+  const std::vector<std::unique_ptr<VerbTask>>& running() const { return running_; }
   const std::deque<FinishedTask>& finished() const { return finished_; }  // newest first
   // That went well, and on this project.
   const FinishedTask* lastOf(std::string_view verb) const;
@@ -103,16 +117,16 @@ class Session {
  private:
   std::string whyHeld() const;  // by a task; "" when it is free
   std::string whyForbidden(std::string_view name) const;
-  bool launch(const Verb& verb, nlohmann::json options, std::string title);
-  void takeResult(Task& task);
-  void succeed(Task& task, Outcome outcome);
-  void fail(const Task& task, const Error& error);
+  void launch(const Verb& verb, nlohmann::json options, std::string title, Task<Outcome>::Work work);
+  void takeResult(VerbTask& task);
+  void succeed(VerbTask& task, Outcome outcome);
+  void fail(const VerbTask& task, const Error& error);
 
   std::vector<Verb> verbs_;
   std::function<void()> wake_;
   History history_;
   std::filesystem::path folder_;
-  std::vector<std::unique_ptr<Task>> running_;
+  std::vector<std::unique_ptr<VerbTask>> running_;
   std::deque<FinishedTask> finished_;
   std::vector<LogEntry> log_;
   std::deque<ShownError> errors_;

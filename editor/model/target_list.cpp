@@ -45,17 +45,6 @@ std::vector<std::filesystem::path> lastScanFiles(const Job& job) {
   return files;
 }
 
-TargetList::~TargetList() { stop(); }
-
-void TargetList::stop() {
-  if (progress_) progress_->cancel();
-  if (worker_.joinable()) worker_.join();
-}
-
-void TargetList::wait() {
-  if (worker_.joinable()) worker_.join();
-}
-
 bool TargetList::busy() const {
   const std::lock_guard lock(mutex_);
   return busy_;
@@ -83,11 +72,13 @@ void TargetList::follow(const Document& document, const std::shared_ptr<const Ra
   if (!document.job || !scene || kinds() == nullptr) return;
   const Wish wish{document.job, scene, settings ? settings->values : SettingValues(), settings ? settings->columns : 0};
   if (wish == wish_) return;
-  stop();
+  task_.reset();
   wish_ = wish;
   busy_ = true;  // no worker yet
-  progress_ = std::make_unique<Progress>();
-  worker_ = std::thread([this, document, scene, settings] { work(document, *scene, settings, *progress_); });
+  task_ = std::make_unique<Task<void>>("Measure targets", [this, document, scene, settings](Progress& progress) {
+    work(document, *scene, settings, progress);
+    return Result<void>();
+  });
 }
 
 void TargetList::work(const Document& document, const RayScene& scene, const std::optional<ScanSettings>& settings,

@@ -6,11 +6,11 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "project/target_measuring.h"
 #include "project/target_sight.h"
+#include "project/task.h"
 
 namespace standpoint {
 
@@ -27,14 +27,12 @@ struct TargetRow {
 class TargetList {
  public:
   explicit TargetList(std::function<void()> wake) : wake_(std::move(wake)) {}
-  ~TargetList();
-  TargetList(const TargetList&) = delete;
-  TargetList& operator=(const TargetList&) = delete;
-
   // `settings` are those of the scans to come. Cheap while nothing has changed.
   void follow(const Document& document, const std::shared_ptr<const RayScene>& scene,
               const std::optional<ScanSettings>& settings);
-  void wait();
+  void wait() {
+    if (task_) task_->wait();
+  }
   bool busy() const;
   std::vector<TargetRow> rows() const;
   std::string problem() const;  // why the scans could not be read; empty when they could
@@ -49,7 +47,6 @@ class TargetList {
     std::uint32_t columns = 0;
     bool operator==(const Wish&) const = default;
   };
-  void stop();
   void work(const Document& document, const RayScene& scene, const std::optional<ScanSettings>& settings,
             Progress& progress);
 
@@ -57,14 +54,13 @@ class TargetList {
   std::optional<TargetKinds> kinds_;
   bool kinds_read_ = false;
   std::optional<Wish> wish_;
-  std::unique_ptr<Progress> progress_;
-  std::thread worker_;
   mutable std::mutex mutex_;  // of what follows
   bool busy_ = false;
   std::vector<TargetRow> rows_;
   std::string problem_;
   std::string measured_key_;  // what `measured_` was read from: it need not be again when a station has moved
   TargetMeasurements measured_;
+  std::unique_ptr<Task<void>> task_;  // last: it writes what is above
 };
 
 // The files of the stations' last scans, each once.

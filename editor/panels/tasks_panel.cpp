@@ -17,7 +17,7 @@ std::string duration(double seconds) {
   return fmt::format("{}:{:02} min", static_cast<int>(seconds) / 60, static_cast<int>(seconds) % 60);
 }
 
-void drawRunning(const Model& model, Task& task, int i) {
+void drawRunning(const Model& model, VerbTask& task, int i) {
   auto& progress = task.progress();
   ImGui::PushID(i);
   ImGui::TableNextRow();

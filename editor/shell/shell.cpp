@@ -338,7 +338,7 @@ std::string hoverText(const Editor& editor) {
 // A task, else the cloud that is being read to be shown.
 void drawRunningTask(Editor& editor) {
   const auto& running = editor.session.running();
-  Task* shown = nullptr;
+  VerbTask* shown = nullptr;
   for (const auto& task : running)
     if (std::strcmp(task->verb().name, "save-recovery") != 0) shown = task.get();
   Progress* const followed = shown != nullptr ? &shown->progress() : editor.underlays.progress();

@@ -8,13 +8,25 @@
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/marks.h"
 #include "emulated-ui/rehearsal/names.h"
+#include "project/fields.h"
 
 namespace standpoint {
 
 namespace {
 
 using nlohmann::json;
-using K = ParameterKind;
+
+struct RehearseOptions {
+  std::string exercise;  // file or id; empty: they are listed
+  std::filesystem::path actions;
+  bool solution = false;
+  std::vector<std::string> check;  // files
+  bool names = false;
+  std::string device;
+  std::string student;
+  std::string language = "en";
+  std::filesystem::path output = "rehearsal";
+};
 
 json listOf(const std::vector<KnownExercise>& known, const std::string& language) {
   json rows = json::array();
@@ -56,12 +68,11 @@ Result<Report> findingsOf(const std::string& file, std::string& id, Progress& pr
 }
 
 // All files are checked, whatever is wrong with one of them.
-Result<Outcome> checkFiles(const Document& document, const json& files, Progress& progress) {
+Result<Outcome> checkFiles(const Document& document, const std::vector<std::string>& files, Progress& progress) {
   Outcome outcome{document, json::object(), {}, {}, {}};
   json rows = json::array();
   std::size_t sound = 0;
-  for (const auto& file : files) {
-    const auto name = file.get<std::string>();
+  for (const auto& name : files) {
     std::string id;
     progress.stage("Checking " + name, static_cast<double>(rows.size()) / static_cast<double>(files.size()),
                    static_cast<double>(rows.size() + 1) / static_cast<double>(files.size()));
@@ -86,16 +97,16 @@ Result<Outcome> checkFiles(const Document& document, const json& files, Progress
   return outcome;
 }
 
-Result<Outcome> listNames(const Document& document, const json& options) {
+Result<Outcome> listNames(const Document& document, const std::string& device) {
   Outcome outcome{document, json::object(), {}, {}, {}};
-  if (!options.contains("device")) {
+  if (device.empty()) {
     auto devices = deviceNames();
     if (!devices) return failure(devices.error());
     outcome.text = deviceNamesText(*devices);
     outcome.answer = {{"devices", *std::move(devices)}};
     return outcome;
   }
-  auto names = namesOf(options["device"].get<std::string>());
+  auto names = namesOf(device);
   if (!names) return failure(names.error());
   outcome.text = namesText(*names);
   outcome.answer = *std::move(names);
@@ -110,32 +121,29 @@ std::string whyNotPassed(const json& marks) {
   return why + (marks["in_time"].get<bool>() ? "" : "; over the time limit");
 }
 
-Result<Outcome> runRehearse(const Document& document, const json& options, Progress& progress) {
-  const auto language = options.at("language").get<std::string>();
-  const bool names = options.value("names", false);
-  if (static_cast<int>(options.contains("exercise")) + static_cast<int>(options.contains("check")) +
-          static_cast<int>(names) >
+Result<Outcome> runRehearse(const Document& document, const RehearseOptions& options, Progress& progress) {
+  if (static_cast<int>(!options.exercise.empty()) + static_cast<int>(!options.check.empty()) +
+          static_cast<int>(options.names) >
       1)
     return failure(ErrorKind::usage, "--check, --names and carrying out an exercise cannot be combined", "--check");
-  if (options.contains("check")) return checkFiles(document, options["check"], progress);
-  if (names) return listNames(document, options);
-  if (!options.contains("exercise")) return listExercises(document, language);
-  auto known = findExercise(options["exercise"].get<std::string>());
+  if (!options.check.empty()) return checkFiles(document, options.check, progress);
+  if (options.names) return listNames(document, options.device);
+  if (options.exercise.empty()) return listExercises(document, options.language);
+  auto known = findExercise(options.exercise);
   if (!known) return failure(known.error());
   std::vector<RehearsalAction> actions;
-  const bool solution = options.value("solution", false);
-  if (solution == options.contains("actions"))
+  if (options.solution == !options.actions.empty())
     return failure(ErrorKind::usage, "specify the actions: --actions FILE, or --solution for the sample solution",
                    "--actions");
-  if (solution) {
+  if (options.solution) {
     actions = known->exercise.solution;
   } else {
-    auto read = readActions(options["actions"].get<std::string>());
+    auto read = readActions(options.actions);
     if (!read) return failure(read.error());
     actions = *std::move(read);
   }
-  const std::filesystem::path folder = options.at("output").get<std::string>();
-  auto rehearsal = Rehearsal::start(known->exercise, options.value("device", std::string()), folder, {}, progress);
+  const auto& folder = options.output;
+  auto rehearsal = Rehearsal::start(known->exercise, options.device, folder, {}, progress);
   if (!rehearsal) return failure(rehearsal.error());
   Outcome outcome{document, json::object(), {}, {}, {}};
   for (std::size_t i = 0; i < actions.size(); ++i)
@@ -144,7 +152,7 @@ Result<Outcome> runRehearse(const Document& document, const json& options, Progr
       outcome.report.warn(fmt::format("action {}", i),
                           describe(done.error()));  // the device refused; the student goes on
     }
-  outcome.answer = marksOf(**rehearsal, options.value("student", std::string()), language);
+  outcome.answer = marksOf(**rehearsal, options.student, options.language);
   if (auto written = writeMarks(**rehearsal, outcome.answer, folder); !written) return failure(written.error());
   outcome.text = marksText(outcome.answer);
   if (!outcome.answer["passed"].get<bool>()) outcome.report.lose(known->exercise.id, whyNotPassed(outcome.answer));
@@ -153,32 +161,29 @@ Result<Outcome> runRehearse(const Document& document, const json& options, Progr
   return outcome;
 }
 
+const Fields<RehearseOptions>& rehearseFields() {
+  using O = RehearseOptions;
+  static const Fields<O> fields = {
+      {"exercise", &O::exercise, "file of the exercise, or its id such as E03", {.positional = true}},
+      {"actions", &O::actions, "list of actions to carry out; an exported result replays"},
+      {"solution", &O::solution, "carry out the exercise's own solution"},
+      {"check", &O::check,
+       "exercise files to check and start; list all that is wrong with them and do nothing else (exit code 3: one is "
+       "refused)"},
+      {"names", &O::names, "list the devices, or with --device all names and choices for its exercises"},
+      {"device", &O::device, "id of the device, for an exercise with several"},
+      {"student", &O::student, "name on the certificate"},
+      {"language", &O::language, "language of the texts"},
+      {"output", &O::output, "folder for the scans and the result (JSON, CSV, HTML)"}};
+  return fields;
+}
+
 const std::vector<Verb>& table() {
   static const std::vector<Verb> verbs = {
-      {"rehearse",
-       "Run an exercise on an emulated instrument from a list of actions and grade it (exit code 3: not passed); "
-       "without an exercise, list all",
-       VerbScope::files,
-       {{.name = "exercise", .kind = K::text, .help = "exercise file, or id such as E03", .positional = true},
-        {.name = "actions",
-         .kind = K::path,
-         .help = "JSON file with the list of actions; an exported result replays its actions"},
-        {.name = "solution", .kind = K::flag, .help = "perform the sample solution"},
-        {.name = "check",
-         .kind = K::list,
-         .help = "exercise files to validate, including a trial start (exit code 3: at least one is invalid)"},
-        {.name = "names",
-         .kind = K::flag,
-         .help = "list devices, or with --device all names and choices available to exercises"},
-        {.name = "device", .kind = K::text, .help = "device id, if the exercise supports several devices"},
-        {.name = "student", .kind = K::text, .help = "name on the certificate"},
-        {.name = "language", .kind = K::text, .help = "language of texts", .default_value = "en"},
-        {.name = "output",
-         .kind = K::path,
-         .help = "folder for the scans and the result (JSON, CSV, HTML)",
-         .default_value = "rehearsal"}},
-       runRehearse},
-  };
+      verbOf("rehearse",
+             "Carry out an exercise on an emulated instrument from a list of actions and mark it (exit code 3: not "
+             "passed); list the exercises if none is given",
+             VerbScope::files, rehearseFields(), runRehearse)};
   return verbs;
 }
 

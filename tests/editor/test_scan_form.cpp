@@ -33,7 +33,7 @@ TEST(ScanForm, AsksTheVerbForWhatItShows) {
     options["output"] = "x.e57";
     const auto checked = checkOptions(*findVerb(verbs(), "scan"), options);
     EXPECT_TRUE(checked) << describe(checked.error());
-    const auto request = scanRequestFrom(document, *checked);
+    const auto request = scanRequestFrom(document, *optionsFrom(scanFields(), *checked));
     EXPECT_TRUE(request) << describe(request.error());
     return choiceOf(*request);
   };

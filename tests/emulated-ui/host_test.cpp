@@ -142,6 +142,17 @@ TEST_F(Host, TheClockStandsWhileWhatWasScannedIsOnlyRead) {
   EXPECT_NEAR(device().state().clock_s, clock_s + 60 * host_.time_factor, 1);
 }
 
+// The fixture's end destroys the host while its task runs: the task is joined before what it would write is gone.
+TEST_F(Host, GoesWhileItsTaskRuns) {
+  press({"scan"});
+  const auto stored = runUntilIdle(1);
+  ASSERT_TRUE(stored);
+  document_ = stored->document;
+  press({"look"});
+  (void)host_.update(document_, folder_.path() / "scans", 0.01);
+  EXPECT_NE(host_.task(), nullptr);
+}
+
 TEST_F(Host, AStoppedScanLeavesNoFileAndNoSetup) {
   press({"scan"});
   host_.time_factor = 0.001;

@@ -195,7 +195,7 @@ TEST_F(RehearsalTest, ATargetBehindAWallCannotBeSighted) {
     order.target = target;
     const auto sighted = sightTarget(rehearsal->document(), order, folder_.path() / "sight.e57", 1, quiet_);
     ASSERT_TRUE(sighted) << describe(sighted.error());
-    EXPECT_EQ(sighted->answer["found"].get<bool>(), found) << sighted->answer;
+    EXPECT_EQ(sighted->found, found) << sighted->why_not;
   }
 }
 

@@ -131,8 +131,8 @@ TEST_F(AWalkerInTheScan, NotesGoIntoTheFilesRecord) {
 }
 
 TEST(FieldFault, IsReadAndWhatItIsNotIsRefused) {
-  const auto read =
-      fieldFaultFrom({"passer_by=0.25", "operator_in_view=0.75", "until=0.5", "tripod_moved=0", "noise=2"});
+  const auto read = FieldValue<FieldFault>::read(
+      {"passer_by=0.25", "operator_in_view=0.75", "until=0.5", "tripod_moved=0", "noise=2"});
   ASSERT_TRUE(read);
   EXPECT_EQ(read->passer_by_at_fraction, 0.25);
   EXPECT_EQ(read->operator_at_fraction, 0.75);
@@ -141,7 +141,7 @@ TEST(FieldFault, IsReadAndWhatItIsNotIsRefused) {
   EXPECT_EQ(read->noise_factor, 2);
   for (const char* wrong : {"passer_by=1.1", "passer_by=-0.1", "passer_by=", "passer_by", "passer_by=x",
                             "passer_by=0.5s", "run=0.5", "noise=0.5", "tripod_moved=nan"})
-    EXPECT_FALSE(fieldFaultFrom({wrong})) << wrong;
+    EXPECT_FALSE(FieldValue<FieldFault>::read(json::array({wrong}))) << wrong;
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "optimizer/optimizer.h"
+#include "project/survey_verbs.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
@@ -61,6 +63,90 @@ TEST(Options, PlacesBeyondWhatCanBeComputedAreRefused) {
     EXPECT_EQ(bad.error().kind, ErrorKind::usage);
     EXPECT_NE(bad.error().message.find("none beyond 1e9"), std::string::npos) << bad.error().message;
   }
+}
+
+TEST(Options, ThatAreATripleHaveThreeNumbers) {
+  const std::vector<std::pair<const char*, nlohmann::json>> wrong = {
+      {"station", {{"add", "S"}, {"at", {1, 2}}}},
+      {"georeference", {{"origin", {1, 2}}}},
+      {"target", {{"add", "T"}, {"on", {1, 2}}, {"normal", {1, 0}}}},
+      {"target", {{"add", "T"}, {"at", {1, 2, 3, 4}}}},
+      {"station", {{"add", "S"}, {"on", {1}}}}};
+  for (const auto& [verb, options] : wrong) {
+    const auto bad = checkOptions(*findVerb(verbs(), verb), options);
+    ASSERT_FALSE(bad) << options;
+    EXPECT_EQ(bad.error().kind, ErrorKind::usage);
+    EXPECT_NE(bad.error().message.find("must be three numbers"), std::string::npos) << bad.error().message;
+  }
+  const auto floor = checkOptions(*findVerb(verbs(), "station"), {{"add", "S"}, {"on", {1, 2}}});
+  ASSERT_TRUE(floor);
+  const auto typed = optionsFrom(stationFields(), *floor);
+  ASSERT_TRUE(typed && typed->on);
+  EXPECT_EQ(typed->on->x_m, 1);
+  EXPECT_EQ(typed->on->y_m, 2);
+  EXPECT_FALSE(typed->on->z_m);
+}
+
+TEST(Options, ThatHaveANotationAreReadBeforeTheVerbRuns) {
+  const nlohmann::json wanted = {{"instrument", "leica-rtc360"}, {"output", "x.e57"}};
+  const auto checked = [&](const char* option, const nlohmann::json& value) {
+    auto options = wanted;
+    options[option] = value;
+    return checkOptions(*findVerb(verbs(), "scan"), options);
+  };
+  for (const char* shard : {"1/2x", "0/2", "3/2", "1", "1/", "/2", "-1/2", "1/2 ", " 1/2", "1.0/2", ""}) {
+    const auto bad = checked("shard", shard);
+    ASSERT_FALSE(bad) << shard;
+    EXPECT_EQ(bad.error().message, "'" + std::string(shard) + "' is not i/n with 1 <= i <= n");
+    EXPECT_EQ(bad.error().source, "--shard");
+  }
+  EXPECT_TRUE(checked("shard", "2/2"));
+  EXPECT_FALSE(checked("weather", "rain=much"));
+  EXPECT_FALSE(checked("sun", "135"));
+  EXPECT_FALSE(checked("without", "no-such-effect"));
+  EXPECT_FALSE(checked("field-fault", {"until=2"}));
+}
+
+TEST(Options, AreWrittenAsTheyAreRead) {
+  const nlohmann::json job = {{"instrument", "leica-rtc360"},
+                              {"stations", "S1,S2"},
+                              {"set", {"resolution=12mm", "double_scan=on"}},
+                              {"seed", 7},
+                              {"without", "striping,footprint"},
+                              {"weather", "visibility=5 rain=2.5"},
+                              {"sun", "135,40,600"},
+                              {"field-fault", {"until=0.5", "noise=2"}},
+                              {"note", {"operator=A=B"}},
+                              {"panorama", true},
+                              {"panorama-size", 1024},
+                              {"compensator", "off"},
+                              {"shard", "1/2"},
+                              {"output", "x.e57"}};
+  const auto checked = checkOptions(*findVerb(verbs(), "scan"), job);
+  ASSERT_TRUE(checked) << describe(checked.error());
+  auto options = optionsFrom(scanFields(), *checked);
+  ASSERT_TRUE(options) << describe(options.error());
+  EXPECT_EQ(options->shard->count, 2U);
+  EXPECT_EQ(options->weather->rain_mm_h, 2.5);
+  EXPECT_EQ(options->notes.front().second, "A=B");
+  auto written = jobOptions(scanFields(), *options);
+  const auto again = optionsFrom(scanFields(), written);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->sun->irradiance_W_m2, 600);
+  EXPECT_EQ(again->without, options->without);
+  for (const char* rewritten : {"sun", "without"}) written[rewritten] = job[rewritten];
+  EXPECT_EQ(written, job);
+}
+
+TEST(Options, HaveTheirDefaultsOnce) {
+  const auto* collide = findVerb(verbs(), "collide");
+  const auto checked = checkOptions(*collide, nlohmann::json::object());
+  ASSERT_TRUE(checked);
+  EXPECT_EQ(checked->at("agent-radius"), CollideOptions{}.agent_radius_m);
+  EXPECT_EQ(checked->at("agent-height"), CollideOptions{}.agent_height_m);
+  EXPECT_EQ(checked->at("doors"), "open");
+  EXPECT_EQ(checkOptions(*findVerb(verbs(), "optimize"), nlohmann::json::object())->at("max-deviation"),
+            OptimizeOptions{}.max_deviation_m);
 }
 
 TEST(Verbs, ThatNeedAModelSayThatThereIsNone) {

@@ -3,32 +3,31 @@
 
 #include <atomic>
 #include <chrono>
+#include <stdexcept>
 #include <thread>
 
 #include <gtest/gtest.h>
 
+#include "project/survey_verbs.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
 namespace {
 
-const Verb kEndless{"endless",
-                    "Runs until it is cancelled",
-                    VerbScope::files,
-                    {},
-                    [](const Document& d, const nlohmann::json&, Progress& progress) -> Result<Outcome> {
-                      for (double fraction = 0; progress.check(); fraction += 0.001) progress.advance(fraction);
-                      if (auto ok = progress.check(); !ok) return failure(ok.error());
-                      return Outcome{d, {}, {}, {}};
-                    }};
+Result<int> endless(Progress& progress) {
+  for (double fraction = 0; progress.check(); fraction += 0.001) progress.advance(fraction);
+  if (auto ok = progress.check(); !ok) return failure(ok.error());
+  return 1;
+}
 
-void waitFor(const Task& task) {
+template <class T>
+void waitFor(const Task<T>& task) {
   for (int i = 0; i < 2000 && !task.done(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   ASSERT_TRUE(task.done());
 }
 
 TEST(Task, IsCancelledAtOnceAndSaysSo) {
-  Task task("endless", kEndless, {}, nlohmann::json::object(), nullptr);
+  Task<int> task("endless", endless);
   EXPECT_FALSE(task.done());
   task.progress().cancel();
   waitFor(task);
@@ -39,27 +38,51 @@ TEST(Task, IsCancelledAtOnceAndSaysSo) {
 
 TEST(Task, ThatIsDroppedCancelsItself) {
   const auto started = std::chrono::steady_clock::now();
-  { const Task task("endless", kEndless, {}, nlohmann::json::object(), nullptr); }
+  { const Task<int> task("endless", endless); }
   EXPECT_LT(std::chrono::steady_clock::now() - started, std::chrono::seconds(5));
 }
 
 TEST(Task, WakesItsWatcherWhileItMovesAndAtTheEnd) {
   std::atomic<int> woken{0};
-  Task task("endless", kEndless, {}, nlohmann::json::object(), [&] { ++woken; });
+  Task<int> task("endless", endless, [&] { ++woken; });
   for (int i = 0; i < 2000 && woken < 50; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   EXPECT_GE(woken, 50);
   task.progress().cancel();
   waitFor(task);
 }
 
-TEST(Task, WorksOnASnapshotAndGivesTheVerbsOutcome) {
-  const Verb* station = findVerb(verbs(), "station");
-  Task task("Add S1", *station, twoStoreyDocument(), {{"add", "S1"}, {"at", {500002, 5600002, 1.5}}}, nullptr);
+TEST(Task, IsOverBeforeWhatIsDeclaredBeforeItIsGone) {
+  std::atomic<bool> over{false};
+  {
+    const Task<int> task("endless", [&](Progress& progress) {
+      const auto result = endless(progress);
+      over = true;
+      return result;
+    });
+  }
+  EXPECT_TRUE(over);
+}
+
+TEST(Task, TurnsAnExceptionIntoAnError) {
+  Task<int> task("throws", [](Progress&) -> Result<int> { throw std::runtime_error("broken"); });
+  const auto result = task.take();
+  ASSERT_FALSE(result);
+  EXPECT_NE(result.error().message.find("broken"), std::string::npos);
+}
+
+TEST(Task, GivesTheOutcomeOfAVerbOnASnapshot) {
+  const auto document = twoStoreyDocument();
+  Task<Outcome> task("Add S1", [document](Progress& progress) {
+    StationOptions options;
+    options.add = "S1";
+    options.at = {500002, 5600002, 1.5};
+    return runStation(document, options, progress);
+  });
   waitFor(task);
   const auto outcome = task.take();
   ASSERT_TRUE(outcome) << describe(outcome.error());
   EXPECT_EQ(outcome->document.job->stations.size(), 1U);
-  EXPECT_TRUE(task.snapshot().job->stations.empty());
+  EXPECT_TRUE(document.job->stations.empty());
 }
 
 }  // namespace
