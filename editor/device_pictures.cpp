@@ -35,9 +35,8 @@ Result<std::vector<StoredSetup>> scannedHouse(const fs::path& folder) {
   Progress quiet;
   Document document;
   const auto run = [&](const char* verb, const json& options) -> Result<void> {
-    auto outcome = runVerb(*findVerb(verbs(), verb), document, options, quiet);
-    if (!outcome) return failure(outcome.error());
-    document = std::move(outcome->document);
+    TRY_ASSIGN(auto outcome, runVerb(*findVerb(verbs(), verb), document, options, quiet));
+    document = std::move(outcome.document);
     return {};
   };
   if (auto ok = run("import", {{"files", {(samplesFolder() / "house.ifc").string()}}}); !ok) return failure(ok.error());
@@ -61,9 +60,8 @@ Result<std::vector<StoredSetup>> scannedHouse(const fs::path& folder) {
     s.instrument_seconds = station.scans.back().instrument_seconds;
     s.plan_x_m = station.true_pose.translation.x();
     s.plan_y_m = station.true_pose.translation.y();
-    auto preview = readPreview(s.file, quiet);
-    if (!preview) return failure(preview.error());
-    s.preview = *preview;
+    TRY_ASSIGN(auto preview, readPreview(s.file, quiet));
+    s.preview = preview;
     if (s.number == 2) s.link = LinkResult{true, 0.0021, 0.43, 0.001, 0.01};
     s.targets = {fitted("T1", "sphere", 142, 4.31), fitted("T2", "checkerboard", 388, 3.02),
                  fitted("T3", "sphere", 0, 0)};
@@ -139,14 +137,13 @@ Result<int> drawDevicePictures(Offscreen& offscreen, const fs::path& folder, con
   if (!setups) return failure(setups.error());
   int count = 0;
   for (const auto& row : emulatedDevices()) {
-    const auto type = loadDevice(row);
-    if (!type) return failure(type.error());
+    TRY_ASSIGN(const auto type, loadDevice(row));
     fs::create_directories(folder / row.id, error);
     if (error) return failure(ErrorKind::file_system, error.message(), (folder / row.id).string());
     std::vector<std::string> screens = {""};
-    for (const auto& screen : (*type)->definition.screens) screens.push_back(screen.id);
+    for (const auto& screen : type->definition.screens) screens.push_back(screen.id);
     for (const auto& screen : screens) {
-      Device device(*type);
+      Device device(type);
       if (!screen.empty()) putInto(device, screen, *setups, language);
       DeviceView view;
       view.still = true;
@@ -165,8 +162,7 @@ Result<int> drawDevicePictures(Offscreen& offscreen, const fs::path& folder, con
         ImGui::End();
         ImGui::PopStyleVar();
       };
-      if (auto drawn = offscreen.picture(draw, folder / row.id / ((screen.empty() ? "off" : screen) + ".png")); !drawn)
-        return failure(drawn.error());
+      TRY(offscreen.picture(draw, folder / row.id / ((screen.empty() ? "off" : screen) + ".png")));
       ++count;
     }
   }

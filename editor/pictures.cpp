@@ -195,7 +195,7 @@ Result<std::vector<std::filesystem::path>> drawPictures(Editor& editor, Offscree
     picture.prepare(editor);
     editor.underlays.wait(editor.session.document());
     const auto file = folder / (std::string(picture.name) + ".png");
-    if (auto saved = offscreen.picture(editor, file); !saved) return failure(saved.error());
+    TRY(offscreen.picture(editor, file));
     written.push_back(file);
   }
   return written;

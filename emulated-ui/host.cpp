@@ -67,8 +67,7 @@ LinkResult linkFrom(const json& answer, const Document& solved) {
 
 // Converted where another format is asked for; that the points are there is what convertCloud promises.
 Result<void> copyAs(const fs::path& from, const fs::path& to, Report& report, Progress& progress) {
-  const auto written = convertCloud(from, to, "", report, progress);
-  if (!written) return failure(written.error());
+  TRY(convertCloud(from, to, "", report, progress));
   return {};
 }
 
@@ -76,20 +75,17 @@ constexpr std::size_t kCopiedAtOnce = 4U << 20U;
 
 // Byte for byte. A copy that was broken off is not taken for a whole one (PartFile).
 Result<void> copyFile(const fs::path& from, const fs::path& to, Progress& progress) {
-  const auto in = InputFile::open(from);
-  if (!in) return failure(in.error());
-  auto out = PartFile::create(to);
-  if (!out) return failure(out.error());
+  TRY_ASSIGN(const auto in, InputFile::open(from));
+  TRY_ASSIGN(auto out, PartFile::create(to));
   std::vector<std::uint8_t> buffer(kCopiedAtOnce);
-  while (out->size() < in->size()) {
-    if (auto going = progress.check(); !going) return failure(going.error());
-    const auto read = in->read(out->size(), buffer);
-    if (!read) return failure(read.error());
-    if (*read == 0) return failure(ErrorKind::file_system, "the file was truncated while copying", from.string());
-    if (auto written = out->append({buffer.data(), *read}); !written) return written;
-    progress.advance(static_cast<double>(out->size()) / static_cast<double>(in->size()));
+  while (out.size() < in.size()) {
+    TRY(progress.check());
+    TRY_ASSIGN(const auto read, in.read(out.size(), buffer));
+    if (read == 0) return failure(ErrorKind::file_system, "the file was truncated while copying", from.string());
+    if (auto written = out.append({buffer.data(), read}); !written) return written;
+    progress.advance(static_cast<double>(out.size()) / static_cast<double>(in.size()));
   }
-  return out->commit();
+  return out.commit();
 }
 
 Result<void> copyFiles(const TransferOrder& order, const fs::path& folder, Progress& progress) {
@@ -100,14 +96,13 @@ Result<void> copyFiles(const TransferOrder& order, const fs::path& folder, Progr
   const double each = 1.0 / static_cast<double>(order.files.size());
   double from_fraction = 0;
   for (const auto& file : order.files) {
-    if (auto going = progress.check(); !going) return failure(going.error());
+    TRY(progress.check());
     fs::path to =
         folder / (fs::path(file).parent_path().filename().string() + " - " + fs::path(file).filename().string());
     progress.stage("Copying " + fs::path(file).filename().string(), from_fraction, from_fraction + each);
     from_fraction += each;
-    const auto done = order.extension.empty() ? copyFile(file, to, progress)
-                                              : copyAs(file, to.replace_extension(order.extension), report, progress);
-    if (!done) return failure(done.error());
+    TRY(order.extension.empty() ? copyFile(file, to, progress)
+                                : copyAs(file, to.replace_extension(order.extension), report, progress));
   }
   return {};
 }
@@ -133,15 +128,13 @@ Result<Scan> scanned(const Document& document, const ScanOrder& order, const Sca
   ScanVerbOptions options = wanted;
   const fs::path& file = wanted.output;
   if (!order.filters.empty()) options.output = file.parent_path() / (file.stem().string() + ".raw.e57");
-  const auto outcome = runScan(document, options, progress);
-  if (!outcome) return failure(outcome.error());
-  const auto* last = lastScanOf(outcome->document, order.station);
+  TRY_ASSIGN(const auto outcome, runScan(document, options, progress));
+  const auto* last = lastScanOf(outcome.document, order.station);
   if (last == nullptr) return failure(ErrorKind::usage, "unknown station", order.station);
   Scan scan = *last;
   if (order.filters.empty()) return scan;
-  const auto filters = filtersFrom(order.filters);
-  if (!filters) return failure(filters.error());
-  const auto cleaned = cleanCloud(options.output, file, *filters, progress);
+  TRY_ASSIGN(const auto filters, filtersFrom(order.filters));
+  const auto cleaned = cleanCloud(options.output, file, filters, progress);
   std::error_code ignored;
   fs::remove(options.output, ignored);
   if (!cleaned) return failure(cleaned.error());
@@ -262,9 +255,8 @@ void DeviceHost::start(const Order& order, const Document& document, const fs::p
     if (link->shift_x_m != 0 || link->shift_y_m != 0 || link->turn_deg != 0)
       options.start_offset = StartOffset{link->shift_x_m, link->shift_y_m, link->turn_deg};
     startTask("Link", [document, options](Progress& p) -> Result<Delivery> {
-      const auto outcome = runRegister(document, options, p);
-      if (!outcome) return failure(outcome.error());
-      return [link = linkFrom(outcome->answer, outcome->document)](DeviceHost& host, const Document&) {
+      TRY_ASSIGN(const auto outcome, runRegister(document, options, p));
+      return [link = linkFrom(outcome.answer, outcome.document)](DeviceHost& host, const Document&) {
         host.device_.linkDone(link);
       };
     });
@@ -294,7 +286,7 @@ void DeviceHost::start(const Order& order, const Document& document, const fs::p
   } else if (const auto* transfer = std::get_if<TransferOrder>(&order)) {
     startTask("Transfer",
               [order = *transfer, folder = scans_folder.parent_path() / kCopies](Progress& p) -> Result<Delivery> {
-                if (auto copied = copyFiles(order, folder, p); !copied) return failure(copied.error());
+                TRY(copyFiles(order, folder, p));
                 return [files = order.files](DeviceHost& host, const Document&) { host.device_.transferDone(files); };
               });
   }
@@ -325,12 +317,11 @@ void DeviceHost::takeScan(const ScanOrder& order, const Scan& scan, const Docume
 Result<Outcome> DeviceHost::oriented(const Document& document, const StationOrientation& orientation) const {
   const auto* station = stationOf(document, orientation.station);
   if (station == nullptr) return failure(ErrorKind::usage, "unknown station", orientation.station);
-  const auto level = levelledFromScanner(*station, device_.type().instrument, orientation.compensator, seed);
-  if (!level) return failure(level.error());
+  TRY_ASSIGN(const auto level, levelledFromScanner(*station, device_.type().instrument, orientation.compensator, seed));
   Job job = *document.job;
   for (auto& s : job.stations)
     if (s.name == orientation.station)
-      s.solved_pose = Pose{orientation.pose.rotation * *level, orientation.pose.translation};
+      s.solved_pose = Pose{orientation.pose.rotation * level, orientation.pose.translation};
   Outcome outcome{document, json::object(), {}, {}, {}};
   outcome.document.job = std::make_shared<const Job>(std::move(job));
   outcome.description = fmt::format("Oriented {} with {}", orientation.station, device_.type().definition.title);
@@ -354,11 +345,10 @@ Result<void> DeviceHost::remember(const fs::path& scans_folder) {
   const auto file = memoryFile(scans_folder, device_.type());
   std::error_code none;
   if (!scans_folder.empty() && fs::exists(file, none)) {
-    const auto memory = readJsonFile(file);
-    if (!memory) return failure(memory.error());
-    if (auto recalled = recallMemory(device_, *memory, scans_folder); !recalled)
+    TRY_ASSIGN(const auto memory, readJsonFile(file));
+    if (auto recalled = recallMemory(device_, memory, scans_folder); !recalled)
       return failure(recalled.error().kind, recalled.error().message, file.string());
-    kept_ = *memory;
+    kept_ = memory;
   }
   kept_at_ = device_.state().noted;
   remembers_ = true;

@@ -41,17 +41,15 @@ const EmulatedDevice* findDevice(const std::string& id) {
 
 Result<std::shared_ptr<const DeviceType>> loadDevice(const EmulatedDevice& device, const std::string& instrument) {
   const auto folder = dataFolder() / "emulated-ui";
-  auto definition = readDefinition(folder / device.program().definition);
-  if (!definition) return failure(definition.error());
-  auto words = Words::read(folder / "words");
-  if (!words) return failure(words.error());
-  const auto& drives = definition->instruments;
+  TRY_ASSIGN(auto definition, readDefinition(folder / device.program().definition));
+  TRY_ASSIGN(auto words, Words::read(folder / "words"));
+  const auto& drives = definition.instruments;
   const auto default_value =
       std::find_if(drives.begin(), drives.end(), [](const std::string& id) { return id != "*"; });
-  auto found = instrumentById(instrument.empty() && default_value != drives.end() ? *default_value : instrument);
-  if (!found) return failure(found.error());
-  auto type = makeDeviceType(*std::move(definition), device.program(), *std::move(found),
-                             std::make_shared<const Words>(*std::move(words)));
+  TRY_ASSIGN(auto found,
+             instrumentById(instrument.empty() && default_value != drives.end() ? *default_value : instrument));
+  auto type = makeDeviceType(std::move(definition), device.program(), std::move(found),
+                             std::make_shared<const Words>(std::move(words)));
   if (!type) return type;
   if (const auto faults = checkStructure(**type); !faults.empty()) return failure(faults.front());
   return type;

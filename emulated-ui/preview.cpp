@@ -86,7 +86,7 @@ Result<std::shared_ptr<const ScanPreview>> readPreview(const std::filesystem::pa
   if (format == nullptr || format->read == nullptr)
     return failure(ErrorKind::unusable, "cannot read the file", file.string());
   Thinner thinner;
-  if (auto read = format->read(file, thinner, progress); !read) return failure(read.error());
+  TRY(format->read(file, thinner, progress));
   return thinner.take();
 }
 

@@ -64,11 +64,10 @@ ControlList controlOf(const Document& document) {
 Result<Eigen::Quaterniond> levelledFromScanner(const Station& station, const Instrument& instrument, bool compensator,
                                                std::uint64_t seed) {
   Report report;
-  const auto believed =
-      believedPose(station, instrument, {.compensator = compensator, .exact = false, .seed = seed}, report);
-  if (!believed) return failure(believed.error());
+  TRY_ASSIGN(const auto believed,
+             believedPose(station, instrument, {.compensator = compensator, .exact = false, .seed = seed}, report));
   const double yaw = yawOf(station.true_pose.rotation);
-  return Eigen::Quaterniond(Eigen::AngleAxisd(-yaw, Eigen::Vector3d::UnitZ())) * believed->rotation;
+  return Eigen::Quaterniond(Eigen::AngleAxisd(-yaw, Eigen::Vector3d::UnitZ())) * believed.rotation;
 }
 
 Result<std::vector<FittedTarget>> targetsIn(const Document& document, const fs::path& file, std::uint64_t seed,
@@ -76,11 +75,10 @@ Result<std::vector<FittedTarget>> targetsIn(const Document& document, const fs::
   MeasuringRequest request;
   request.files = {file};
   request.seed = seed;
-  const auto measured = measureTargets(document, request, progress);
-  if (!measured) return failure(measured.error());
+  TRY_ASSIGN(const auto measured, measureTargets(document, request, progress));
   std::vector<FittedTarget> targets;
   const auto& job = *document.job;
-  for (const auto& m : measured->found) {
+  for (const auto& m : measured.found) {
     const auto& target = job.targets[m.target];
     const auto truth = job.stations[m.station].true_pose.rotation.conjugate() *
                        (target.centre - job.stations[m.station].true_pose.translation);
@@ -95,7 +93,7 @@ Result<std::vector<FittedTarget>> targetsIn(const Document& document, const fs::
     t.centre_m = m.fit.centre;
     targets.push_back(std::move(t));
   }
-  for (const auto& m : measured->missed) {
+  for (const auto& m : measured.missed) {
     FittedTarget t;
     t.name = job.targets[m.target].name;
     t.why_not = m.why;
@@ -116,11 +114,10 @@ Result<FittedTarget> sightTarget(const Document& document, const SightOrder& ord
   missed.name = target->name;
   missed.why_not = "a different kind of target is at this position";
   if ((target->kind == TargetKind::sphere) != (order.kind == "sphere")) return missed;
-  auto instrument = instrumentById(order.instrument);
-  if (!instrument) return failure(instrument.error());
+  TRY_ASSIGN(auto instrument, instrumentById(order.instrument));
   ScanVerbOptions options;
   options.instrument = order.instrument;
-  options.settings = windowOn(*target, *station, *instrument, order.settings);
+  options.settings = windowOn(*target, *station, instrument, order.settings);
   options.stations.names = {order.station};
   options.seed = seed;
   options.output = file;
@@ -131,8 +128,7 @@ Result<FittedTarget> sightTarget(const Document& document, const SightOrder& ord
       scanned ? targetsIn(document, file, seed, progress) : Result<std::vector<FittedTarget>>(failure(scanned.error()));
   fs::remove(file, ignored);
   if (!measured) return failure(measured.error());
-  const auto level = levelledFromScanner(*station, *instrument, order.compensator, seed);
-  if (!level) return failure(level.error());
+  TRY_ASSIGN(const auto level, levelledFromScanner(*station, instrument, order.compensator, seed));
   for (auto& t : *measured) {
     if (t.name != target->name) continue;
     // The operator sees that the target is not there: what was fitted is the wall before it.

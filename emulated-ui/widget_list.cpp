@@ -38,9 +38,8 @@ Result<std::string> widgetList() {
   std::string rows, summary;
   std::size_t all = 0, all_act = 0;
   for (const auto& device : emulatedDevices()) {
-    const auto type = loadDevice(device);
-    if (!type) return failure(type.error());
-    const Device d(*type);
+    TRY_ASSIGN(const auto type, loadDevice(device));
+    const Device d(type);
     std::map<std::string, std::pair<const WidgetRow*, std::string>> once;  // id: row, screens
     std::vector<std::string> order;
     const auto take = [&](const WidgetRow& w, const std::string& screen) {
@@ -50,8 +49,8 @@ Result<std::string> widgetList() {
       else
         at->second.second += ", " + screen;
     };
-    for (const auto& key : (*type)->definition.keys) take(key, "body");
-    for (const auto& screen : (*type)->definition.screens)
+    for (const auto& key : type->definition.keys) take(key, "body");
+    for (const auto& screen : type->definition.screens)
       for (const auto& w : screen.widgets) take(w, screen.id);
     std::size_t acting = 0;
     for (const auto& id : order) {

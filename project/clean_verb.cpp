@@ -109,9 +109,8 @@ Result<void> writeReport(const fs::path& file, const std::string& text) {
 Result<std::vector<ChosenFilter>> filtersFrom(const std::vector<std::string>& texts) {
   std::vector<ChosenFilter> filters;
   for (const auto& text : texts) {
-    auto chosen = filterFrom(text);
-    if (!chosen) return failure(chosen.error());
-    filters.push_back(*std::move(chosen));
+    TRY_ASSIGN(auto chosen, filterFrom(text));
+    filters.push_back(std::move(chosen));
   }
   return filters;
 }
@@ -143,26 +142,21 @@ Result<Outcome> runClean(const Document& document, const CleanOptions& options, 
   if (!fs::exists(in, error)) return failure(ErrorKind::file_system, "file not found", in.string());
   if (!report.empty() && report.extension() != ".json" && report.extension() != ".csv")
     return failure(ErrorKind::usage, "unsupported report format: use .json or .csv", "--report");
-  if (auto there = checkFolderOf(options.output, "--output"); !there) return failure(there.error());
-  if (!report.empty())
-    if (auto there = checkFolderOf(report, "--report"); !there) return failure(there.error());
-  auto cleaning = cleanCloud(in, options.output, options.filters, progress);
-  if (!cleaning) return failure(cleaning.error());
-  Outcome outcome{document, json::object(), std::move(cleaning->report), {}};
+  TRY(checkFolderOf(options.output, "--output"));
+  if (!report.empty()) TRY(checkFolderOf(report, "--report"));
+  TRY_ASSIGN(auto cleaning, cleanCloud(in, options.output, options.filters, progress));
+  Outcome outcome{document, json::object(), std::move(cleaning.report), {}};
   json rows = json::array(), files = json::array();
-  for (const FilterFigures& f : cleaning->filters) rows.push_back(figuresJson(f));
-  for (const auto& file : cleaning->files) files.push_back(file.string());
+  for (const FilterFigures& f : cleaning.filters) rows.push_back(figuresJson(f));
+  for (const auto& file : cleaning.files) files.push_back(file.string());
   outcome.answer = {
-      {"points_in", cleaning->points_in}, {"points_out", cleaning->points_out}, {"filters", std::move(rows)}};
+      {"points_in", cleaning.points_in}, {"points_out", cleaning.points_out}, {"filters", std::move(rows)}};
   if (!report.empty())
-    if (auto written =
-            writeReport(report, report.extension() == ".csv" ? csv(*cleaning) : outcome.answer.dump(2) + "\n");
-        !written)
-      return failure(written.error());
+    TRY(writeReport(report, report.extension() == ".csv" ? csv(cleaning) : outcome.answer.dump(2) + "\n"));
   outcome.answer["files"] = std::move(files);
-  outcome.description = fmt::format("Cleaned {}: kept {} of {} points", in.filename().string(), cleaning->points_out,
-                                    cleaning->points_in);
-  outcome.text = table(*cleaning);
+  outcome.description =
+      fmt::format("Cleaned {}: kept {} of {} points", in.filename().string(), cleaning.points_out, cleaning.points_in);
+  outcome.text = table(cleaning);
   return outcome;
 }
 

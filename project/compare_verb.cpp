@@ -39,13 +39,12 @@ const Fields<CompareOptions>& compareFields() {
 
 Result<Outcome> runCompare(const Document& document, const CompareOptions& options, Progress& progress) {
   progress.stage("Compare");
-  auto comparison = compareClouds(options.a, options.b, {}, progress);
-  if (!comparison) return failure(comparison.error());
-  Outcome outcome{document, json::object(), comparison->report, {}};
-  outcome.answer = {{"a", statisticsJson(comparison->a)},
-                    {"b", statisticsJson(comparison->b)},
-                    {"a_covered_by_b", comparison->a_covered_by_b},
-                    {"b_covered_by_a", comparison->b_covered_by_a}};
+  TRY_ASSIGN(auto comparison, compareClouds(options.a, options.b, {}, progress));
+  Outcome outcome{document, json::object(), comparison.report, {}};
+  outcome.answer = {{"a", statisticsJson(comparison.a)},
+                    {"b", statisticsJson(comparison.b)},
+                    {"a_covered_by_b", comparison.a_covered_by_b},
+                    {"b_covered_by_a", comparison.b_covered_by_a}};
   outcome.description = "Compared two clouds";
   return outcome;
 }

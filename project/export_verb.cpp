@@ -69,25 +69,23 @@ Result<Levels> makeLevels(const Document& document, const std::vector<std::uint6
     SimplificationRequest request;
     request.budget = budget;
     request.max_deviation_m = kNoLimit;
-    const auto plan = planLightening(document, request, progress);
-    if (!plan) return failure(plan.error());
-    auto lighter = optimize(*document.imported, plan->options, progress);
-    if (!lighter) return failure(lighter.error());
-    result.environments.push_back(std::make_unique<Environment>(sceneOf(lighter->environment)));
-    GltfLevel level{fmt::format("LOD{}: {} triangles", result.levels.size() + 1, lighter->all.triangles_after),
+    TRY_ASSIGN(const auto plan, planLightening(document, request, progress));
+    TRY_ASSIGN(auto lighter, optimize(*document.imported, plan.options, progress));
+    result.environments.push_back(std::make_unique<Environment>(sceneOf(lighter.environment)));
+    GltfLevel level{fmt::format("LOD{}: {} triangles", result.levels.size() + 1, lighter.all.triangles_after),
                     result.environments.back().get(),
                     {},
                     {}};
-    for (const auto& loss : lighter->products) {
+    for (const auto& loss : lighter.products) {
       level.max_deviation_m.push_back(loss.max_deviation_m);
       level.mean_deviation_m.push_back(loss.mean_deviation_m);
     }
-    if (!lighter->budget_reached)
+    if (!lighter.budget_reached)
       report.warn("--levels",
-                  fmt::format("cannot reach {} triangles; the level has {}", budget, lighter->all.triangles_after));
-    result.answer.push_back({{"triangles", lighter->all.triangles_after},
-                             {"max_deviation_m", lighter->all.max_deviation_m},
-                             {"mean_deviation_m", lighter->all.mean_deviation_m}});
+                  fmt::format("cannot reach {} triangles; the level has {}", budget, lighter.all.triangles_after));
+    result.answer.push_back({{"triangles", lighter.all.triangles_after},
+                             {"max_deviation_m", lighter.all.max_deviation_m},
+                             {"mean_deviation_m", lighter.all.mean_deviation_m}});
     result.levels.push_back(std::move(level));
   }
   return result;
@@ -113,9 +111,8 @@ std::vector<const PhysicalMaterial*> physicalSurfaces(const Document& document,
 Result<void> exportGltf(const Document& document, Environment& scene, const fs::path& file,
                         const ExportOptions& options, Outcome& outcome, Progress& progress) {
   GltfCompanions companions;
-  const auto budgets = budgetsOf(options.levels, triangleCount(scene));
-  if (!budgets) return failure(budgets.error());
-  auto levels = makeLevels(document, *budgets, outcome.report, progress);
+  TRY_ASSIGN(const auto budgets, budgetsOf(options.levels, triangleCount(scene)));
+  auto levels = makeLevels(document, budgets, outcome.report, progress);
   if (!levels) return failure(levels.error());
   companions.levels = std::move(levels->levels);
   std::vector<Environment*> all = {&scene};
@@ -188,14 +185,13 @@ Result<Outcome> runExport(const Document& document, const ExportOptions& options
   if (!gltf && (!options.levels.empty() || options.collision))
     return failure(ErrorKind::usage, "levels of detail and collision shapes can be exported to .glb or .gltf only",
                    "--output");
-  if (auto there = checkFolderOf(file, "--output"); !there) return failure(there.error());
+  TRY(checkFolderOf(file, "--output"));
   Environment scene = sceneOf(*document.environment());
   dropUnusedMeshes(scene);
   Outcome outcome{document, {{"file", file.string()}, {"triangles", triangleCount(scene)}}, {}, {}};
-  auto written = gltf                 ? exportGltf(document, scene, file, options, outcome, progress)
-                 : helios || physical ? exportPhysical(document, scene, file, helios, outcome.report, progress)
-                                      : writeEnvironmentObj(scene, *document.georeference, file, progress);
-  if (!written) return failure(written.error());
+  TRY(gltf                 ? exportGltf(document, scene, file, options, outcome, progress)
+      : helios || physical ? exportPhysical(document, scene, file, helios, outcome.report, progress)
+                           : writeEnvironmentObj(scene, *document.georeference, file, progress));
   if (const auto left_out = document.environment()->instances.size() - scene.instances.size(); left_out > 0)
     outcome.report.note(
         "spaces", fmt::format("{} bodies outside the scene (spaces, excluded products) were not exported", left_out));

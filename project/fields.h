@@ -173,9 +173,8 @@ struct FieldValue<std::optional<T>> {
   static constexpr auto kKind = FieldValue<T>::kKind;
   static void describe(Parameter& p) { FieldValue<T>::describe(p); }
   static Result<std::optional<T>> read(const nlohmann::json& value) {
-    auto said = FieldValue<T>::read(value);
-    if (!said) return failure(said.error());
-    return std::optional<T>(*std::move(said));
+    TRY_ASSIGN(auto said, FieldValue<T>::read(value));
+    return std::optional<T>(std::move(said));
   }
   static nlohmann::json write(const std::optional<T>& value) {
     return value ? FieldValue<T>::write(*value) : nlohmann::json();
@@ -196,9 +195,8 @@ struct Field {
   template <class B, class T>
   requires std::derived_from<O, B> Field(const char* name, T B::*member, const char* help, FieldDetails details = {})
       : set([member](O& options, const nlohmann::json& value) -> Result<void> {
-          auto read = FieldValue<T>::read(value);
-          if (!read) return failure(read.error());
-          options.*member = *std::move(read);
+          TRY_ASSIGN(auto read, FieldValue<T>::read(value));
+          options.*member = std::move(read);
           return {};
         }),
         written([member](const O& options) { return FieldValue<T>::write(options.*member); }) {
@@ -214,8 +212,7 @@ struct Field {
     parameter.positional = details.positional;
     parameter.required = details.required;
     parameter.check = [](const nlohmann::json& value) -> Result<void> {
-      auto read = FieldValue<T>::read(value);
-      if (!read) return failure(read.error());
+      TRY(FieldValue<T>::read(value));
       return {};
     };
   }
@@ -233,8 +230,7 @@ template <class O>
 Result<O> optionsFrom(const Fields<O>& fields, const nlohmann::json& checked) {
   O options;
   for (const auto& field : fields)
-    if (const auto said = checked.find(field.parameter.name); said != checked.end())
-      if (auto set = field.set(options, *said); !set) return failure(set.error());
+    if (const auto said = checked.find(field.parameter.name); said != checked.end()) TRY(field.set(options, *said));
   return options;
 }
 
@@ -256,9 +252,8 @@ Verb verbOf(const char* name, const char* summary, VerbScope scope, const Fields
   for (const auto& field : fields) verb.parameters.push_back(field.parameter);
   verb.run = [&fields, run](const Document& document, const nlohmann::json& checked,
                             Progress& progress) -> Result<Outcome> {
-    const auto options = optionsFrom(fields, checked);
-    if (!options) return failure(options.error());
-    return run(document, *options, progress);
+    TRY_ASSIGN(const auto options, optionsFrom(fields, checked));
+    return run(document, options, progress);
   };
   return verb;
 }

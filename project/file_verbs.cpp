@@ -52,12 +52,11 @@ Result<Outcome> convertTo(const ConvertOptions& options, Outcome outcome, Progre
   const auto& name = options.dataset;
   const auto set = std::find_if(datasets().begin(), datasets().end(), [&](const Dataset& d) { return name == d.name; });
   if (set == datasets().end()) return failure(ErrorKind::usage, "unknown dataset '" + name + "'", "--dataset");
-  auto map = readClassMap(options.classes.empty() ? dataFolder() / "pointclouds" / "classes" / (name + ".json")
-                                                  : options.classes);
-  if (!map) return failure(map.error());
-  auto report = convertToDataset(in, out, *set, *std::move(map), progress);
-  if (!report) return failure(report.error());
-  outcome.report = *std::move(report);
+  TRY_ASSIGN(auto map,
+             readClassMap(options.classes.empty() ? dataFolder() / "pointclouds" / "classes" / (name + ".json")
+                                                  : options.classes));
+  TRY_ASSIGN(auto report, convertToDataset(in, out, *set, std::move(map), progress));
+  outcome.report = std::move(report);
   outcome.answer["files"] = {out.string()};
   outcome.description = "Converted " + in.filename().string() + " to " + set->description;
   return outcome;
@@ -88,11 +87,11 @@ const Fields<ConvertOptions>& convertFields() {
 
 Result<Outcome> runConvert(const Document& document, const ConvertOptions& options, Progress& progress) {
   const fs::path& in = options.in;
-  if (auto ok = mustExist(in); !ok) return failure(ok.error());
+  TRY(mustExist(in));
   progress.stage("Convert " + in.filename().string());
   Outcome outcome{document, json::object(), {}, {}};
   if (!options.dataset.empty()) return convertTo(options, std::move(outcome), progress);
-  if (auto there = checkFolderOf(options.out, "OUT"); !there) return failure(there.error());
+  TRY(checkFolderOf(options.out, "OUT"));
   auto files = convertCloud(in, options.out, options.as, outcome.report, progress);
   if (!files) return failure(files.error());
   json names = json::array();
@@ -110,38 +109,35 @@ const Fields<InfoOptions>& infoFields() {
 
 Result<Outcome> runInfo(const Document& document, const InfoOptions& options, Progress& progress) {
   const fs::path& file = options.file;
-  if (auto ok = mustExist(file); !ok) return failure(ok.error());
+  TRY(mustExist(file));
   progress.stage("Read " + file.filename().string());
   Outcome outcome{document, json::object(), {}, {}};
   if (fs::is_directory(file)) {
-    auto project = loadProject(file, progress);
-    if (!project) return failure(project.error());
-    outcome.answer = projectInfo(*project);
+    TRY_ASSIGN(auto project, loadProject(file, progress));
+    outcome.answer = projectInfo(project);
     return outcome;
   }
   if (const auto* format = readableCloudFormat(file)) {
-    auto info = format->info(file);
-    if (!info) return failure(info.error());
+    TRY_ASSIGN(auto info, format->info(file));
     json scans = json::array();
     std::uint64_t points = 0;
-    for (const auto& s : info->scans) {
+    for (const auto& s : info.scans) {
       scans.push_back(scanInfo(s));
       points += s.points;
     }
-    outcome.answer = {{"format", info->format},
+    outcome.answer = {{"format", info.format},
                       {"points", points},
                       {"scans", std::move(scans)},
-                      {"crs", info->crs.empty() ? json(nullptr) : json(info->crs)}};
-    outcome.report = info->report;
+                      {"crs", info.crs.empty() ? json(nullptr) : json(info.crs)}};
+    outcome.report = info.report;
     return outcome;
   }
-  auto model = importFile(file, {}, progress);
-  if (!model) return failure(model.error());
-  outcome.answer = {{"products", model->environment.products.size()},
-                    {"triangles", triangleCount(model->environment)},
-                    {"bounds", toJson(bounds(model->environment), model->georeference.shift_m)},
-                    {"georeference", georeferenceToJson(model->georeference)}};
-  outcome.report = model->report;
+  TRY_ASSIGN(auto model, importFile(file, {}, progress));
+  outcome.answer = {{"products", model.environment.products.size()},
+                    {"triangles", triangleCount(model.environment)},
+                    {"bounds", toJson(bounds(model.environment), model.georeference.shift_m)},
+                    {"georeference", georeferenceToJson(model.georeference)}};
+  outcome.report = model.report;
   return outcome;
 }
 

@@ -78,9 +78,8 @@ Result<Outcome> runGeoreference(const Document& document, const GeoreferenceOpti
   progress.stage("Georeference");
   Georeference g = *document.georeference;
   if (!options.crs.empty()) {
-    auto found = findCrs(options.crs);
-    if (!found) return failure(found.error());
-    g.crs = found->code;
+    TRY_ASSIGN(auto found, findCrs(options.crs));
+    g.crs = found.code;
   }
   if (options.origin) {
     MapConversion c = g.map_from_file.value_or(MapConversion{});
@@ -98,7 +97,7 @@ Result<Outcome> runGeoreference(const Document& document, const GeoreferenceOpti
   }
   Outcome outcome{document, georeferenceToJson(g), {}, {}};
   for (const char* key : {"geographic", "utm", "grid_convergence_deg", "scale_factor"}) outcome.answer[key] = nullptr;
-  if (auto done = locate(document, g, outcome.answer, outcome.report); !done) return failure(done.error());
+  TRY(locate(document, g, outcome.answer, outcome.report));
   if (!options.crs.empty() || options.origin || options.rotation_deg) {
     outcome.description = fmt::format("Set the georeference{}", g.crs.empty() ? "" : " to " + g.crs);
     outcome.document.georeference = std::make_shared<const Georeference>(g);

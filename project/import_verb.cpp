@@ -265,9 +265,8 @@ Result<Outcome> importModels(const Document& document, const std::vector<std::fi
     outcome.report.warn("georeference",
                         "the model has no georeference; set it with `georeference` (--crs, --origin, --rotation-deg)");
   if (!crs.empty()) {
-    auto found = findCrs(crs);
-    if (!found) return failure(found.error());
-    georeference.crs = found->code;
+    TRY_ASSIGN(auto found, findCrs(crs));
+    georeference.crs = found.code;
   }
   outcome.answer = {{"products", productRows(environment, georeference.shift_m)},
                     {"spatial", spatialRows(environment)},
@@ -366,9 +365,8 @@ Result<Outcome> addImported(const Document& document, Outcome imported, Progress
   d.simplified.reset();
   d.collision.reset();
   if (d.materials) {
-    auto assigned = assignDocumentMaterials(d, {}, progress);
-    if (!assigned) return failure(assigned.error());
-    d.materials = assigned->document.materials;
+    TRY_ASSIGN(auto assigned, assignDocumentMaterials(d, {}, progress));
+    d.materials = assigned.document.materials;
   }
   outcome.description = fmt::format("Added {}: {} products", source, products);
   return outcome;

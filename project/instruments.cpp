@@ -84,18 +84,17 @@ fs::path ownInstrumentsFolder() {
 
 Result<std::vector<KnownInstrument>> instrumentsWithFiles() {
   std::vector<KnownInstrument> known;
-  if (auto shipped = addFrom(known, shippedInstrumentsFolder(), false); !shipped) return failure(shipped.error());
+  TRY(addFrom(known, shippedInstrumentsFolder(), false));
   std::error_code code;
   if (const auto own = ownInstrumentsFolder(); !own.empty() && fs::is_directory(own, code))
-    if (auto added = addFrom(known, own, true); !added) return failure(added.error());
+    TRY(addFrom(known, own, true));
   return known;
 }
 
 Result<std::vector<Instrument>> knownInstruments() {
-  auto known = instrumentsWithFiles();
-  if (!known) return failure(known.error());
+  TRY_ASSIGN(auto known, instrumentsWithFiles());
   std::vector<Instrument> instruments;
-  for (auto& k : *known) instruments.push_back(std::move(k.instrument));
+  for (auto& k : known) instruments.push_back(std::move(k.instrument));
   return instruments;
 }
 
@@ -106,27 +105,25 @@ std::string idsOf(const std::vector<Instrument>& instruments) {
 }
 
 Result<Instrument> instrumentById(const std::string& id) {
-  auto all = knownInstruments();
-  if (!all) return failure(all.error());
-  for (auto& i : *all)
+  TRY_ASSIGN(auto all, knownInstruments());
+  for (auto& i : all)
     if (i.id == id) return std::move(i);
-  return failure(ErrorKind::usage, fmt::format("unknown instrument '{}'; available: {}", id, idsOf(*all)),
+  return failure(ErrorKind::usage, fmt::format("unknown instrument '{}'; available: {}", id, idsOf(all)),
                  "--instrument");
 }
 
 Result<fs::path> copyInstrument(const std::string& id, const std::string& new_id) {
-  const auto known = instrumentsWithFiles();
-  if (!known) return failure(known.error());
+  TRY_ASSIGN(const auto known, instrumentsWithFiles());
   const auto named = [&](const std::string& wanted) {
     const auto is = [&](const KnownInstrument& k) { return k.instrument.id == wanted; };
-    return std::find_if(known->begin(), known->end(), is);
+    return std::find_if(known.begin(), known.end(), is);
   };
   const auto original = named(id);
-  if (original == known->end()) return failure(ErrorKind::usage, fmt::format("unknown instrument '{}'", id), "--copy");
+  if (original == known.end()) return failure(ErrorKind::usage, fmt::format("unknown instrument '{}'", id), "--copy");
   if (!isId(new_id))
     return failure(ErrorKind::usage, "an id can contain lowercase letters, digits, - and _, up to 64 characters",
                    "--as");
-  if (const auto taken = named(new_id); taken != known->end())
+  if (const auto taken = named(new_id); taken != known.end())
     return failure(ErrorKind::usage, fmt::format("id '{}' is already used by {}", new_id, taken->file.string()),
                    "--as");
   const fs::path folder = ownInstrumentsFolder();
@@ -137,7 +134,7 @@ Result<fs::path> copyInstrument(const std::string& id, const std::string& new_id
   if (!exchangeId(text, id, new_id))
     return failure(ErrorKind::internal, "the id was not found in the file", original->file.string());
   const fs::path file = folder / (new_id + ".json");
-  if (auto written = writeNew(file, text); !written) return failure(written.error());
+  TRY(writeNew(file, text));
   return file;
 }
 

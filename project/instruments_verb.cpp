@@ -54,17 +54,16 @@ Result<Outcome> runInstruments(const Document& document, const InstrumentsOption
     outcome.answer["copied"] = {{"id", new_id}, {"from", id}, {"file", file->string()}};
     outcome.description = fmt::format("Copied {} to {}", id, file->string());
   }
-  const auto known = instrumentsWithFiles();
-  if (!known) return failure(known.error());
+  TRY_ASSIGN(const auto known, instrumentsWithFiles());
   outcome.answer["own_folder"] = ownInstrumentsFolder().string();
   outcome.answer["schema"] = (shippedInstrumentsFolder() / "schema.json").string();
   outcome.answer["instruments"] = json::array();
   std::string ids;
-  for (const auto& k : *known) {
+  for (const auto& k : known) {
     outcome.answer["instruments"].push_back(rowOf(k));
     ids += (ids.empty() ? "" : ", ") + k.instrument.id;
   }
-  if (outcome.description.empty()) outcome.description = fmt::format("{} instruments: {}", known->size(), ids);
+  if (outcome.description.empty()) outcome.description = fmt::format("{} instruments: {}", known.size(), ids);
   return outcome;
 }
 

@@ -30,9 +30,8 @@ Result<std::vector<std::string>> readSelectors(const json& object, const JsonPla
 
 Result<void> readOptional(const json& object, const JsonPlace& at, const char* key, std::optional<double>& value) {
   if (!object.contains(key)) return {};
-  auto number = readNumber(object.at(key), at / key, 0, 1e6);
-  if (!number) return failure(number.error());
-  value = *number;
+  TRY_ASSIGN(auto number, readNumber(object.at(key), at / key, 0, 1e6));
+  value = number;
   return {};
 }
 
@@ -50,24 +49,21 @@ Result<LodRule> readRule(const json& entry, const JsonPlace& at) {
       !known)
     return failure(known.error());
   LodRule rule;
-  auto reason = readText(entry, at, "reason");
-  if (!reason) return failure(reason.error());
-  rule.reason = *std::move(reason);
-  auto selectors = readSelectors(entry, at);
-  if (!selectors) return failure(selectors.error());
-  rule.products = *std::move(selectors);
+  TRY_ASSIGN(auto reason, readText(entry, at, "reason"));
+  rule.reason = std::move(reason);
+  TRY_ASSIGN(auto selectors, readSelectors(entry, at));
+  rule.products = std::move(selectors);
   for (const auto& [key, field] :
        {std::pair{"smaller_than_m", &LodRule::smaller_than_m}, std::pair{"thinner_than_m", &LodRule::thinner_than_m},
         std::pair{"sees_sky_less_than", &LodRule::sees_sky_less_than},
         std::pair{"max_deviation_m", &LodRule::max_deviation_m}})
-    if (auto read = readOptional(entry, at, key, rule.*field); !read) return failure(read.error());
+    TRY(readOptional(entry, at, key, rule.*field));
   for (const auto& [key, field] : {std::pair{"drop", &LodRule::drop}, std::pair{"keep", &LodRule::keep}})
-    if (auto read = readFlag(entry, at, key, rule.*field); !read) return failure(read.error());
+    TRY(readFlag(entry, at, key, rule.*field));
   if (rule.drop && rule.keep) return at.unusable("cannot both drop and keep");
   if (entry.contains("weight")) {
-    auto weight = readNumber(entry.at("weight"), at / "weight", 0.001, 1000);
-    if (!weight) return failure(weight.error());
-    rule.weight = *weight;
+    TRY_ASSIGN(auto weight, readNumber(entry.at("weight"), at / "weight", 0.001, 1000));
+    rule.weight = weight;
   }
   return rule;
 }
@@ -80,34 +76,29 @@ Result<LodLevel> readLevel(const json& entry, const JsonPlace& at, const char* p
     return failure(known.error());
   LodLevel level;
   for (const auto& [key, field] : {std::pair{"part", &LodLevel::part}, std::pair{"level", &LodLevel::level}}) {
-    auto text = readText(entry, at, key);
-    if (!text) return failure(text.error());
-    level.*field = *std::move(text);
+    TRY_ASSIGN(auto text, readText(entry, at, key));
+    level.*field = std::move(text);
   }
   if (level.part != part)
     return (at / "part").unusable(std::string("must be ") + part + ": list the main part first, then the surroundings");
   for (const char* key : {"budget", "max_deviation_m", "rules"})
     if (!entry.contains(key)) return (at / key).unusable("is missing");
-  auto budget = readNumber(entry.at("budget"), at / "budget", 0, 1e12);
-  if (!budget) return failure(budget.error());
-  level.budget = static_cast<std::uint64_t>(*budget);
-  auto deviation = readNumber(entry.at("max_deviation_m"), at / "max_deviation_m", 0, 1000);
-  if (!deviation) return failure(deviation.error());
-  level.max_deviation_m = *deviation;
-  if (auto read = readOptional(entry, at, "farther_than_m", level.farther_than_m); !read) return failure(read.error());
-  if (auto read = readFlag(entry, at, "hidden_faces", level.hidden_faces); !read) return failure(read.error());
+  TRY_ASSIGN(auto budget, readNumber(entry.at("budget"), at / "budget", 0, 1e12));
+  level.budget = static_cast<std::uint64_t>(budget);
+  TRY_ASSIGN(auto deviation, readNumber(entry.at("max_deviation_m"), at / "max_deviation_m", 0, 1000));
+  level.max_deviation_m = deviation;
+  TRY(readOptional(entry, at, "farther_than_m", level.farther_than_m));
+  TRY(readFlag(entry, at, "hidden_faces", level.hidden_faces));
   if (level.hidden_faces && level.part != "main")
     return (at / "hidden_faces").unusable("is for the whole and belongs in the main part");
-  auto selectors = readSelectors(entry, at);
-  if (!selectors) return failure(selectors.error());
-  level.products = *std::move(selectors);
+  TRY_ASSIGN(auto selectors, readSelectors(entry, at));
+  level.products = std::move(selectors);
   if (level.part == "main" && (level.farther_than_m || !level.products.empty()))
     return at.unusable("define it in the surroundings; the main part is everything else");
   if (!entry.at("rules").is_array()) return (at / "rules").unusable("must be a list");
   for (std::size_t i = 0; i < entry.at("rules").size(); ++i) {
-    auto rule = readRule(entry.at("rules")[i], at / "rules" / i);
-    if (!rule) return failure(rule.error());
-    level.rules.push_back(*std::move(rule));
+    TRY_ASSIGN(auto rule, readRule(entry.at("rules")[i], at / "rules" / i));
+    level.rules.push_back(std::move(rule));
   }
   return level;
 }
@@ -165,15 +156,13 @@ std::vector<double> skyFractionsIfAsked(const Environment& environment, const st
 }  // namespace
 
 Result<std::vector<LodLevel>> readLodRules(const std::filesystem::path& file) {
-  const auto entries = readJsonArray(file);
-  if (!entries) return failure(entries.error());
+  TRY_ASSIGN(const auto entries, readJsonArray(file));
   const JsonPlace top{file.filename().string(), {}};
-  if (entries->size() != 2) return top.unusable("must contain two levels: main and surroundings");
+  if (entries.size() != 2) return top.unusable("must contain two levels: main and surroundings");
   std::vector<LodLevel> levels;
   for (std::size_t i = 0; i < 2; ++i) {
-    auto level = readLevel((*entries)[i], top / i, std::array{"main", "surroundings"}[i]);
-    if (!level) return failure(level.error());
-    levels.push_back(*std::move(level));
+    TRY_ASSIGN(auto level, readLevel(entries[i], top / i, std::array{"main", "surroundings"}[i]));
+    levels.push_back(std::move(level));
   }
   return levels;
 }

@@ -124,11 +124,10 @@ json whereAnswer(const Environment& environment, const MaterialResult& result, c
 
 // Own materials of a file join those that the project has; one with a known id replaces it.
 Result<json> takeLibrary(MaterialChoice& choice, const fs::path& file, const std::vector<PhysicalMaterial>& shipped) {
-  auto own = readOwnMaterials(file, libraryFolder());
-  if (!own) return failure(own.error());
+  TRY_ASSIGN(auto own, readOwnMaterials(file, libraryFolder()));
   json added = json::array(), changed = json::array();
   const auto known = withOwn(shipped, choice.own);
-  for (const auto& m : *own) {
+  for (const auto& m : own) {
     const auto before =
         std::find_if(known.begin(), known.end(), [&](const PhysicalMaterial& k) { return k.id == m.id; });
     if (before == known.end())
@@ -136,7 +135,7 @@ Result<json> takeLibrary(MaterialChoice& choice, const fs::path& file, const std
     else if (!(*before == m))
       changed.push_back(m.id);
   }
-  choice.own = withOwn(choice.own, *own);
+  choice.own = withOwn(choice.own, own);
   return json{{"file", file.filename().string()}, {"added", added}, {"changed", changed}};
 }
 
@@ -163,9 +162,8 @@ Result<void> takeOverrides(MaterialChoice& choice, const std::vector<MaterialOve
 Result<RuleSet> rulesOf(MaterialChoice& choice, const std::vector<PhysicalMaterial>& library) {
   if (choice.rules_file.empty()) return readAssignmentRules(defaultRules(), library);
   if (choice.rules_text.empty()) {
-    auto text = readRulesText(choice.rules_file);
-    if (!text) return failure(text.error());
-    choice.rules_text = std::move(*text);
+    TRY_ASSIGN(auto text, readRulesText(choice.rules_file));
+    choice.rules_text = std::move(text);
   }
   return parseAssignmentRules(choice.rules_text, fs::path(choice.rules_file).filename().string(), library,
                               defaultRules());
@@ -179,10 +177,9 @@ Result<std::vector<double>> wavelengths(const Document& document, const std::str
     for (const auto& station : document.job->stations)
       for (const auto& scan : station.scans) ids.push_back(scan.instrument);
   if (ids.empty()) return std::vector<double>();
-  const auto instruments = knownInstruments();
-  if (!instruments) return failure(instruments.error());
+  TRY_ASSIGN(const auto instruments, knownInstruments());
   std::vector<double> result;
-  for (const auto& each : *instruments)
+  for (const auto& each : instruments)
     if (std::find(ids.begin(), ids.end(), each.id) != ids.end()) result.push_back(each.wavelength_nm);
   if (!instrument.empty() && result.empty()) return failure(ErrorKind::usage, "unknown instrument", instrument);
   std::sort(result.begin(), result.end());
@@ -224,8 +221,7 @@ std::string description(const MaterialRequest& request, const MaterialReport& re
 
 Result<Outcome> assignDocumentMaterials(const Document& document, const MaterialRequest& request, Progress& progress) {
   progress.stage("Materials");
-  const auto shipped = readMaterialLibrary(libraryFolder());
-  if (!shipped) return failure(shipped.error());
+  TRY_ASSIGN(const auto shipped, readMaterialLibrary(libraryFolder()));
   MaterialChoice choice = document.materials ? *document.materials : MaterialChoice();
   if (!request.rules.empty()) {
     choice.rules_file = request.rules == "default" ? "" : request.rules.string();
@@ -234,30 +230,25 @@ Result<Outcome> assignDocumentMaterials(const Document& document, const Material
   if (!request.instrument.empty()) choice.instrument = request.instrument;
   json taken = json::array();
   for (const auto& file : request.libraries) {
-    auto news = takeLibrary(choice, file, *shipped);
-    if (!news) return failure(news.error());
-    taken.push_back(std::move(*news));
+    TRY_ASSIGN(auto news, takeLibrary(choice, file, shipped));
+    taken.push_back(std::move(news));
   }
-  if (auto done = forget(choice, request.forget); !done) return failure(done.error());
-  if (auto done = takeOverrides(choice, request.assign); !done) return failure(done.error());
-  const auto library = withOwn(*shipped, choice.own);
-  auto rules = rulesOf(choice, library);
-  if (!rules) return failure(rules.error());
-  auto waves = wavelengths(document, choice.instrument);
-  if (!waves) return failure(waves.error());
-  AssignOptions options{choice.accepted, std::move(*waves),
+  TRY(forget(choice, request.forget));
+  TRY(takeOverrides(choice, request.assign));
+  const auto library = withOwn(shipped, choice.own);
+  TRY_ASSIGN(auto rules, rulesOf(choice, library));
+  TRY_ASSIGN(auto waves, wavelengths(document, choice.instrument));
+  AssignOptions options{choice.accepted, std::move(waves),
                         document.georeference ? document.georeference->shift_m : Eigen::Vector3d::Zero()};
   const auto& environment = *document.environment();
-  auto result = assignMaterials(environment, library, *rules, choice.overrides, options, progress);
-  if (!result) return failure(result.error());
-  choice.result = *std::move(result);
+  TRY_ASSIGN(auto result, assignMaterials(environment, library, rules, choice.overrides, options, progress));
+  choice.result = std::move(result);
   Document done = document;
   done.materials = std::make_shared<const MaterialChoice>(choice);
-  const auto judged = judge(choice, materialFindings(done), request);
-  if (!judged) return failure(judged.error());
-  if (*judged) {
+  TRY_ASSIGN(const auto judged, judge(choice, materialFindings(done), request));
+  if judged {
     options.accepted = choice.accepted;
-    choice.result = assignMaterials(environment, library, *rules, choice.overrides, options, progress).value();
+    choice.result = assignMaterials(environment, library, rules, choice.overrides, options, progress).value();
     done.materials = std::make_shared<const MaterialChoice>(choice);
   }
   Outcome outcome{std::move(done), {}, {}, description(request, choice.result.report)};
@@ -315,17 +306,14 @@ Result<Outcome> runMaterials(const Document& document, const MaterialsOptions& o
   if (!outcome) return outcome;
   const auto& choice = *outcome->document.materials;
   if (const auto& id = options.where; !id.empty()) {
-    const auto shipped = readMaterialLibrary(libraryFolder());
-    if (!shipped) return failure(shipped.error());
-    const auto library = withOwn(*shipped, choice.own);
+    TRY_ASSIGN(const auto shipped, readMaterialLibrary(libraryFolder()));
+    const auto library = withOwn(shipped, choice.own);
     if (std::none_of(library.begin(), library.end(), [&](const PhysicalMaterial& m) { return m.id == id; }))
       return failure(ErrorKind::usage, "not in the material library", id);
     outcome->answer["where"] = whereAnswer(*document.environment(), choice.result, id);
     outcome->text = whereText(outcome->answer["where"]);
   }
-  if (!options.report.empty())
-    if (auto written = writeMaterialReport(outcome->document, options.report); !written)
-      return failure(written.error());
+  if (!options.report.empty()) TRY(writeMaterialReport(outcome->document, options.report));
   return outcome;
 }
 

@@ -38,7 +38,7 @@ Result<MeasuredReturns> measuredReturns(const Document& document, const CloudSam
   const SharedFaces shared(*document.environment(), assignment);
   MeasuredReturns result;
   for (std::size_t from = 0; from < count; from += kBlock) {
-    if (auto go_on = progress.check(); !go_on) return failure(go_on.error());
+    TRY(progress.check());
     progress.advance(static_cast<double>(from) / static_cast<double>(count));
     // Every point has its own slot.
     tbb::parallel_for(from, std::min(count, from + kBlock), [&](std::size_t i) {

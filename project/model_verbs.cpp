@@ -114,18 +114,17 @@ const Fields<CollideVerbOptions>& collideFields() {
 
 Result<Outcome> runCollide(const Document& document, const CollideVerbOptions& options, Progress& progress) {
   CollideOptions typed{options.agent_radius_m, options.agent_height_m, {}, {}};
-  if (auto set = setDoors(document, options, typed); !set) return failure(set.error());
+  TRY(setDoors(document, options, typed));
   progress.stage("Collision shapes");
   // From the model as it came: walls that are still prisms give few convex pieces, and no doorway has been simplified.
   const auto& environment = *document.imported;
   const Eigen::Vector3d shift_m = document.georeference ? document.georeference->shift_m : Eigen::Vector3d::Zero();
-  auto result = collide(environment, typed, progress);
-  if (!result) return failure(result.error());
-  Outcome outcome{document, answerOf(environment, *result, shift_m), result->report, {}};
+  TRY_ASSIGN(auto result, collide(environment, typed, progress));
+  Outcome outcome{document, answerOf(environment, result, shift_m), result.report, {}};
   outcome.description =
-      fmt::format("Created {} collision shapes; {:.1f} m² walkable, {} of {} doors passable", result->shapes.size(),
-                  result->walkable_area_m2, passableDoors(*result), result->doors.size());
-  outcome.document.collision = std::make_shared<const CollideResult>(*std::move(result));
+      fmt::format("Created {} collision shapes; {:.1f} m² walkable, {} of {} doors passable", result.shapes.size(),
+                  result.walkable_area_m2, passableDoors(result), result.doors.size());
+  outcome.document.collision = std::make_shared<const CollideResult>(std::move(result));
   return outcome;
 }
 

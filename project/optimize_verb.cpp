@@ -84,9 +84,8 @@ Result<SimplificationPlan> planLightening(const Document& document, const Simpli
     const std::filesystem::path file = request.lod_rules == "default"
                                            ? dataFolder() / "optimizer" / "lod" / "default.json"
                                            : std::filesystem::path(request.lod_rules);
-    auto levels = readLodRules(file);
-    if (!levels) return failure(levels.error());
-    plan.levels = *std::move(levels);
+    TRY_ASSIGN(auto levels, readLodRules(file));
+    plan.levels = std::move(levels);
     plan.options = allowances(*document.imported, plan.levels, {request.budget, request.surroundings});
   }
   if (document.treatments)
@@ -114,36 +113,34 @@ Result<Outcome> runOptimize(const Document& document, const SimplificationReques
   if (!request.surroundings.empty() && request.lod_rules.empty())
     return failure(ErrorKind::usage, "requires --lod", "surroundings");
   progress.stage("Optimise");
-  auto plan = planLightening(document, request, progress);
-  if (!plan) return failure(plan.error());
-  const auto& options = plan->options;
-  auto result = optimize(*document.imported, options, progress);
-  if (!result) return failure(result.error());
+  TRY_ASSIGN(auto plan, planLightening(document, request, progress));
+  const auto& options = plan.options;
+  TRY_ASSIGN(auto result, optimize(*document.imported, options, progress));
   Outcome outcome{document, json::object(), {}, {}};
-  reportRules(*plan, outcome.report);
+  reportRules(plan, outcome.report);
   reportTreatments(document, outcome.report);
-  outcome.report.append(result->report);
+  outcome.report.append(result.report);
   const auto lod = [&](std::size_t product) {
     return options.products.empty() ? alikeName(options) : options.products[product].lod;
   };
-  outcome.answer = lossJson(result->all, levelsOf(options));
-  outcome.answer["budget_reached"] = result->budget_reached;
-  if (!result->budget_reached) outcome.answer["smallest_budget"] = result->smallest_budget;
+  outcome.answer = lossJson(result.all, levelsOf(options));
+  outcome.answer["budget_reached"] = result.budget_reached;
+  if (!result.budget_reached) outcome.answer["smallest_budget"] = result.smallest_budget;
   json rows = json::array();
-  for (std::size_t i = 0; i < result->products.size(); ++i) {
-    if (result->products[i].triangles_before == 0) continue;
+  for (std::size_t i = 0; i < result.products.size(); ++i) {
+    if (result.products[i].triangles_before == 0) continue;
     json row = identity(document.imported->products[i]);
-    row.update(lossJson(result->products[i], lod(i)));
+    row.update(lossJson(result.products[i], lod(i)));
     if (!options.products.empty()) row["rule"] = options.products[i].reason;
     rows.push_back(std::move(row));
   }
   outcome.answer["products"] = std::move(rows);
   outcome.description =
-      fmt::format("Optimised {} to {} triangles, max deviation {:.1f} mm", result->all.triangles_before,
-                  result->all.triangles_after, result->all.max_deviation_m * 1000);
-  SimplifiedModel simplified{std::make_shared<const Environment>(std::move(result->environment)),
-                             std::move(result->products),
-                             result->all,
+      fmt::format("Optimised {} to {} triangles, max deviation {:.1f} mm", result.all.triangles_before,
+                  result.all.triangles_after, result.all.max_deviation_m * 1000);
+  SimplifiedModel simplified{std::make_shared<const Environment>(std::move(result.environment)),
+                             std::move(result.products),
+                             result.all,
                              request,
                              {}};
   for (const auto& allowance : options.products) simplified.levels.push_back(allowance.lod);

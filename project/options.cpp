@@ -99,12 +99,11 @@ Result<json> checkOptions(const Verb& verb, const json& options) {
 }
 
 Result<Outcome> runVerb(const Verb& verb, const Document& document, const json& options, Progress& progress) {
-  auto complete = checkOptions(verb, options);
-  if (!complete) return failure(complete.error());
+  TRY_ASSIGN(auto complete, checkOptions(verb, options));
   if ((verb.scope == VerbScope::changes || verb.scope == VerbScope::reads) && !document.imported)
     return failure(ErrorKind::usage, "there is no model: import one first", verb.name);
   try {
-    return verb.run(document, *complete, progress);
+    return verb.run(document, complete, progress);
   } catch (const std::bad_alloc&) {
     return failure(ErrorKind::unusable, "not enough memory", verb.name);
   } catch (const std::exception& e) {

@@ -118,16 +118,13 @@ std::string textOf(const SurveyPlan& plan, const json& answer) {
 
 Result<PlanRequest> requestFrom(const Document& document, const PlanOptions& options) {
   PlanRequest request;
-  auto instrument = instrumentById(options.instrument);
-  if (!instrument) return failure(instrument.error());
-  request.instrument = *std::move(instrument);
-  auto settings = resolveSettings(request.instrument, options.settings);
-  if (!settings) return failure(settings.error());
-  request.settings = *std::move(settings);
+  TRY_ASSIGN(auto instrument, instrumentById(options.instrument));
+  request.instrument = std::move(instrument);
+  TRY_ASSIGN(auto settings, resolveSettings(request.instrument, options.settings));
+  request.settings = std::move(settings);
   if (!document.job->stations.empty()) {
-    auto stations = stationsFrom(*document.job, options.stations);
-    if (!stations) return failure(stations.error());
-    request.stations = *std::move(stations);
+    TRY_ASSIGN(auto stations, stationsFrom(*document.job, options.stations));
+    request.stations = std::move(stations);
   }
   if (options.spacing_m) request.wanted.max_spacing_m = *options.spacing_m;
   if (options.max_incidence_deg) request.wanted.max_incidence_rad = *options.max_incidence_deg * kRadPerDeg;
@@ -141,9 +138,8 @@ Result<PlanRequest> requestFrom(const Document& document, const PlanOptions& opt
 // The place that adds most to what these stations see.
 Result<json> proposalFor(const Document& document, const RayScene& scene, const SurveyPlan& plan,
                          const PlanRequest& request, Progress& progress) {
-  const auto stand = readTripodStand(tripodStandFile());
-  if (!stand) return failure(stand.error());
-  const StationPlacement placement(scene, *stand, request.instrument.trunnion_height_m);
+  TRY_ASSIGN(const auto stand, readTripodStand(tripodStandFile()));
+  const StationPlacement placement(scene, stand, request.instrument.trunnion_height_m);
   std::vector<std::uint8_t> seen(plan.samples.samples.size(), 0);
   for (const auto& f : plan.forecasts)
     for (std::size_t k = 0; k < seen.size(); ++k) seen[k] |= f.seen[k];
@@ -153,7 +149,7 @@ Result<json> proposalFor(const Document& document, const RayScene& scene, const 
   progress.stage("Search for next station", 0.7, 1);
   const auto next =
       nextStation(document, placement, plan.samples, seen, limits, request.instrument.tripod_height_m, progress);
-  if (auto go_on = progress.check(); !go_on) return failure(go_on.error());
+  TRY(progress.check());
   if (!next) return json();
   return json{{"at", toJson(next->centre + document.georeference->shift_m)}, {"adds_m2", next->adds_m2}};
 }
@@ -184,34 +180,29 @@ const Fields<PlanOptions>& planFields() {
 }
 
 Result<Outcome> runPlan(const Document& document, const PlanOptions& options, Progress& progress) {
-  auto request = requestFrom(document, options);
-  if (!request) return failure(request.error());
+  TRY_ASSIGN(auto request, requestFrom(document, options));
   Outcome outcome{document, json::object(), {}, {}};
   noteDefaultRules(document, outcome.report);
-  auto assignment = scanAssignment(document, progress);
-  if (!assignment) return failure(assignment.error());
-  const ScanWorld world = scanWorld(document, *assignment);
+  TRY_ASSIGN(auto assignment, scanAssignment(document, progress));
+  const ScanWorld world = scanWorld(document, assignment);
   if (sceneTriangleCount(*world.environment) == 0)
     return failure(
         ErrorKind::unusable,
         "the scene contains no products to plan for; import a model, or include products again with `treat`");
-  auto scene = RayScene::build(world.environment, progress);
-  if (!scene) return failure(scene.error());
-  auto plan = planSurvey(*document.job, *scene, std::make_shared<const MaterialAssignment>(world.assignment), *request,
-                         progress);
-  if (!plan) return failure(plan.error());
-  auto proposal = proposalFor(document, **scene, *plan, *request, progress);
-  if (!proposal) return failure(proposal.error());
-  outcome.answer = answerOf(*plan, *world.environment);
-  outcome.answer["proposed"] = *proposal;
-  outcome.description = fmt::format("{} station{} would cover {:.1f} % of {:.0f} m2", plan->stations.size(),
-                                    plan->stations.size() == 1 ? "" : "s", plan->all.coverage() * 100,
+  TRY_ASSIGN(auto scene, RayScene::build(world.environment, progress));
+  TRY_ASSIGN(auto plan, planSurvey(*document.job, scene, std::make_shared<const MaterialAssignment>(world.assignment),
+                                   request, progress));
+  TRY_ASSIGN(auto proposal, proposalFor(document, *scene, plan, request, progress));
+  outcome.answer = answerOf(plan, *world.environment);
+  outcome.answer["proposed"] = proposal;
+  outcome.description = fmt::format("{} station{} would cover {:.1f} % of {:.0f} m2", plan.stations.size(),
+                                    plan.stations.size() == 1 ? "" : "s", plan.all.coverage() * 100,
                                     outcome.answer["exposed_m2"].get<double>());
-  outcome.text = textOf(*plan, outcome.answer);
-  if (proposal->is_object())
+  outcome.text = textOf(plan, outcome.answer);
+  if (proposal.is_object())
     outcome.text += fmt::format("another station at {:.2f},{:.2f},{:.2f} would add {:.1f} m2\n",
-                                (*proposal)["at"][0].get<double>(), (*proposal)["at"][1].get<double>(),
-                                (*proposal)["at"][2].get<double>(), (*proposal)["adds_m2"].get<double>());
+                                proposal["at"][0].get<double>(), proposal["at"][1].get<double>(),
+                                proposal["at"][2].get<double>(), proposal["adds_m2"].get<double>());
   return outcome;
 }
 

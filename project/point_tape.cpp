@@ -121,9 +121,8 @@ tl::unexpected<Error> damaged(const fs::path& file) {
 Result<std::unique_ptr<PointTape>> PointTape::create(const fs::path& file, PointSink& behind) {
   std::error_code code;
   fs::create_directories(file.parent_path(), code);
-  auto part = PartFile::create(file);
-  if (!part) return failure(part.error());
-  return std::unique_ptr<PointTape>(new PointTape(*std::move(part), behind));
+  TRY_ASSIGN(auto part, PartFile::create(file));
+  return std::unique_ptr<PointTape>(new PointTape(std::move(part), behind));
 }
 
 Result<void> PointTape::put(std::uint8_t kind) {
@@ -160,27 +159,26 @@ Result<void> PointTape::end() {
 Result<void> PointTape::close() { return file_.commit(); }
 
 Result<void> playTape(const fs::path& file, PointSink& sink, Progress& progress) {
-  auto input = InputFile::open(file);
-  if (!input) return failure(input.error());
+  TRY_ASSIGN(auto input, InputFile::open(file));
   std::vector<std::uint8_t> bytes;
   for (std::uint64_t at = 0;;) {
     if (auto go_on = progress.check(); !go_on) return go_on;
-    progress.advance(static_cast<double>(at) / static_cast<double>(std::max<std::uint64_t>(1, input->size())));
+    progress.advance(static_cast<double>(at) / static_cast<double>(std::max<std::uint64_t>(1, input.size())));
     std::array<std::uint8_t, sizeof(PieceHead)> raw{};
     PieceHead head;
-    auto got = input->read(at, raw);
+    auto got = input.read(at, raw);
     if (!got) return failure(got.error());
     if (*got != raw.size()) return damaged(file);
     std::memcpy(&head, raw.data(), sizeof head);
     at += sizeof head;
-    if (head.length > input->size() - at || head.length > kLongestPiece) return damaged(file);
+    if (head.length > input.size() - at || head.length > kLongestPiece) return damaged(file);
     bytes.resize(head.length);
-    got = input->read(at, bytes);
+    got = input.read(at, bytes);
     if (!got) return failure(got.error());
     if (*got != bytes.size() || crc32c(bytes) != head.crc) return damaged(file);
     at += head.length;
     Unpacker unpack(bytes);
-    if (head.kind == kEnd) return at == input->size() ? Result<void>{} : damaged(file);
+    if (head.kind == kEnd) return at == input.size() ? Result<void>{} : damaged(file);
     if (head.kind == kBlock) {
       PointBlock block;
       visitBlock(unpack, block);

@@ -47,9 +47,8 @@ Result<void> writeText(const fs::path& file, const std::string& text) {
 }
 
 Result<json> readJson(const fs::path& file) {
-  auto text = readText(file);
-  if (!text) return failure(text.error());
-  json value = json::parse(*text, nullptr, false);
+  TRY_ASSIGN(auto text, readText(file));
+  json value = json::parse(text, nullptr, false);
   if (value.is_discarded())
     return failure(ErrorKind::unusable, "invalid JSON: the file is damaged or not a Standpoint project", file.string());
   return value;
@@ -58,9 +57,8 @@ Result<json> readJson(const fs::path& file) {
 // Parts are stored under the name of their content, so an unchanged part is not written again and an old project.json
 // keeps pointing at its own parts until the new one replaces it.
 Result<std::string> storeUnderContentName(const fs::path& fresh, const std::string& stem) {
-  auto text = readText(fresh);
-  if (!text) return failure(text.error());
-  const auto name = fmt::format("{}-{:016x}{}", stem, contentHash(*text), fresh.extension().string());
+  TRY_ASSIGN(auto text, readText(fresh));
+  const auto name = fmt::format("{}-{:016x}{}", stem, contentHash(text), fresh.extension().string());
   std::error_code error;
   fs::rename(fresh, fresh.parent_path() / name, error);
   if (error) return failure(ErrorKind::file_system, "cannot rename: " + error.message(), fresh.string());
@@ -111,27 +109,22 @@ Result<Environment> loadEnvironment(const fs::path& file, const Environment& rec
 
 Result<Document> fromJson(const json& project, const fs::path& folder, Progress& progress) {
   const auto geometry = folder / "geometry";
-  auto records = readJson(geometry / project.at("products").get<std::string>());
-  if (!records) return failure(records.error());
-  Environment named = recordsFrom(*records);
-  auto imported = loadEnvironment(geometry / project.at("imported").get<std::string>(), named, progress);
-  if (!imported) return failure(imported.error());
+  TRY_ASSIGN(auto records, readJson(geometry / project.at("products").get<std::string>()));
+  Environment named = recordsFrom(records);
+  TRY_ASSIGN(auto imported, loadEnvironment(geometry / project.at("imported").get<std::string>(), named, progress));
   Document d = documentFrom(project);
-  d.imported = std::make_shared<const Environment>(*std::move(imported));
-  auto georeference = georeferenceFrom(project.at("georeference"));
-  if (!georeference) return failure(georeference.error());
-  d.georeference = std::make_shared<const Georeference>(*std::move(georeference));
+  d.imported = std::make_shared<const Environment>(std::move(imported));
+  TRY_ASSIGN(auto georeference, georeferenceFrom(project.at("georeference")));
+  d.georeference = std::make_shared<const Georeference>(std::move(georeference));
   if (project.contains("lightening")) {
     const auto& part = project.at("lightening");
-    auto light = loadEnvironment(geometry / part.at("geometry").get<std::string>(), named, progress);
-    if (!light) return failure(light.error());
-    d.simplified = simplificationFrom(part, std::make_shared<const Environment>(*std::move(light)));
+    TRY_ASSIGN(auto light, loadEnvironment(geometry / part.at("geometry").get<std::string>(), named, progress));
+    d.simplified = simplificationFrom(part, std::make_shared<const Environment>(std::move(light)));
   }
   if (project.contains("collision")) {
     const auto& part = project.at("collision");
-    auto shapes = readEnvironmentGlb(geometry / part.at("geometry").get<std::string>(), progress);
-    if (!shapes) return failure(shapes.error());
-    d.collision = collisionFrom(part, *shapes);
+    TRY_ASSIGN(auto shapes, readEnvironmentGlb(geometry / part.at("geometry").get<std::string>(), progress));
+    d.collision = collisionFrom(part, shapes);
   }
   if (project.contains("verification")) d.verification = verificationFrom(project.at("verification"));
   if (project.contains("underlays")) d.underlays = underlaysFrom(project.at("underlays"), folder);

@@ -94,16 +94,14 @@ Result<json> byTargets(Job& job, const TargetMeasurements& measured, std::size_t
   request.held = held;
   request.matching = options.by;
   if (!options.control.empty()) {
-    auto control = readControlPoints(options.control, shift_m);
-    if (!control) return failure(control.error());
-    request.control = *std::move(control);
+    TRY_ASSIGN(auto control, readControlPoints(options.control, shift_m));
+    request.control = std::move(control);
     job.control_points = request.control;
   }
-  const auto r = registerByTargets(job, measured, request, report);
-  if (!r) return failure(r.error());
-  json answer = registrationRows(job, *r, shift_m);
+  TRY_ASSIGN(const auto r, registerByTargets(job, measured, request, report));
+  json answer = registrationRows(job, r, shift_m);
   answer["measured"] = measuredRows(job, measured);
-  for (std::size_t i = 0; i < r->station_of.size(); ++i) job.stations[r->station_of[i]].solved_pose = r->fit.pose[i];
+  for (std::size_t i = 0; i < r.station_of.size(); ++i) job.stations[r.station_of[i]].solved_pose = r.fit.pose[i];
   return answer;
 }
 
@@ -164,35 +162,30 @@ Result<Outcome> runRegister(const Document& document, const RegisterOptions& opt
   request.files = options.files;
   std::vector<std::filesystem::path> written;
   if (!options.output.empty()) {
-    auto to = registeredFiles(request.files, options.output);
-    if (!to) return failure(to.error());
-    written = *std::move(to);
+    TRY_ASSIGN(auto to, registeredFiles(request.files, options.output));
+    written = std::move(to);
   }
   request.seed = options.seed;
   request.click_m = options.click_m;
   request.targets = !cloud, request.sample = cloud;
-  const auto measured = measureTargets(document, request, progress);
-  if (!measured) return failure(measured.error());
-  if (measured->scans.size() < (options.control.empty() ? 2U : 1U))
+  TRY_ASSIGN(const auto measured, measureTargets(document, request, progress));
+  if (measured.scans.size() < (options.control.empty() ? 2U : 1U))
     return failure(ErrorKind::usage,
                    "a single station cannot be registered: specify scans of at least two, or use --control", "files");
-  Outcome outcome{document, json::object(), measured->report, {}};
+  Outcome outcome{document, json::object(), measured.report, {}};
   Job job = *document.job;
-  const auto held = heldStation(job, *measured, options);
-  if (!held) return failure(held.error());
+  TRY_ASSIGN(const auto held, heldStation(job, measured, options));
   const Vector3d& shift_m = document.georeference->shift_m;
-  auto answer = cloud ? byClouds(job, *measured, *held, options, shift_m, outcome.report, progress)
-                      : byTargets(job, *measured, *held, options, shift_m, outcome.report);
-  if (!answer) return failure(answer.error());
-  outcome.answer = *std::move(answer);
+  TRY_ASSIGN(auto answer, cloud ? byClouds(job, measured, held, options, shift_m, outcome.report, progress)
+                                : byTargets(job, measured, held, options, shift_m, outcome.report));
+  outcome.answer = std::move(answer);
   outcome.text = textOf(outcome.answer);
   if (!written.empty()) {
-    if (auto ok = writeRegistered(job, shift_m, request.files, written, outcome.report, progress); !ok)
-      return failure(ok.error());
+    TRY(writeRegistered(job, shift_m, request.files, written, outcome.report, progress));
     for (const auto& file : written) outcome.answer["files"].push_back(file.string());
   }
   outcome.description =
-      fmt::format("Registered {} stations {}", measured->scans.size(), cloud ? "cloud to cloud" : "by targets");
+      fmt::format("Registered {} stations {}", measured.scans.size(), cloud ? "cloud to cloud" : "by targets");
   outcome.document.job = std::make_shared<const Job>(std::move(job));
   return outcome;
 }

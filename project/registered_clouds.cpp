@@ -38,9 +38,8 @@ class PosedSink final : public PointSink {
       : to_(to), job_(job), shift_m_(shift_m), stations_(job, file) {}
 
   Result<void> begin(const ScanHeader& header) override {
-    auto index = stations_.next(header);
-    if (!index) return failure(index.error());
-    const Station& station = job_.stations[*index];
+    TRY_ASSIGN(auto index, stations_.next(header));
+    const Station& station = job_.stations[index];
     if (!station.solved_pose) return failure(ErrorKind::internal, "this station was not registered", station.name);
     ScanHeader posed = header;
     posed.file_from_scanner = *station.solved_pose;
@@ -80,7 +79,7 @@ Result<std::vector<fs::path>> registeredFiles(const std::vector<fs::path>& files
     const auto* format = cloudFormatFor(output);
     if (format == nullptr || format->writer == nullptr)
       return failure(ErrorKind::usage, fmt::format("unsupported format '{}'", output.extension().string()), "--output");
-    if (auto there = checkFolderOf(output, "--output"); !there) return failure(there.error());
+    TRY(checkFolderOf(output, "--output"));
     to.push_back(output);
   } else {
     for (const auto& file : files) to.push_back(output / file.filename());
@@ -108,8 +107,7 @@ Result<void> writeRegistered(const Job& job, const Eigen::Vector3d& shift_m, con
                    0.95 + 0.05 * static_cast<double>(i) / static_cast<double>(files.size()),
                    0.95 + 0.05 * static_cast<double>(i + 1) / static_cast<double>(files.size()));
     const auto posed = [&](PointSink& writer) { return std::make_unique<PosedSink>(writer, job, shift_m, files[i]); };
-    if (auto written = convertCloud(files[i], to[i], "", report, progress, posed); !written)
-      return failure(written.error());
+    TRY(convertCloud(files[i], to[i], "", report, progress, posed));
   }
   return {};
 }

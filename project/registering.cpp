@@ -129,9 +129,8 @@ void tell(const SurfaceFit& fit, const std::string& name, Report& report) {
 Result<std::vector<PlacePair>> FieldValue<std::vector<PlacePair>>::read(const json& texts) {
   std::vector<PlacePair> pairs;
   for (const auto& text : texts) {
-    const auto pair = placePairFrom(text.get<std::string>());
-    if (!pair) return failure(pair.error());
-    pairs.push_back(*pair);
+    TRY_ASSIGN(const auto pair, placePairFrom(text.get<std::string>()));
+    pairs.push_back(pair);
   }
   return pairs;
 }
@@ -197,16 +196,14 @@ Result<Underlay> registered(const Document& document, const Underlay& underlay, 
   if (request.pairs.empty() && !request.to_surface)
     return failure(ErrorKind::usage, "specify --pairs x,y,z=X,Y,Z … (three or more), --icp, or both", "--register");
   if (!request.pairs.empty()) {
-    auto pose = byPairs(request.pairs, underlay.name, answer, report);
-    if (!pose) return failure(pose.error());
-    result.file_from_cloud = *pose;
+    TRY_ASSIGN(auto pose, byPairs(request.pairs, underlay.name, answer, report));
+    result.file_from_cloud = pose;
   }
   if (request.to_surface) {
     progress.stage("Reading " + underlay.name, 0, 0.4);
-    const auto sample = sampleCloud(underlay.file, kSampleForFit, progress);
-    if (!sample) return failure(sample.error());
+    TRY_ASSIGN(const auto sample, sampleCloud(underlay.file, kSampleForFit, progress));
     progress.stage("Fitting " + underlay.name + " to the model", 0.4, 1);
-    const auto fit = fitCloudToModel(document, *sample, result.file_from_cloud, request.reach_m, progress);
+    const auto fit = fitCloudToModel(document, sample, result.file_from_cloud, request.reach_m, progress);
     if (!fit) return failure(fit.error().kind, fit.error().message, underlay.name);
     result.file_from_cloud = fit->to_from;
     answer["icp"] = toJson(*fit);

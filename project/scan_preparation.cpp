@@ -29,15 +29,13 @@ Result<std::shared_ptr<const ScanPreparation>> prepareScan(const Document& docum
   made->model = document.environment();
   made->materials = document.materials;
   made->targets = document.job->targets;
-  auto assignment = scanAssignment(document, progress);
-  if (!assignment) return failure(assignment.error());
-  made->world = scanWorld(document, *assignment);
+  TRY_ASSIGN(auto assignment, scanAssignment(document, progress));
+  made->world = scanWorld(document, assignment);
   if (of_model && &of_model->environment() == made->world.environment.get()) {
     made->scene = std::move(of_model);
   } else {
-    auto scene = RayScene::build(made->world.environment, progress);
-    if (!scene) return failure(scene.error());
-    made->scene = *std::move(scene);
+    TRY_ASSIGN(auto scene, RayScene::build(made->world.environment, progress));
+    made->scene = std::move(scene);
   }
   made->fingerprint = fingerprintOf(made->world);
   return made;

@@ -207,19 +207,16 @@ const Fields<ScanVerbOptions>& scanFields() {
 
 Result<ScanRequest> scanRequestFrom(const Document& document, const ScanVerbOptions& options) {
   ScanRequest request;
-  auto instrument = instrumentById(options.instrument);
-  if (!instrument) return failure(instrument.error());
-  request.instrument = *std::move(instrument);
-  auto settings = resolveSettings(request.instrument, options.settings);
-  if (!settings) return failure(settings.error());
-  request.settings = *std::move(settings);
+  TRY_ASSIGN(auto instrument, instrumentById(options.instrument));
+  request.instrument = std::move(instrument);
+  TRY_ASSIGN(auto settings, resolveSettings(request.instrument, options.settings));
+  request.settings = std::move(settings);
   request.instrument.camera = request.settings.camera;
   if (const auto most = chosenEffect(request.instrument, request.settings.values, "most_returns"))
     request.instrument.waveform.max_returns = static_cast<int>(*most);
   request.options.seed = options.seed;
-  const auto effects = effectsFrom(options);
-  if (!effects) return failure(effects.error());
-  request.options.effects = *effects;
+  TRY_ASSIGN(const auto effects, effectsFrom(options));
+  request.options.effects = effects;
   request.options.weather = options.weather.value_or(request.options.weather);
   request.options.sun = options.sun;
   request.options.interference = options.interference;
@@ -228,19 +225,17 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const ScanVerbOpti
   request.levelling = {.compensator = options.compensator == Switch::on,
                        .exact = !request.options.effects.has(Effect::levelling),
                        .seed = request.options.seed};
-  if (auto ok = choosePanorama(request, options); !ok) return failure(ok.error());
+  TRY(choosePanorama(request, options));
   const bool truth = options.truth;
   request.options.channels = {
       .time = truth, .returns = truth || request.instrument.waveform.max_returns > 1, .truth = truth};
   request.options.threads = options.threads;
-  auto stations = stationsFrom(*document.job, options.stations);
-  if (!stations) return failure(stations.error());
-  request.stations = options.shard ? shardOf(*stations, *options.shard) : *std::move(stations);
-  if (auto ok = chooseOutput(request, options.output); !ok) return failure(ok.error());
+  TRY_ASSIGN(auto stations, stationsFrom(*document.job, options.stations));
+  request.stations = options.shard ? shardOf(stations, *options.shard) : std::move(stations);
+  TRY(chooseOutput(request, options.output));
   request.as = options.as;
-  const auto writer = writerOf(*request.format, request.as);
-  if (!writer) return failure(writer.error());
-  request.writer = *writer;
+  TRY_ASSIGN(const auto writer, writerOf(*request.format, request.as));
+  request.writer = writer;
   request.resume = options.resume;
   return request;
 }
@@ -251,9 +246,8 @@ void noteDefaultRules(const Document& document, Report& report) {
 
 Result<MaterialAssignment> scanAssignment(const Document& document, Progress& progress) {
   if (document.materials) return document.materials->result.assignment;
-  auto assigned = assignDocumentMaterials(document, {}, progress);
-  if (!assigned) return failure(assigned.error());
-  return assigned->document.materials->result.assignment;
+  TRY_ASSIGN(auto assigned, assignDocumentMaterials(document, {}, progress));
+  return assigned.document.materials->result.assignment;
 }
 
 }  // namespace standpoint

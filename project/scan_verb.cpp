@@ -136,16 +136,15 @@ Result<ScanCount> scanStation(const RayScene& scene, const ScanWorld& world, con
                                                       : span.to;
   if (request.panorama) {
     progress.stage("Images at " + span.name, span.from, pictures_to);
-    auto panorama = takePanorama(scene, request.instrument, station.true_pose, request.options.threads, report,
-                                 progress, meteringOf(request.instrument, request.settings.values));
-    if (!panorama) return failure(panorama.error());
-    coloured = colouring(file, std::make_shared<const Panorama>(*std::move(panorama)));
+    TRY_ASSIGN(auto panorama, takePanorama(scene, request.instrument, station.true_pose, request.options.threads,
+                                           report, progress, meteringOf(request.instrument, request.settings.values)));
+    coloured = colouring(file, std::make_shared<const Panorama>(std::move(panorama)));
   }
   progress.stage("Scan " + span.name, pictures_to, span.to);
   PointSink& sink = coloured ? *coloured : file;
-  if (auto ok = sink.begin(header); !ok) return failure(ok.error());
+  TRY(sink.begin(header));
   if (!request.settings.laser) {  // pictures only
-    if (auto ok = sink.end(); !ok) return failure(ok.error());
+    TRY(sink.end());
     return ScanCount{};
   }
   ScanOptions options = request.options;
@@ -153,7 +152,7 @@ Result<ScanCount> scanStation(const RayScene& scene, const ScanWorld& world, con
   auto count = scanWithFieldFault(scene, world.assignment, request.instrument, request.settings, station.true_pose,
                                   options, request.field_fault, sink, progress);
   if (!count) return count;
-  if (auto ok = sink.end(); !ok) return failure(ok.error());
+  TRY(sink.end());
   return count;
 }
 
@@ -218,15 +217,14 @@ class ScanRun {
     progress.stage("Scan " + span.name, span.from, span.to);
     const auto earlier = request_.resume && isBatch() ? parts_.finished(station.name, guid) : std::nullopt;
     const bool is_there = earlier && isWhole(station.name, file, earlier->bytes);
-    auto count = is_there ? taken(k, file, guid, *earlier, progress) : scanned(k, file, guid, progress);
-    if (!count) return failure(count.error());
+    TRY_ASSIGN(auto count, is_there ? taken(k, file, guid, *earlier, progress) : scanned(k, file, guid, progress));
     finished_.push_back(station.name);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-    rows.push_back(scanRow(station, *count, seconds, request_, file));
+    rows.push_back(scanRow(station, count, seconds, request_, file));
     if (is_there) rows.back()["resumed"] = true;
-    if (count->points == 0 && request_.settings.laser)
+    if (count.points == 0 && request_.settings.laser)
       report.warn(station.name, whyNothing(scene_, station.true_pose, request_.instrument, request_.settings));
-    station.scans.push_back(record(*count, request_, file));
+    station.scans.push_back(record(count, request_, file));
     return {};
   }
 
@@ -253,33 +251,31 @@ class ScanRun {
                           const ScanParts::Finished& earlier, Progress& progress) {
     if (!isJoined()) return earlier.count;
     const auto& name = job_.stations[request_.stations[k]].name;
-    if (auto ok = open(file); !ok) return failure(ok.error());
+    TRY(open(file));
     const auto watched = watchedOr(*sink_);
     PointSink& sink = watched ? *watched : *sink_;
-    if (auto ok = sink.begin(header(k, guid)); !ok) return failure(ok.error());
-    if (auto ok = playTape(parts_.pointsOf(name), sink, progress); !ok) return failure(ok.error());
-    if (auto ok = sink.end(); !ok) return failure(ok.error());
-    if (auto ok = closeAfter(k); !ok) return failure(ok.error());
+    TRY(sink.begin(header(k, guid)));
+    TRY(playTape(parts_.pointsOf(name), sink, progress));
+    TRY(sink.end());
+    TRY(closeAfter(k));
     return earlier.count;
   }
 
   Result<ScanCount> scanned(std::size_t k, const fs::path& file, const std::string& guid, Progress& progress) {
     const auto& station = job_.stations[request_.stations[k]];
-    if (auto ok = open(file); !ok) return failure(ok.error());
+    TRY(open(file));
     std::unique_ptr<PointTape> tape;
     if (isJoined()) {
-      auto made = PointTape::create(parts_.pointsOf(station.name), *sink_);
-      if (!made) return failure(made.error());
-      tape = *std::move(made);
+      TRY_ASSIGN(auto made, PointTape::create(parts_.pointsOf(station.name), *sink_));
+      tape = std::move(made);
     }
     PointSink& file_sink = tape ? static_cast<PointSink&>(*tape) : *sink_;
     const auto watched = watchedOr(file_sink);
     PointSink& sink = watched ? *watched : file_sink;
     auto count = scanStation(scene_, world_, station, header(k, guid), request_, sink, report, spanOf(k), progress);
     if (!count) return count;
-    if (tape)
-      if (auto ok = tape->close(); !ok) return failure(ok.error());
-    if (auto ok = closeAfter(k); !ok) return failure(ok.error());
+    if (tape) TRY(tape->close());
+    TRY(closeAfter(k));
     if (!isBatch()) return count;
     std::error_code code;
     const std::uint64_t bytes = tape ? tape->size() : fs::file_size(file, code);
@@ -294,9 +290,8 @@ class ScanRun {
 
   Result<void> open(const fs::path& file) {
     if (sink_) return {};
-    auto opened = request_.writer(file);
-    if (!opened) return failure(opened.error());
-    sink_ = *std::move(opened);
+    TRY_ASSIGN(auto opened, request_.writer(file));
+    sink_ = std::move(opened);
     return {};
   }
 
@@ -329,30 +324,28 @@ Result<Outcome> runScan(const Document& document, const ScanVerbOptions& options
 
 Result<Outcome> runScan(const Document& document, const ScanVerbOptions& options, const ScanSurroundings& company,
                         Progress& progress) {
-  auto request = scanRequestFrom(document, options);
-  if (!request) return failure(request.error());
+  TRY_ASSIGN(auto request, scanRequestFrom(document, options));
   Outcome outcome{document, json::object(), {}, {}};
   std::vector<Pose> believed;
-  for (const auto index : request->stations) {
-    auto pose = believedPose(document.job->stations[index], request->instrument, request->levelling, outcome.report);
-    if (!pose) return failure(pose.error());
-    believed.push_back(*pose);
+  for (const auto index : request.stations) {
+    TRY_ASSIGN(auto pose,
+               believedPose(document.job->stations[index], request.instrument, request.levelling, outcome.report));
+    believed.push_back(pose);
   }
   noteDefaultRules(document, outcome.report);
   ScanSurroundings at_hand = company;
   if (!at_hand.preparation || !at_hand.preparation->fits(document)) {
-    auto made = prepareScan(document, nullptr, progress);
-    if (!made) return failure(made.error());
-    at_hand.preparation = *std::move(made);
+    TRY_ASSIGN(auto made, prepareScan(document, nullptr, progress));
+    at_hand.preparation = std::move(made);
   }
-  ScanRun scan_run(document, *request, at_hand, std::move(believed));
-  if (auto ok = scan_run.run(progress); !ok) return failure(ok.error());
+  ScanRun scan_run(document, request, at_hand, std::move(believed));
+  TRY(scan_run.run(progress));
   outcome.report.append(scan_run.report);
   outcome.description =
       fmt::format("Scanned {} station{} with {} {}", scan_run.rows.size(), scan_run.rows.size() == 1 ? "" : "s",
-                  request->instrument.maker, request->instrument.model);
+                  request.instrument.maker, request.instrument.model);
   outcome.answer["stations"] = std::move(scan_run.rows);
-  outcome.document.scanning = std::make_shared<const ScanChoice>(choiceOf(*request));
+  outcome.document.scanning = std::make_shared<const ScanChoice>(choiceOf(request));
   outcome.document.job = std::make_shared<const Job>(std::move(scan_run.job()));
   return outcome;
 }

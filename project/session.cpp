@@ -28,7 +28,7 @@ Result<Outcome> runOnProject(const Verb& verb, const json& options, Progress& pr
   json own = options;
   own.erase("project");
   // A wrong option is said before minutes are spent on reading.
-  if (auto checked = checkOptions(verb, own); !checked) return failure(checked.error());
+  TRY(checkOptions(verb, own));
   std::error_code ignored;
   const bool update = options.value("update", false);
   if (update && options.value("replace", false))
@@ -40,15 +40,14 @@ Result<Outcome> runOnProject(const Verb& verb, const json& options, Progress& pr
                    folder->string());
   Document document;
   if (!creates) {
-    auto loaded = loadProject(*folder, progress);
-    if (!loaded) return failure(loaded.error());
-    document = *std::move(loaded);
+    TRY_ASSIGN(auto loaded, loadProject(*folder, progress));
+    document = std::move(loaded);
   }
   auto outcome = runVerb(verb, document, own, progress);
   if (!outcome) return outcome;
   if (creates) outcome->document.name = std::filesystem::absolute(*folder).filename().string();
   if (verb.scope != VerbScope::reads && outcome->document != document)
-    if (auto saved = saveProject(outcome->document, *folder, progress); !saved) return failure(saved.error());
+    TRY(saveProject(outcome->document, *folder, progress));
   return outcome;
 }
 

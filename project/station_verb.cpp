@@ -31,9 +31,8 @@ struct Setup {
 
 Result<Setup> setupFrom(const StationOptions& options) {
   Setup setup;
-  auto stand = readTripodStand(tripodStandFile());
-  if (!stand) return failure(stand.error());
-  setup.stand = *stand;
+  TRY_ASSIGN(auto stand, readTripodStand(tripodStandFile()));
+  setup.stand = stand;
   if (!options.instrument.empty()) {
     const auto instrument = instrumentById(options.instrument);
     if (!instrument) return failure(instrument.error());
@@ -93,14 +92,13 @@ json stationRow(const Station& s, const Georeference& g) {
 Result<std::optional<NextStation>> addingMost(const Document& document, const StationPlacement& placement,
                                               double height_m, Progress& progress) {
   constexpr std::size_t kSamples = 12000;
-  const auto samples = sampleSurfaces(placement.scene(), kSamples, 1, progress);
-  if (!samples) return failure(samples.error());
+  TRY_ASSIGN(const auto samples, sampleSurfaces(placement.scene(), kSamples, 1, progress));
   std::vector<std::uint8_t> seen;
-  for (const auto& sample : samples->samples)
+  for (const auto& sample : samples.samples)
     seen.push_back(static_cast<std::uint8_t>(std::any_of(
         document.job->stations.begin(), document.job->stations.end(),
         [&](const Station& s) { return inSight(placement.scene(), s.true_pose.translation, sample.place, {}); })));
-  return nextStation(document, placement, *samples, seen, {}, height_m, progress);
+  return nextStation(document, placement, samples, seen, {}, height_m, progress);
 }
 
 // Where nothing was said.
@@ -108,9 +106,9 @@ Result<Eigen::Vector3d> bestPlace(const Document& document, const StationPlaceme
                                   Report& report, Progress& progress) {
   const auto& scene = placement.scene();
   if (!document.job->stations.empty()) {
-    auto next = addingMost(document, placement, height_m, progress);
-    if (!next) return failure(next.error());
-    if (*next) return (*next)->centre;
+    TRY_ASSIGN(auto next, addingMost(document, placement, height_m, progress));
+    if next
+      return next->centre;
   }
   const auto worth = [&](const Eigen::Vector3d& centre) { return roomAround(scene, centre); };
   if (const auto chosen =
@@ -120,7 +118,7 @@ Result<Eigen::Vector3d> bestPlace(const Document& document, const StationPlaceme
     report.warn("station", "no free floor in the model: the tripod was placed next to the model at its lowest level");
     return *beside;
   }
-  if (auto go_on = progress.check(); !go_on) return failure(go_on.error());
+  TRY(progress.check());
   return failure(ErrorKind::unusable,
                  "no free place found for the tripod; specify one with --at X,Y,Z or --on X,Y[,Z]");
 }
@@ -157,30 +155,27 @@ Result<Station> place(const Document& document, const std::string& name, const S
                       const Station* before, Report& report, Progress& progress) {
   if (options.at && options.on)
     return failure(ErrorKind::usage, "specify either --at X,Y,Z (instrument centre) or --on X,Y[,Z] (floor)");
-  const auto setup = setupFrom(options);
-  if (!setup) return failure(setup.error());
-  auto scene = RayScene::build(document.environment(), progress);
-  if (!scene) return failure(scene.error());
-  const StationPlacement placement(**scene, setup->stand, setup->trunnion_m);
+  TRY_ASSIGN(const auto setup, setupFrom(options));
+  TRY_ASSIGN(auto scene, RayScene::build(document.environment(), progress));
+  const StationPlacement placement(*scene, setup.stand, setup.trunnion_m);
   const bool somewhere = options.at || options.on;
   const bool stays = !somewhere && before != nullptr && saysLevel(options);
-  if (!setup->free && !options.at && !stays)
-    if (auto why = placement.badHeight(setup->height_m)) return refused(name, *why);
-  auto centre = stays       ? Result<Eigen::Vector3d>(before->true_pose.translation)
-                : somewhere ? centreFrom(**scene, *document.georeference, options, setup->height_m)
-                            : bestPlace(document, placement, setup->height_m, report, progress);
-  if (!centre) return failure(centre.error());
-  if (auto why = setup->free ? placement.tooNear(*centre) : placement.whyNot(*centre)) return refused(name, *why);
-  if (const auto odd = placement.remark(*centre)) report.warn(name, *odd);
+  if (!setup.free && !options.at && !stays)
+    if (auto why = placement.badHeight(setup.height_m)) return refused(name, *why);
+  TRY_ASSIGN(auto centre, stays       ? Result<Eigen::Vector3d>(before->true_pose.translation)
+                          : somewhere ? centreFrom(*scene, *document.georeference, options, setup.height_m)
+                                      : bestPlace(document, placement, setup.height_m, report, progress));
+  if (auto why = setup.free ? placement.tooNear(centre) : placement.whyNot(centre)) return refused(name, *why);
+  if (const auto odd = placement.remark(centre)) report.warn(name, *odd);
   Station station;
   station.name = name;
-  station.instrument_height_m = setup->height_m;
-  if (const auto ground = placement.groundBelow(*centre)) {
-    station.instrument_height_m = centre->z() - ground->z;
-    if (!ground->modelled() && !setup->free && somewhere)
+  station.instrument_height_m = setup.height_m;
+  if (const auto ground = placement.groundBelow(centre)) {
+    station.instrument_height_m = centre.z() - ground->z;
+    if (!ground->modelled() && !setup.free && somewhere)
       report.warn(name, "outside the model: the tripod is placed on ground at the model's lowest level");
   }
-  station.true_pose.translation = *centre;
+  station.true_pose.translation = centre;
   station.true_pose.rotation = standingRotation(options, name);
   return station;
 }

@@ -92,14 +92,13 @@ Result<SurveyPlan> planSurvey(const Job& job, std::shared_ptr<const RayScene> sc
   const double bytes_per_point =
       bytesPerPoint(request.settings, request.channels, environment, assignment->materials.size());
   progress.stage("Sample surfaces", 0, 0.2);
-  auto samples = sampleSurfaces(*scene, request.samples, request.seed, progress);
-  if (!samples) return failure(samples.error());
+  TRY_ASSIGN(auto samples, sampleSurfaces(*scene, request.samples, request.seed, progress));
   SurveyPlan plan;
-  plan.samples = *std::move(samples);
+  plan.samples = std::move(samples);
   const Expectation expectation(scene, std::move(assignment), ReturnLaw(request.instrument, request.settings));
   progress.stage("Forecast", 0.2, 0.7);
   for (const auto index : request.stations) {
-    if (auto go_on = progress.check(); !go_on) return failure(go_on.error());
+    TRY(progress.check());
     const auto& station = job.stations[index];
     plan.stations.push_back(station.name);
     plan.forecasts.push_back(forecastScan(expectation, station.true_pose, plan.samples, request.wanted));

@@ -184,15 +184,14 @@ Result<TargetMeasurements> measureTargets(const Document& document, const Measur
     };
     progress.stage("Reading " + file.filename().string(), fraction(i), fraction(i + 1));
     NearSink sink(*document.job, request, file, all);
-    auto read = format->read(file, sink, progress);
-    if (!read) return failure(read.error());
-    result.report.append(*read);
+    TRY_ASSIGN(auto read, format->read(file, sink, progress));
+    result.report.append(read);
   }
   std::sort(all.begin(), all.end(),
             [](const StationPoints& a, const StationPoints& b) { return a.scan.station < b.scan.station; });
   progress.stage("Measuring targets", 0.8, 0.95);
   for (auto& station : all) {
-    if (auto ok = progress.check(); !ok) return failure(ok.error());
+    TRY(progress.check());
     measure(*document.job, station, result);
     station.scan.sample = std::move(station.sample.points);
     result.scans.push_back(std::move(station.scan));

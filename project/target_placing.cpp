@@ -187,9 +187,8 @@ Result<Target> placedTarget(const Document& document, const RayScene& scene, Tar
                    "X,Y,Z (attach to the nearest surface)");
   if (options.on) {
     const double height = options.height_m;
-    const auto floor = floorFor(scene, *options.on, shift, height);
-    if (!floor) return failure(floor.error());
-    t.centre = {options.on->x_m - shift.x(), options.on->y_m - shift.y(), *floor + height};
+    TRY_ASSIGN(const auto floor, floorFor(scene, *options.on, shift, height));
+    t.centre = {options.on->x_m - shift.x(), options.on->y_m - shift.y(), floor + height};
     t.normal = towardsNearestStation(document, t.centre);
     stands = fmt::format("a tripod of {:.2f} m", height);
   } else {
@@ -197,14 +196,13 @@ Result<Target> placedTarget(const Document& document, const RayScene& scene, Tar
   }
   if (options.on_surface) {
     const Vector3d place = t.centre;
-    if (auto ok = stick(document, scene, place, options.stand_off_m, t, stands, report); !ok)
-      return failure(ok.error());
+    TRY(stick(document, scene, place, options.stand_off_m, t, stands, report));
   } else if (options.normal) {
     if (options.normal->norm() < 1e-9)
       return failure(ErrorKind::usage, "--normal requires three numbers, not all zero");
     t.normal = options.normal->normalized();
   }
-  if (auto ok = fits(document, scene, t); !ok) return failure(ok.error());
+  TRY(fits(document, scene, t));
   if (options.at && !isHeld(scene, t))
     report.warn(t.name, fmt::format("floating: no adjacent surface, and no floor within {} m below", kTallestPole_m));
   return t;

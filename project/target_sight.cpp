@@ -23,11 +23,9 @@ constexpr double kEnoughSeen = 0.6;  // of its face: less moves the centre of a 
 Result<std::optional<ScanSettings>> settingsAt(const Station& station, const SightRequest& request) {
   if (request.instrument.empty() && station.scans.empty()) return std::nullopt;
   const bool asked = !request.instrument.empty();
-  const auto instrument = instrumentById(asked ? request.instrument : station.scans.back().instrument);
-  if (!instrument) return failure(instrument.error());
-  auto settings = resolveSettings(*instrument, asked ? request.settings : station.scans.back().settings);
-  if (!settings) return failure(settings.error());
-  return *std::move(settings);
+  TRY_ASSIGN(const auto instrument, instrumentById(asked ? request.instrument : station.scans.back().instrument));
+  TRY_ASSIGN(auto settings, resolveSettings(instrument, asked ? request.settings : station.scans.back().settings));
+  return std::move(settings);
 }
 
 // Places on the face that looks at the station: rings over the visible cap, or over the plate.
@@ -99,9 +97,8 @@ Result<std::vector<TargetSight>> sightsOf(const Document& document, const RaySce
                                           const TargetRules& rules, const SightRequest& request) {
   std::vector<TargetSight> sights;
   for (const auto& station : document.job->stations) {
-    const auto settings = settingsAt(station, request);
-    if (!settings) return failure(settings.error());
-    sights.push_back(sightFrom(station, scene, target, rules, *settings));
+    TRY_ASSIGN(const auto settings, settingsAt(station, request));
+    sights.push_back(sightFrom(station, scene, target, rules, settings));
   }
   return sights;
 }

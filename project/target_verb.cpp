@@ -33,43 +33,36 @@ Result<json> sightRows(const Document& document, const RayScene& scene, const Ta
   const SightRequest request{options.instrument, options.settings};
   json rows = json::object();
   for (const auto& t : targets) {
-    const auto sights = sightsOf(document, scene, t, kinds.rules, request);
-    if (!sights) return failure(sights.error());
-    tell(t, *sights, report);
-    rows[t.name] = toJson(*sights);
+    TRY_ASSIGN(const auto sights, sightsOf(document, scene, t, kinds.rules, request));
+    tell(t, sights, report);
+    rows[t.name] = toJson(sights);
   }
   return rows;
 }
 
 Result<Target> addedTarget(const Document& document, const TargetOptions& options, Outcome& outcome,
                            Progress& progress) {
-  const auto kinds = readTargetKinds(dataFolder() / "scanners" / "targets" / "kinds.json");
-  if (!kinds) return failure(kinds.error());
-  auto article = targetArticleFrom(*kinds, options);
-  if (!article) return failure(article.error());
+  TRY_ASSIGN(const auto kinds, readTargetKinds(dataFolder() / "scanners" / "targets" / "kinds.json"));
+  TRY_ASSIGN(auto article, targetArticleFrom(kinds, options));
   const auto& targets = document.job->targets;
-  if (std::any_of(targets.begin(), targets.end(), [&](const Target& t) { return t.name == article->name; }))
+  if (std::any_of(targets.begin(), targets.end(), [&](const Target& t) { return t.name == article.name; }))
     return failure(ErrorKind::usage,
-                   fmt::format("target '{}' already exists; remove it, or use another name", article->name));
-  auto scene = RayScene::build(document.environment(), progress);
-  if (!scene) return failure(scene.error());
+                   fmt::format("target '{}' already exists; remove it, or use another name", article.name));
+  TRY_ASSIGN(auto scene, RayScene::build(document.environment(), progress));
   std::string stands;
-  auto target = placedTarget(document, **scene, *std::move(article), options, stands, outcome.report);
+  auto target = placedTarget(document, *scene, std::move(article), options, stands, outcome.report);
   if (!target) return target;
-  auto sights = sightRows(document, **scene, *kinds, {*target}, options, outcome.report);
-  if (!sights) return failure(sights.error());
+  TRY_ASSIGN(auto sights, sightRows(document, *scene, kinds, {*target}, options, outcome.report));
   outcome.answer["placed"] = targetRow(*target, *document.georeference);
   if (!stands.empty()) outcome.answer["placed"]["stands_on"] = stands;
-  outcome.answer["seen_from"] = std::move((*sights)[target->name]);
+  outcome.answer["seen_from"] = std::move(sights[target->name]);
   return target;
 }
 
 Result<json> sightsOfAll(const Document& document, const TargetOptions& options, Report& report, Progress& progress) {
-  const auto kinds = readTargetKinds(dataFolder() / "scanners" / "targets" / "kinds.json");
-  if (!kinds) return failure(kinds.error());
-  auto scene = RayScene::build(document.environment(), progress);
-  if (!scene) return failure(scene.error());
-  return sightRows(document, **scene, *kinds, document.job->targets, options, report);
+  TRY_ASSIGN(const auto kinds, readTargetKinds(dataFolder() / "scanners" / "targets" / "kinds.json"));
+  TRY_ASSIGN(auto scene, RayScene::build(document.environment(), progress));
+  return sightRows(document, *scene, kinds, document.job->targets, options, report);
 }
 
 // A unit sphere by subdividing an icosahedron: faceting error 0.06 mm on a 145 mm sphere at 4 levels.
@@ -180,9 +173,8 @@ Result<Outcome> runTarget(const Document& document, const TargetOptions& options
     outcome.description = "Removed target " + at->name;
     job.targets.erase(at);
   } else if (options.sight) {
-    auto sights = sightsOfAll(document, options, outcome.report, progress);
-    if (!sights) return failure(sights.error());
-    outcome.answer["seen_from"] = *std::move(sights);
+    TRY_ASSIGN(auto sights, sightsOfAll(document, options, outcome.report, progress));
+    outcome.answer["seen_from"] = std::move(sights);
   }
   json rows = json::array();
   for (const auto& t : job.targets) rows.push_back(targetRow(t, g));

@@ -56,9 +56,8 @@ Result<void> follow(Document& document, Report& report, Progress& progress) {
     report.note("collide", "collision shapes are out of date; compute them again");
   }
   if (!document.materials) return {};
-  auto assigned = assignDocumentMaterials(document, {}, progress);
-  if (!assigned) return failure(assigned.error());
-  document.materials = assigned->document.materials;
+  TRY_ASSIGN(auto assigned, assignDocumentMaterials(document, {}, progress));
+  document.materials = assigned.document.materials;
   return {};
 }
 
@@ -120,8 +119,7 @@ Result<Outcome> runTreat(const Document& document, const TreatOptions& options, 
   tidy(*document.imported, treatments);
   after.treatments = std::make_shared<const std::vector<Treatment>>(std::move(treatments));
   after.imported = withExclusions(document.imported, *after.treatments);
-  if (after.imported != document.imported)
-    if (auto done = follow(after, outcome.report, progress); !done) return failure(done.error());
+  if (after.imported != document.imported) TRY(follow(after, outcome.report, progress));
   if (document.simplified && kind != TreatmentKind::excluded)
     outcome.report.note("optimize", "the simplified model is out of date; run `optimize` again");
   outcome.answer = answerOf(*after.imported, *after.treatments);

@@ -62,19 +62,18 @@ Result<Underlay> addedUnderlay(const Document& document, const UnderlayOptions& 
   progress.stage("Reading " + file.filename().string());
   std::error_code ignored;
   if (!fs::exists(file, ignored)) return failure(ErrorKind::file_system, "file not found", file.string());
-  const auto extent = measureCloud(file, progress);
-  if (!extent) return failure(extent.error());
-  if (extent->points == 0) return failure(ErrorKind::unusable, "the point cloud is empty", file.string());
+  TRY_ASSIGN(const auto extent, measureCloud(file, progress));
+  if (extent.points == 0) return failure(ErrorKind::unusable, "the point cloud is empty", file.string());
   // Nothing is lost to the project: the points stay in their file.
-  for (const auto& issue : extent->report.issues)
+  for (const auto& issue : extent.report.issues)
     report.issues.push_back({std::min(issue.severity, Severity::warning), issue.source, issue.message});
   Underlay u;
   u.name = freeName(document.underlays, options.name.empty() ? file.stem().string() : options.name);
   u.file = file.string();
-  u.format = extent->format;
-  u.points = extent->points;
-  u.bounds_cloud_m = extent->bounds_file_m;
-  u.crs = extent->crs;
+  u.format = extent.format;
+  u.points = extent.points;
+  u.bounds_cloud_m = extent.bounds_file_m;
+  u.crs = extent.crs;
   if (posed(options)) {
     u.file_from_cloud = posedBy(options, {});
     return u;
@@ -113,9 +112,8 @@ Result<void> change(Outcome& outcome, Action what, const std::string& name, cons
     description = fmt::format("Moved underlay {} by {:.3f} m", name, by_m);
   } else if (what == Action::fit) {
     json answer;
-    auto done = registered(outcome.document, changed, options, answer, outcome.report, progress);
-    if (!done) return failure(done.error());
-    changed = *std::move(done);
+    TRY_ASSIGN(auto done, registered(outcome.document, changed, options, answer, outcome.report, progress));
+    changed = std::move(done);
     outcome.answer["registered"] = std::move(answer);
     description = fmt::format("Registered underlay {}", name);
   } else {
@@ -172,14 +170,13 @@ Result<Outcome> runUnderlay(const Document& document, const UnderlayOptions& opt
   Outcome outcome{document, json::object(), {}, {}};
   auto& underlays = outcome.document.underlays;
   if (action == Action::add) {
-    auto added = addedUnderlay(document, options, outcome.report, progress);
-    if (!added) return failure(added.error());
-    outcome.answer["placed"] = underlayRow(*added);
-    outcome.description = fmt::format("Added underlay {}: {} points", added->name, added->points);
-    underlays.push_back(std::make_shared<const Underlay>(*std::move(added)));
+    TRY_ASSIGN(auto added, addedUnderlay(document, options, outcome.report, progress));
+    outcome.answer["placed"] = underlayRow(added);
+    outcome.description = fmt::format("Added underlay {}: {} points", added.name, added.points);
+    underlays.push_back(std::make_shared<const Underlay>(std::move(added)));
   } else if (action) {
     const auto& name = **said[static_cast<std::size_t>(*action)];
-    if (auto changed = change(outcome, *action, name, options, progress); !changed) return failure(changed.error());
+    TRY(change(outcome, *action, name, options, progress));
   }
   json rows = json::array();
   for (const auto& u : underlays) rows.push_back(underlayRow(*u));

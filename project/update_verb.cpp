@@ -117,9 +117,8 @@ struct Update {
     MaterialChoice choice = *before.materials;
     for (MaterialOverride& o : choice.overrides) o.selector = follow(selectors, o.selector, "material", o.material);
     outcome.document.materials = std::make_shared<const MaterialChoice>(std::move(choice));
-    auto assigned = assignDocumentMaterials(outcome.document, {}, progress);
-    if (!assigned) return failure(assigned.error());
-    outcome.document.materials = assigned->document.materials;
+    TRY_ASSIGN(auto assigned, assignDocumentMaterials(outcome.document, {}, progress));
+    outcome.document.materials = assigned.document.materials;
     return {};
   }
 
@@ -128,10 +127,9 @@ struct Update {
     auto request = before.simplified->request;
     if (std::exchange(request.by_view, false))
       outcome.report.note("optimize", "visibility in the changed model is unknown: visibility weights are not applied");
-    auto light = runOptimize(outcome.document, request, progress);
-    if (!light) return failure(light.error());
-    outcome.document.simplified = light->document.simplified;
-    outcome.report.append(light->report);
+    TRY_ASSIGN(auto light, runOptimize(outcome.document, request, progress));
+    outcome.document.simplified = light.document.simplified;
+    outcome.report.append(light.report);
     return {};
   }
 
@@ -204,14 +202,13 @@ Result<Outcome> updateModels(const Document& document, std::vector<fs::path> fil
   if (!document.imported) return failure(ErrorKind::usage, "there is no model to update; import one first", "--update");
   if (options.shift != ShiftMode::automatic)
     return failure(ErrorKind::usage, "an update keeps the project's shift; leave out --shift", "--shift");
-  auto all = sourcesAfter(document, files);
-  if (!all) return failure(all.error());
+  TRY_ASSIGN(auto all, sourcesAfter(document, files));
   ImportOptions same_frame = options;
   same_frame.shift = ShiftMode::given;
   same_frame.given_shift_m = document.georeference->shift_m;
   Document fresh;
   fresh.name = document.name;
-  auto outcome = importModels(fresh, *all, same_frame, crs, progress);
+  auto outcome = importModels(fresh, all, same_frame, crs, progress);
   if (!outcome) return outcome;
   const auto match = matchProducts(*document.imported, *outcome->document.imported);
   std::string summary;
@@ -221,8 +218,8 @@ Result<Outcome> updateModels(const Document& document, std::vector<fs::path> fil
   update.georeference(crs);
   update.survey();
   update.treatments();
-  if (auto done = update.simplified(progress); !done) return failure(done.error());
-  if (auto done = update.materials(progress); !done) return failure(done.error());
+  TRY(update.simplified(progress));
+  TRY(update.materials(progress));
   outcome->answer["changes"]["kept"] = std::move(update.kept);
   outcome->description = fmt::format("Updated {}: {}", files.front().filename().string(), summary);
   outcome->document.import_report = std::make_shared<const Report>(outcome->report);

@@ -49,13 +49,12 @@ Result<std::shared_ptr<const Underlay>> underlayFor(const Document& document, co
 // The one that is named, else the one whose maker and model the cloud's scans name.
 Result<Instrument> instrumentFor(const VerifyOptions& options, const CloudSample& sample, Report& report) {
   if (!options.instrument.empty()) return instrumentById(options.instrument);
-  const auto all = knownInstruments();
-  if (!all) return failure(all.error());
+  TRY_ASSIGN(const auto all, knownInstruments());
   // The longest model that fits: "Focus S350" before "Focus".
   const Instrument* best = nullptr;
   for (const auto& scan : sample.scans) {
     const auto said = lower(scan.sensor_vendor + " " + scan.sensor_model);
-    for (const auto& i : *all)
+    for (const auto& i : all)
       if (said.find(lower(i.maker)) != std::string::npos && said.find(lower(i.model)) != std::string::npos &&
           (best == nullptr || i.model.size() > best->model.size()))
         best = &i;
@@ -64,7 +63,7 @@ Result<Instrument> instrumentFor(const VerifyOptions& options, const CloudSample
     return failure(ErrorKind::usage,
                    fmt::format("the point cloud does not identify its instrument: specify the one with the closest "
                                "wavelength with --instrument; available: {}",
-                               idsOf(*all)),
+                               idsOf(all)),
                    "--instrument");
   report.note("instrument",
               fmt::format("{} {} at {:.0f} nm, from the point cloud", best->maker, best->model, best->wavelength_nm));
@@ -107,23 +106,20 @@ Result<VerifyFound> found(const Document& document, const Underlay& underlay, co
   f.instrument = &instrument;
   f.library = &library;
   f.document = &document;
-  auto settings = resolveSettings(instrument, {});
-  if (!settings) return failure(settings.error());
+  TRY_ASSIGN(auto settings, resolveSettings(instrument, {}));
   progress.stage("Rays of the model", 0.4, 0.45);
-  auto scene = RayScene::build(document.environment(), progress);
-  if (!scene) return failure(scene.error());
+  TRY_ASSIGN(auto scene, RayScene::build(document.environment(), progress));
   // A part of the document: it outlives the expectation.
   const std::shared_ptr<const MaterialAssignment> assignment(document.materials,
                                                              &document.materials->result.assignment);
-  const Expectation expectation(*scene, assignment, ReturnLaw(instrument, *settings));
+  const Expectation expectation(scene, assignment, ReturnLaw(instrument, settings));
   MeetingTolerance tolerance;
   tolerance.met_m = options.tolerance_m;
   tolerance.window_m = std::max(tolerance.window_m, tolerance.met_m);
   progress.stage("Beams to the points", 0.45, 0.6);
-  auto measured =
-      measuredReturns(document, sample, underlay.file_from_cloud, expectation, library, tolerance, progress);
-  if (!measured) return failure(measured.error());
-  f.measured = *std::move(measured);
+  TRY_ASSIGN(auto measured,
+             measuredReturns(document, sample, underlay.file_from_cloud, expectation, library, tolerance, progress));
+  f.measured = std::move(measured);
   std::uint64_t with_station = 0;
   for (const auto n : f.measured.meetings) with_station += n;
   const auto of = [&](BeamMeeting meeting) { return f.measured.meetings[static_cast<std::size_t>(meeting)]; };
@@ -145,9 +141,9 @@ Result<VerifyFound> found(const Document& document, const Underlay& underlay, co
   f.placement = fitCloudToModel(document, sample, underlay.file_from_cloud, kPlacementReach_m, progress);
   if (!f.placement && f.placement.error().kind == ErrorKind::cancelled) return failure(f.placement.error());
   progress.stage("Materials by intensity", 0.85, 1);
-  auto comparison = compareMaterials(f.measured.returns, f.measured.groups, library, instrument, {}, progress);
-  if (!comparison) return failure(comparison.error());
-  f.comparison = *std::move(comparison);
+  TRY_ASSIGN(auto comparison,
+             compareMaterials(f.measured.returns, f.measured.groups, library, instrument, {}, progress));
+  f.comparison = std::move(comparison);
   return f;
 }
 
@@ -189,29 +185,24 @@ const Fields<VerifyOptions>& verifyFields() {
 
 Result<Outcome> runVerify(const Document& document, const VerifyOptions& options, Progress& progress) {
   progress.stage("Verify", 0, 0.4);
-  auto underlay = underlayFor(document, options);
-  if (!underlay) return failure(underlay.error());
+  TRY_ASSIGN(auto underlay, underlayFor(document, options));
   if (!document.materials)
     return failure(ErrorKind::usage, "no materials assigned: run `standpoint materials PROJECT` first", "verify");
-  auto library = readMaterialLibrary(dataFolder() / "materials" / "library");
-  if (!library) return failure(library.error());
+  TRY_ASSIGN(auto library, readMaterialLibrary(dataFolder() / "materials" / "library"));
   Outcome outcome{document, json::object(), {}, {}};
-  progress.stage("Reading " + (*underlay)->name, 0, 0.4);
-  const auto sample = usableSample(**underlay, options, progress);
-  if (!sample) return failure(sample.error());
-  const auto instrument = instrumentFor(options, *sample, outcome.report);
-  if (!instrument) return failure(instrument.error());
-  const auto all = withOwn(*std::move(library), document.materials->own);
-  auto f = found(document, **underlay, *sample, *instrument, all, options, progress);
-  if (!f) return failure(f.error());
-  judgePlacement(*f);
-  outcome.answer = verifyAnswer(*f);
-  tellVerified(*f, outcome.report);
-  const auto proposals = f->comparison.proposals.size();
+  progress.stage("Reading " + underlay->name, 0, 0.4);
+  TRY_ASSIGN(const auto sample, usableSample(*underlay, options, progress));
+  TRY_ASSIGN(const auto instrument, instrumentFor(options, sample, outcome.report));
+  const auto all = withOwn(std::move(library), document.materials->own);
+  TRY_ASSIGN(auto f, found(document, *underlay, sample, instrument, all, options, progress));
+  judgePlacement(f);
+  outcome.answer = verifyAnswer(f);
+  tellVerified(f, outcome.report);
+  const auto proposals = f.comparison.proposals.size();
   outcome.description =
-      f->comparison.no_verdict.empty()
-          ? fmt::format("Verified materials with {}: {} proposal{}", f->underlay, proposals, proposals == 1 ? "" : "s")
-          : fmt::format("Verified materials with {}: no verdict", f->underlay);
+      f.comparison.no_verdict.empty()
+          ? fmt::format("Verified materials with {}: {} proposal{}", f.underlay, proposals, proposals == 1 ? "" : "s")
+          : fmt::format("Verified materials with {}: no verdict", f.underlay);
   outcome.document.verification = std::make_shared<const Verification>(verificationOf(document, outcome.answer));
   return outcome;
 }

@@ -83,13 +83,11 @@ Result<Cloud> sampleCloud(const std::filesystem::path& file, const Eigen::Vector
   const CloudFormat* format = cloudFormatFor(file);
   if (format == nullptr || format->read == nullptr)
     return failure(ErrorKind::unusable, "unsupported point-cloud format", file.string());
-  auto info = format->info(file);
-  if (!info) return failure(info.error());
+  TRY_ASSIGN(auto info, format->info(file));
   std::uint64_t points = 0;
-  for (const auto& scan : info->scans) points += scan.points;
+  for (const auto& scan : info.scans) points += scan.points;
   CloudSampler sink(points / most + 1, most, shift_m);
-  auto report = format->read(file, sink, progress);
-  if (!report) return failure(report.error());
+  TRY(format->read(file, sink, progress));
   Cloud cloud = sink.shaded();
   cloud.file = file;
   return cloud;

@@ -56,9 +56,8 @@ bool Model::startScan(nlohmann::json options, std::string title) {
   const ScanSurroundings company{scan_readiness.at_hand(), live};
   const auto work = [company](const Document& document, const nlohmann::json& filled,
                               Progress& progress) -> Result<Outcome> {
-    const auto typed = optionsFrom(scanFields(), filled);
-    if (!typed) return failure(typed.error());
-    return runScan(document, *typed, company, progress);
+    TRY_ASSIGN(const auto typed, optionsFrom(scanFields(), filled));
+    return runScan(document, typed, company, progress);
   };
   if (!session.start("scan", std::move(options), std::move(title), work)) return false;
   live_ = std::move(live);

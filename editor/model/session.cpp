@@ -20,8 +20,7 @@ constexpr std::size_t kRememberedTasks = 200;
 std::filesystem::path folderOf(const json& options) { return options.at("folder").get<std::string>(); }
 
 Result<Outcome> runSave(const Document& document, const json& options, Progress& progress) {
-  auto saved = saveProject(document, folderOf(options), progress);
-  if (!saved) return failure(saved.error());
+  TRY(saveProject(document, folderOf(options), progress));
   Outcome outcome;
   outcome.document = document;
   outcome.description = fmt::format("Saved {}", folderOf(options).string());
@@ -29,10 +28,9 @@ Result<Outcome> runSave(const Document& document, const json& options, Progress&
 }
 
 Result<Outcome> runOpen(const Document&, const json& options, Progress& progress) {
-  auto document = loadProject(folderOf(options), progress);
-  if (!document) return failure(document.error());
+  TRY_ASSIGN(auto document, loadProject(folderOf(options), progress));
   Outcome outcome;
-  outcome.document = std::move(*document);
+  outcome.document = std::move(document);
   outcome.description = fmt::format("Opened {}", folderOf(options).string());
   return outcome;
 }
@@ -121,9 +119,8 @@ bool Session::start(std::string_view name, json options, std::string title, Work
   const Verb& wanted = *verb(name);
   auto checked = [&wanted, snapshot = document(), options,
                   work = std::move(work)](Progress& progress) -> Result<Outcome> {
-    auto filled = checkOptions(wanted, options);
-    if (!filled) return failure(filled.error());
-    return work(snapshot, *filled, progress);
+    TRY_ASSIGN(auto filled, checkOptions(wanted, options));
+    return work(snapshot, filled, progress);
   };
   launch(wanted, std::move(options), std::move(title), std::move(checked));
   return true;

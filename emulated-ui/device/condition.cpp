@@ -137,11 +137,11 @@ class Parser {
         signed_ = true;
       }
     if (signed_) {
-      if (auto ok = word(node.comparison); !ok) return failure(ok.error());
+      TRY(word(node.comparison));
     } else if (take("in")) {
       if (!take("{")) return wrong("'{'");
       do {
-        if (auto ok = word(node.comparison); !ok) return failure(ok.error());
+        TRY(word(node.comparison));
       } while (take(","));
       if (!take("}")) return wrong("'}'");
     } else {
@@ -362,11 +362,9 @@ Result<Condition> Condition::parse(std::string_view text) {
   condition.text_ = text;
   if (text.find_first_not_of(" \t\n\r") == std::string_view::npos) return condition;
   if (text.size() > kLongest) return failure(ErrorKind::unusable, "the condition is too long");
-  auto found = tokens(text);
-  if (!found) return failure(found.error());
-  auto root = Parser(*std::move(found)).whole();
-  if (!root) return failure(root.error());
-  condition.root_ = *root;
+  TRY_ASSIGN(auto found, tokens(text));
+  TRY_ASSIGN(auto root, Parser(std::move(found)).whole());
+  condition.root_ = root;
   return condition;
 }
 
@@ -381,9 +379,8 @@ std::vector<std::string> Condition::facts() const {
 Result<void> Condition::check(const DomainLookup& domain) const {
   if (root_ == nullptr) return {};
   if (auto ok = checkFacts(*root_, domain); !ok) return ok;
-  const auto cases = casesOf(*root_, false);
-  if (!cases) return failure(cases.error());
-  if (std::none_of(cases->begin(), cases->end(), [&](const Case& one) { return canHold(one, domain); }))
+  TRY_ASSIGN(const auto cases, casesOf(*root_, false));
+  if (std::none_of(cases.begin(), cases.end(), [&](const Case& one) { return canHold(one, domain); }))
     return failure(ErrorKind::unusable, fmt::format("'{}' can never be true", text_));
   return {};
 }

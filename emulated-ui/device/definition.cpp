@@ -139,10 +139,9 @@ const Row* rowOf(const std::vector<Row>& rows, const std::string& id) {
 }  // namespace
 
 Result<DeviceDefinition> readDefinition(const std::filesystem::path& file) {
-  const auto json = readJsonFile(file);
-  if (!json) return failure(json.error());
+  TRY_ASSIGN(const auto json, readJsonFile(file));
   JsonFault fault(file.filename().string());
-  JsonFields root(fault, *json, "");
+  JsonFields root(fault, json, "");
   DeviceDefinition d;
   d.id = root.text("id");
   d.title = root.text("title");

@@ -116,9 +116,8 @@ std::string Device::setting(const std::string& key) const {
 }
 
 Result<void> Device::setSettings(const SettingValues& wanted) {
-  auto resolved = resolveSettings(type_->instrument, wanted);
-  if (!resolved) return failure(resolved.error());
-  expected_ = *std::move(resolved);
+  TRY_ASSIGN(auto resolved, resolveSettings(type_->instrument, wanted));
+  expected_ = std::move(resolved);
   state_.settings = expected_.values;
   return {};
 }

@@ -148,9 +148,8 @@ Result<SettingValues> areaSettings(const SettingValues& now, const std::string& 
 Result<void> Device::press(const WidgetRow& row, const Widget& widget, const std::string& value) {
   note("pressed", state_.screen + "/" + row.id + (value.empty() ? "" : "=" + value));
   if (widget.kind == WidgetKind::area) {
-    const auto wanted = areaSettings(state_.settings, value);
-    if (!wanted) return failure(wanted.error());
-    if (auto ok = setSettings(*wanted); !ok) return failure(ErrorKind::usage, ok.error().message, row.id);
+    TRY_ASSIGN(const auto wanted, areaSettings(state_.settings, value));
+    if (auto ok = setSettings(wanted); !ok) return failure(ErrorKind::usage, ok.error().message, row.id);
     note("setting", "area=" + value);
     return {};
   }

@@ -136,9 +136,8 @@ Result<StationOrientation> solveOrientation(const OrientationTask& task) {
     return failure(ErrorKind::usage, "too_few_targets");
   Result<Pairs> pairs = task.method == "auto" ? pairsByGeometry(task) : pairsByName(task);
   if (!pairs) return failure(pairs.error());
-  const auto pose = solved(task, *pairs);
-  if (!pose) return failure(pose.error());
-  result.pose = *pose;
+  TRY_ASSIGN(const auto pose, solved(task, *pairs));
+  result.pose = pose;
   double sum = 0;
   for (std::size_t i = 0; i < pairs->ids.size(); ++i) {
     const double residual = (*pose * pairs->measured[i] - pairs->known[i]).norm();

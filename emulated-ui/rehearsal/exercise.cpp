@@ -178,17 +178,16 @@ nlohmann::json toJson(const RehearsalAction& a) {
 }
 
 Result<std::vector<RehearsalAction>> readActions(const fs::path& file) {
-  const auto json = readJsonFile(file);
-  if (!json) return failure(json.error());
+  TRY_ASSIGN(const auto json, readJsonFile(file));
   // A result that `rehearse` has written holds what was done, too.
-  const bool of_result = json->is_object() && json->contains("actions");
-  const auto& list = of_result ? json->at("actions") : *json;
+  const bool of_result = json.is_object() && json.contains("actions");
+  const auto& list = of_result ? json.at("actions") : json;
   if (!list.is_array()) return failure(ErrorKind::unusable, "a list of actions is needed", file.filename().string());
   std::vector<RehearsalAction> found;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    auto one = actionFrom(list[i], file.filename().string(), (of_result ? "/actions/" : "/") + std::to_string(i));
-    if (!one) return failure(one.error());
-    found.push_back(*std::move(one));
+    TRY_ASSIGN(auto one,
+               actionFrom(list[i], file.filename().string(), (of_result ? "/actions/" : "/") + std::to_string(i)));
+    found.push_back(std::move(one));
   }
   return found;
 }
@@ -297,9 +296,8 @@ KnownExercises knownExercises() {
 Result<KnownExercise> findExercise(const std::string& name) {
   std::error_code error;
   if (fs::is_regular_file(name, error)) {
-    auto exercise = readExercise(name);
-    if (!exercise) return failure(exercise.error());
-    return KnownExercise{*std::move(exercise), name};
+    TRY_ASSIGN(auto exercise, readExercise(name));
+    return KnownExercise{std::move(exercise), name};
   }
   auto known = knownExercises();
   std::vector<std::string> ids;

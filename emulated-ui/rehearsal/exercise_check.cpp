@@ -334,12 +334,10 @@ std::vector<Error> checkExercise(const Exercise& exercise) { return Checker(exer
 
 Result<void> checkStart(const Exercise& exercise, Report& report, Progress& progress) {
   for (const auto& device : devicesOf(exercise)) {
-    const auto folder = ScratchFolder::make();
-    if (!folder) return failure(folder.error());
-    const auto rehearsal = Rehearsal::start(exercise, device, folder->path(), {}, progress);
-    if (!rehearsal) return failure(rehearsal.error());
+    TRY_ASSIGN(const auto folder, ScratchFolder::make());
+    TRY_ASSIGN(const auto rehearsal, Rehearsal::start(exercise, device, folder.path(), {}, progress));
     for (std::size_t i = 0; i < exercise.steps.size(); ++i)
-      if (exercise.steps[i].done.holds([&](const std::string& name) { return (*rehearsal)->fact(name); }))
+      if (exercise.steps[i].done.holds([&](const std::string& name) { return rehearsal->fact(name); }))
         report.warn(
             fmt::format("{} /steps/{}/done", exercise.file, i),
             fmt::format(

@@ -82,12 +82,11 @@ json factsOf(const Device& device) {
 Result<json> deviceNames() {
   json rows = json::array();
   for (const auto& device : emulatedDevices()) {
-    const auto type = loadDevice(device);
-    if (!type) return failure(type.error());
+    TRY_ASSIGN(const auto type, loadDevice(device));
     rows.push_back({{"id", device.id},
                     {"title", device.title},
-                    {"start", startOf(**type, *type)},
-                    {"instruments", (*type)->definition.instruments}});
+                    {"start", startOf(*type, type)},
+                    {"instruments", type->definition.instruments}});
   }
   return rows;
 }
@@ -99,15 +98,13 @@ Result<json> namesOf(const std::string& id) {
     for (const auto& device : emulatedDevices()) ids.emplace_back(device.id);
     return failure(ErrorKind::usage, fmt::format("unknown device '{}'; {}", id, knownInstead(id, ids)), "--device");
   }
-  const auto type = loadDevice(*found);
-  if (!type) return failure(type.error());
-  const Device device(*type);
-  const auto& d = (*type)->definition;
+  TRY_ASSIGN(const auto type, loadDevice(*found));
+  const Device device(type);
+  const auto& d = type->definition;
   json settings = json::object();
   for (const auto& instrument : d.instruments) {
-    const auto driven = loadDevice(*found, instrument == "*" ? std::string() : instrument);
-    if (!driven) return failure(driven.error());
-    settings[(*driven)->instrument.id] = settingsOf((*driven)->instrument);
+    TRY_ASSIGN(const auto driven, loadDevice(*found, instrument == "*" ? std::string() : instrument));
+    settings[driven->instrument.id] = settingsOf(driven->instrument);
   }
   json values = json::object(), screens = json::object(), dialogs = json::object(), phases = json::array();
   for (const auto& v : d.values) {
@@ -131,7 +128,7 @@ Result<json> namesOf(const std::string& id) {
     if (event.logged) events[event.name] = event.about;
   return json{{"device", id},
               {"title", found->title},
-              {"start", startOf(**type, *type)},
+              {"start", startOf(*type, type)},
               {"settings", settings},
               {"values", values},
               {"keys", keys},

@@ -26,9 +26,8 @@ constexpr double kStep_s = 1;              // of virtual time
 constexpr double kLongestFinish_s = 7200;  // of the device's clock, for one "finish"
 
 Result<Document> done(const Document& document, const std::string& verb, const json& options, Progress& progress) {
-  auto outcome = runVerb(*findVerb(verbs(), verb), document, options, progress);
-  if (!outcome) return failure(outcome.error());
-  return std::move(outcome->document);
+  TRY_ASSIGN(auto outcome, runVerb(*findVerb(verbs(), verb), document, options, progress));
+  return std::move(outcome.document);
 }
 
 std::vector<std::string> stationNames(const Document& document) {
@@ -62,7 +61,7 @@ Result<std::unique_ptr<Rehearsal>> Rehearsal::start(Exercise exercise, const std
                                                     const fs::path& folder, std::function<void()> wake,
                                                     Progress& progress) {
   std::unique_ptr<Rehearsal> rehearsal(new Rehearsal(std::move(exercise), folder));
-  if (auto ok = rehearsal->prepare(device, std::move(wake), progress); !ok) return failure(ok.error());
+  TRY(rehearsal->prepare(device, std::move(wake), progress));
   return rehearsal;
 }
 
@@ -75,10 +74,9 @@ Result<void> Rehearsal::prepare(const std::string& wanted, std::function<void()>
                    e.id);
   const auto* device = findDevice(id == "*" ? emulatedDevices().front().id : id);
   if (device == nullptr) return failure(ErrorKind::usage, fmt::format("unknown device '{}'", id), e.id);
-  auto type = loadDevice(*device, e.instrument);
-  if (!type) return failure(type.error());
+  TRY_ASSIGN(auto type, loadDevice(*device, e.instrument));
   if (auto ok = prepareModel(progress); !ok) return ok;
-  host_ = std::make_unique<DeviceHost>(*type, document_, std::move(wake));
+  host_ = std::make_unique<DeviceHost>(type, document_, std::move(wake));
   host_->time_factor = 1;
   host_->truth = asksThePoints(e);
   steps_.resize(e.steps.size());
@@ -128,9 +126,8 @@ Result<void> Rehearsal::prepareModel(Progress& progress) {
 
 Result<void> Rehearsal::runFieldVerb(const RehearsalAction& action, Progress& progress) {
   if (host_->busy()) return failure(ErrorKind::usage, "wait until the instrument has finished", action.name);
-  auto document = done(document_, action.name, action.options, progress);
-  if (!document) return failure(document.error());
-  document_ = *std::move(document);
+  TRY_ASSIGN(auto document, done(document_, action.name, action.options, progress));
+  document_ = std::move(document);
   counts_["field." + action.name] += 1;
   return {};
 }

@@ -76,17 +76,16 @@ Result<Outcome> checkFiles(const Document& document, const std::vector<std::stri
     std::string id;
     progress.stage("Checking " + name, static_cast<double>(rows.size()) / static_cast<double>(files.size()),
                    static_cast<double>(rows.size() + 1) / static_cast<double>(files.size()));
-    const auto report = findingsOf(name, id, progress);
-    if (!report) return failure(report.error());
+    TRY_ASSIGN(const auto report, findingsOf(name, id, progress));
     json findings = json::array();
-    for (const auto& issue : report->issues)
+    for (const auto& issue : report.issues)
       findings.push_back({{"severity", issue.severity == Severity::loss ? "error" : "warning"},
                           {"source", issue.source},
                           {"message", issue.message}});
-    sound += report->losses() == 0 ? 1 : 0;
-    rows.push_back({{"file", name}, {"id", id}, {"sound", report->losses() == 0}, {"findings", std::move(findings)}});
-    outcome.text += fmt::format("{:8} {}\n", report->losses() == 0 ? "sound" : "refused", name);
-    for (const auto& issue : report->issues)
+    sound += report.losses() == 0 ? 1 : 0;
+    rows.push_back({{"file", name}, {"id", id}, {"sound", report.losses() == 0}, {"findings", std::move(findings)}});
+    outcome.text += fmt::format("{:8} {}\n", report.losses() == 0 ? "sound" : "refused", name);
+    for (const auto& issue : report.issues)
       outcome.text += fmt::format("  {}: {}: {}\n", issue.severity == Severity::loss ? "error" : "warning",
                                   issue.source, issue.message);
   }
@@ -106,10 +105,9 @@ Result<Outcome> listNames(const Document& document, const std::string& device) {
     outcome.answer = {{"devices", *std::move(devices)}};
     return outcome;
   }
-  auto names = namesOf(device);
-  if (!names) return failure(names.error());
-  outcome.text = namesText(*names);
-  outcome.answer = *std::move(names);
+  TRY_ASSIGN(auto names, namesOf(device));
+  outcome.text = namesText(names);
+  outcome.answer = std::move(names);
   return outcome;
 }
 
@@ -129,34 +127,31 @@ Result<Outcome> runRehearse(const Document& document, const RehearseOptions& opt
   if (!options.check.empty()) return checkFiles(document, options.check, progress);
   if (options.names) return listNames(document, options.device);
   if (options.exercise.empty()) return listExercises(document, options.language);
-  auto known = findExercise(options.exercise);
-  if (!known) return failure(known.error());
+  TRY_ASSIGN(auto known, findExercise(options.exercise));
   std::vector<RehearsalAction> actions;
   if (options.solution == !options.actions.empty())
     return failure(ErrorKind::usage, "specify the actions: --actions FILE, or --solution for the sample solution",
                    "--actions");
   if (options.solution) {
-    actions = known->exercise.solution;
+    actions = known.exercise.solution;
   } else {
-    auto read = readActions(options.actions);
-    if (!read) return failure(read.error());
-    actions = *std::move(read);
+    TRY_ASSIGN(auto read, readActions(options.actions));
+    actions = std::move(read);
   }
   const auto& folder = options.output;
-  auto rehearsal = Rehearsal::start(known->exercise, options.device, folder, {}, progress);
-  if (!rehearsal) return failure(rehearsal.error());
+  TRY_ASSIGN(auto rehearsal, Rehearsal::start(known.exercise, options.device, folder, {}, progress));
   Outcome outcome{document, json::object(), {}, {}, {}};
   for (std::size_t i = 0; i < actions.size(); ++i)
-    if (auto done = (*rehearsal)->act(actions[i], progress); !done) {
+    if (auto done = rehearsal->act(actions[i], progress); !done) {
       if (done.error().kind == ErrorKind::cancelled) return failure(done.error());
       outcome.report.warn(fmt::format("action {}", i),
                           describe(done.error()));  // the device refused; the student goes on
     }
-  outcome.answer = marksOf(**rehearsal, options.student, options.language);
-  if (auto written = writeMarks(**rehearsal, outcome.answer, folder); !written) return failure(written.error());
+  outcome.answer = marksOf(*rehearsal, options.student, options.language);
+  TRY(writeMarks(*rehearsal, outcome.answer, folder));
   outcome.text = marksText(outcome.answer);
-  if (!outcome.answer["passed"].get<bool>()) outcome.report.lose(known->exercise.id, whyNotPassed(outcome.answer));
-  outcome.description = fmt::format("Rehearsed {}: {}", known->exercise.id,
+  if (!outcome.answer["passed"].get<bool>()) outcome.report.lose(known.exercise.id, whyNotPassed(outcome.answer));
+  outcome.description = fmt::format("Rehearsed {}: {}", known.exercise.id,
                                     outcome.answer["passed"].get<bool>() ? "passed" : "not passed");
   return outcome;
 }

@@ -124,7 +124,7 @@ Result<void> checkOptions(const Environment& environment, const OptimizeOptions&
 }
 
 Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOptions& options, Progress& progress) {
-  if (auto checked = checkOptions(environment, options); !checked) return failure(checked.error());
+  TRY(checkOptions(environment, options));
   progress.stage("Find duplicate shapes", 0, 0.1);
   const Environment tangible = sceneOf(environment);
   const Environment rest = withoutDropped(tangible, options);
@@ -133,7 +133,7 @@ Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOp
   if (options.hidden_faces) takeHidden(shared, options, result.report, progress);
   std::vector<double> residual_m;
   auto jobs = prepareMeshJobs(shared, options, residual_m);
-  if (auto done = simplify(jobs, options, progress); !done) return failure(done.error());
+  TRY(simplify(jobs, options, progress));
   result.environment = assemble(shared, jobs);
   sumLosses(shared, jobs, residual_m, result);
   addDropped(tangible, options, result);
@@ -153,7 +153,7 @@ Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOp
     result.all.max_deviation_m = whole.max_m + *std::max_element(residual_m.begin(), residual_m.end());
     result.all.mean_deviation_m = whole.mean_m;
   }
-  if (auto going = progress.check(); !going) return failure(going.error());
+  TRY(progress.check());
   checkBudgets(jobs, options, result);
   addIntangible(environment, result.environment);
   dropUnusedMeshes(result.environment);

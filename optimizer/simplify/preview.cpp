@@ -15,12 +15,12 @@ Result<std::unique_ptr<OptimizePreview>> OptimizePreview::prepare(const std::sha
   std::unique_ptr<OptimizePreview> preview(new OptimizePreview);
   preview->options_ = options;
   preview->options_.budget = 1;  // no share is lossless for want of a budget
-  if (auto fit = checkOptions(*environment, preview->options_); !fit) return failure(fit.error());
+  TRY(checkOptions(*environment, preview->options_));
   preview->shared_ = withoutDropped(sceneOf(*environment), options);
   progress.stage("Prepare the preview");
   std::vector<double> residual_m;
   preview->works_ = prepareMeshJobs(preview->shared_, preview->options_, residual_m);
-  if (auto done = makeAllLevels(preview->works_, progress); !done) return failure(done.error());
+  TRY(makeAllLevels(preview->works_, progress));
   preview->meshes_.resize(preview->works_.size());
   preview->made_.assign(preview->works_.size(), 0);
   for (std::size_t i = 0; i < preview->works_.size(); ++i) {
