@@ -111,9 +111,9 @@ FieldFault faultsOf(const ScanOrder& order) {
   FieldFault fault;
   fault.until_fraction = order.until_fraction;
   fault.noise_factor = std::max(1.0, order.noise_factor);
-  fault.pushed_at_share = order.tripod_moved_at_fraction;
-  fault.walked_at_share = order.passer_by_at_fraction;
-  if (order.operator_in_view) fault.stood_at_share = 0.5;
+  fault.tripod_moved_at_fraction = order.tripod_moved_at_fraction;
+  fault.passer_by_at_fraction = order.passer_by_at_fraction;
+  if (order.operator_in_view) fault.operator_at_fraction = 0.5;
   return fault;
 }
 

@@ -136,7 +136,7 @@ Result<FittedTarget> sightTarget(const Document& document, const SightOrder& ord
       missed.why_not = "hidden from this station";
       return missed;
     }
-    if (t.found) t.levelled_m = *level * t.centre_m;
+    if (t.found) t.levelled_m = level * t.centre_m;
     return t;
   }
   missed.why_not = "no points on the target";

@@ -246,7 +246,7 @@ Result<Outcome> assignDocumentMaterials(const Document& document, const Material
   Document done = document;
   done.materials = std::make_shared<const MaterialChoice>(choice);
   TRY_ASSIGN(const auto judged, judge(choice, materialFindings(done), request));
-  if judged {
+  if (judged) {
     options.accepted = choice.accepted;
     choice.result = assignMaterials(environment, library, rules, choice.overrides, options, progress).value();
     done.materials = std::make_shared<const MaterialChoice>(choice);

@@ -107,8 +107,7 @@ Result<Eigen::Vector3d> bestPlace(const Document& document, const StationPlaceme
   const auto& scene = placement.scene();
   if (!document.job->stations.empty()) {
     TRY_ASSIGN(auto next, addingMost(document, placement, height_m, progress));
-    if next
-      return next->centre;
+    if (next) return next->centre;
   }
   const auto worth = [&](const Eigen::Vector3d& centre) { return roomAround(scene, centre); };
   if (const auto chosen =

@@ -140,7 +140,7 @@ Result<StationOrientation> solveOrientation(const OrientationTask& task) {
   result.pose = pose;
   double sum = 0;
   for (std::size_t i = 0; i < pairs->ids.size(); ++i) {
-    const double residual = (*pose * pairs->measured[i] - pairs->known[i]).norm();
+    const double residual = (pose * pairs->measured[i] - pairs->known[i]).norm();
     result.targets.push_back({pairs->ids[i], residual});
     sum += residual * residual;
   }

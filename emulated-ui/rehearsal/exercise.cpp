@@ -27,7 +27,7 @@ Spoken spoken(JsonFields& f, const char* key, bool required) {
     return s;
   }
   if (!raw->is_object()) {
-    f.needs(key, *raw, "an object with a text for each language, such as {\"en\": \"Scan.\"},");
+    f.needs(key, *raw, "an object with a text for each language, such as {\"en\": \"Scan.\"}");
     return s;
   }
   JsonFields texts(f.fault(), *raw, f.pointer() + "/" + key);

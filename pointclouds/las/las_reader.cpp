@@ -282,10 +282,8 @@ Result<Report> read(const std::filesystem::path& path, PointSink& sink, Progress
   int colour_shift = 8;
   if (pointFormat(header).colour_at != 0) {
     TRY_ASSIGN(const auto bytes, coloursAreBytes(file, header));
-    if bytes
-      report.warn(file.name(), "colours do not exceed 255: read as 8 bits instead of 16");
-    if bytes
-      colour_shift = 0;
+    if (bytes) report.warn(file.name(), "colours do not exceed 255: read as 8 bits instead of 16");
+    if (bytes) colour_shift = 0;
   }
   TRY_ASSIGN(const auto parts, partsOf(path, file, header));
   for (const Part& part : parts) TRY(readPart(file, header, part, colour_shift, sink, report, progress));

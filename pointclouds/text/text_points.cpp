@@ -178,8 +178,7 @@ Result<void> Reader::run(Report& report) {
     TRY_ASSIGN(const auto line, lines_.next());
     if (!line) break;
     TRY_ASSIGN(const auto head, takeHead(*line));
-    if head
-      continue;
+    if (head) continue;
     if (auto taken = takePoint(); !taken) return taken;
     missing_ -= counted_ ? 1 : 0;
     if (found_.size() == kChunk)
@@ -207,8 +206,7 @@ Result<void> Reader::measure(IntensityRange& range) {
     if (!line) return {};
     if (width_ == 0 || (counted_ && missing_ == 0)) {
       TRY_ASSIGN(const auto head, takeHead(*line));
-      if head
-        continue;
+      if (head) continue;
       if (auto begun = beginPoints(); !begun) return begun;
       if (!places_[PointField::intensity]) return {};
     }

@@ -187,7 +187,7 @@ TEST_F(Gui, FindsAnActionInThePaletteByWords) {
   gui.key('P', true);
   gui.frames(2);
   EXPECT_TRUE(editor.dialogs.palette.open);
-  gui.type("above view");
+  gui.type("view top");
   gui.key(kEnter);
   EXPECT_FALSE(editor.dialogs.palette.open);
   EXPECT_TRUE(editor.view.camera.forward().isApprox(-Eigen::Vector3d::UnitZ(), 1e-9));

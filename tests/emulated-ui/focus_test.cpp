@@ -121,7 +121,7 @@ TEST_F(Focus, MovesTheQualityWhenAResolutionNeedsIt) {
 TEST_F(Focus, SaysInTheDevicesLanguageWhatAPressMovedBesides) {
   start();
   ASSERT_TRUE(d.press({"parameters", "resolution_quality", "resolution=1/4", "quality=3x", "resolution=1/20"}));
-  EXPECT_EQ(d->state().moved_along, "Quality went from 3x to 4x: 1/20 does not permit 3x.");
+  EXPECT_EQ(d->state().moved_along, "Quality changed from 3x to 4x: 1/20 does not allow 3x.");
   ASSERT_TRUE(d.press({"resolution=1/4"}));
   EXPECT_EQ(d->state().moved_along, "") << "nothing but what was pressed";
   d->change().language = "de";

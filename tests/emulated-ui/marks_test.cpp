@@ -169,7 +169,7 @@ TEST_F(MarksTest, TellOnThePageWhatWasDoneWhenAndWithWhat) {
   const auto& instrument = rehearsal_->device().type().instrument;
   EXPECT_THAT(page(), HasSubstr("<td>" + instrument.maker + " " + instrument.model + "</td>"));
   EXPECT_THAT(page(), HasSubstr("<td>Choose &lt;fine&gt; points.</td>"));
-  EXPECT_THAT(page(), HasSubstr("<th>Marked on</th><td>2026-05-04</td>"));
+  EXPECT_THAT(page(), HasSubstr("<th>Graded on</th><td>2026-05-04</td>"));
   EXPECT_THAT(page(), HasSubstr("<th>Hints used</th><td>1</td>"));
   EXPECT_THAT(page(), HasSubstr("with a hint"));
 }
@@ -178,7 +178,7 @@ TEST_F(MarksTest, AreWrittenWithTheDateOfTheirWriting) {
   ASSERT_TRUE(writeMarks(*rehearsal_, marks(), folder_.path() / "out"));
   std::ifstream in(folder_.path() / "out" / "result.html");
   const std::string text{std::istreambuf_iterator<char>(in), {}};
-  EXPECT_TRUE(std::regex_search(text, std::regex("<th>Marked on</th><td>20\\d\\d-\\d\\d-\\d\\d</td>")));
+  EXPECT_TRUE(std::regex_search(text, std::regex("<th>Graded on</th><td>20\\d\\d-\\d\\d-\\d\\d</td>")));
 }
 
 TEST_F(MarksTest, AreFramedInTheLanguageOfThePage) {

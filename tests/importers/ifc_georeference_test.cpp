@@ -82,7 +82,7 @@ TEST(IfcGeoreference, MetresWithoutAStatedUnitAreSeenInAProjectOfMillimetres) {
       "#60=IFCPROJECTEDCRS('EPSG:25832',$,$,$,$,$,$);\n#61=IFCMAPCONVERSION(#12,#60,500000.,5400000.,0.,1.,0.,$);\n",
       kMillimetre));
   EXPECT_EQ(conversion(model).northings_m, 5400000);
-  EXPECT_TRUE(says(model, "warning #61: the map's unit is not stated"));
+  EXPECT_TRUE(says(model, "warning #61: map unit not specified"));
 }
 
 TEST(IfcGeoreference, TheConventionOnTheProjectKnowsItsUnitAndItsScale) {
@@ -123,7 +123,7 @@ TEST(IfcGeoreference, FaultsAreNamed) {
   };
   EXPECT_TRUE(says(with("", "$", "$"), "warning #60: the coordinate reference system has no name"));
   EXPECT_TRUE(says(with("EPSG:12invalid", "$", "$"), "warning #60: 'EPSG:12invalid' is not an EPSG code"));
-  EXPECT_TRUE(says(with("EPSG:99999", "$", "$"), "warning #60: EPSG:99999 is no coordinate reference system"));
+  EXPECT_TRUE(says(with("EPSG:99999", "$", "$"), "warning #60: EPSG:99999 is not a coordinate reference system"));
   EXPECT_TRUE(says(with("EPSG:4326", "$", "$"), "warning #60: EPSG:4326 is not a projected"));
   EXPECT_TRUE(says(with("EPSG:25832", "'EPSG:0000'", "$"),
                    "warning #60: geodetic datum 'EPSG:0000' is not in the EPSG dataset"));
@@ -136,7 +136,7 @@ TEST(IfcGeoreference, ContextsThatDisagreeAreTold) {
   const std::string crs =
       "#60=IFCPROJECTEDCRS('EPSG:25832',$,$,$,$,$,#10);\n#61=IFCMAPCONVERSION(#12,#60,1.,2.,3.,1.,0.,1.);\n#62="
       "IFCGEOMETRICREPRESENTATIONCONTEXT($,'Model',3,1.E-5,#2,$);\n";
-  EXPECT_TRUE(says(importText(ifcText(crs)), "warning #62: the context is not placed on the map"));
+  EXPECT_TRUE(says(importText(ifcText(crs)), "warning #62: the context has no map position"));
   EXPECT_TRUE(says(importText(ifcText(crs + "#63=IFCMAPCONVERSION(#62,#60,9.,2.,3.,1.,0.,1.);\n")),
                    "warning #63: conflicts with the map position from #61"));
   EXPECT_EQ(issuesOf(importText(ifcText(crs + "#63=IFCMAPCONVERSION(#62,#60,1.,2.,3.,1.,0.,1.);\n"))), "");

@@ -33,9 +33,9 @@ TEST(ObjHostile, AWrongVertexThatNoFaceUsesKeepsItsNumberAndIsSaid) {
 }
 
 TEST(ObjHostile, WrongIndicesAreRefusedWithTheirLine) {
-  EXPECT_THAT(refusedObj("v 0 0 0\n\n# note\nf 1 1 4\n"), HasSubstr("line 4: refers to vertex 4, there are 1"));
+  EXPECT_THAT(refusedObj("v 0 0 0\n\n# note\nf 1 1 4\n"), HasSubstr("line 4: refers to vertex 4, but there are 1"));
   EXPECT_THAT(refusedObj("v 0 0 0\nf 1 0 1\n"), HasSubstr("line 2: corner 2"));
-  EXPECT_THAT(refusedObj("v 0 0 0\nf 1 1 -2\n"), HasSubstr("line 2: refers to vertex -2, only 1 precede it"));
+  EXPECT_THAT(refusedObj("v 0 0 0\nf 1 1 -2\n"), HasSubstr("line 2: refers to vertex -2, but only 1 precede it"));
   EXPECT_THAT(refusedObj("v 0 0 0\nf 1 1 4294967297\n"),
               HasSubstr("line 2: corner 3 of the face has an index of more than nine digits"));
   EXPECT_THAT(refusedObj("v 0 0 0\nf 1 1 -99999999999999999999\n"), HasSubstr("line 2"));

@@ -113,7 +113,7 @@ TEST(Obj, WhatStandsThereTwiceOrHasCollapsedIsLeftOutAndSaid) {
   EXPECT_EQ(model->environment.meshes.at(0)->positions.size(), 3U);
   ASSERT_EQ(model->report.issues.size(), 2U);
   EXPECT_EQ(model->report.issues[0].source, "line 8");
-  EXPECT_THAT(model->report.issues[0].message, HasSubstr("2 triangle(s) have two corners in one place"));
+  EXPECT_THAT(model->report.issues[0].message, HasSubstr("2 degenerate triangle(s) skipped"));
   EXPECT_EQ(model->report.issues[1].source, "line 6");
 }
 

@@ -158,7 +158,7 @@ TEST(PlyHostile, CountsThatTheFileCannotHoldAreRefused) {
 
 TEST(PlyHostile, WrongIndicesAndNumbersAreRefusedWithTheirPlace) {
   EXPECT_THAT(refusedPly(kHead + kFaces + kSquare + "3 0 1 4\n"),
-              HasSubstr("a.ply line 14: refers to a vertex that is not there"));
+              HasSubstr("a.ply line 14: refers to a missing vertex; vertex count is 4"));
   EXPECT_THAT(refusedPly(kHead + kFaces + kSquare + "3 0 1 -1\n"), HasSubstr("line 14"));
   EXPECT_THAT(refusedPly(kHead + kFaces + "0 0 nan\n1 0 0\n1 2 0\n0 2 0\n3 0 1 2\n"),
               HasSubstr("line 10: a coordinate is not a finite number"));

@@ -121,7 +121,7 @@ TEST(BadRules, AreRefusedWithTheirPlace) {
         BadRule{R"({"material": "a||b", "assign": "bark"})", "r.json /rules/1/material", "empty pattern"},
         BadRule{R"({"material": "", "assign": "bark"})", "r.json /rules/1/material", "empty"},
         BadRule{R"({"material": 3, "assign": "bark"})", "r.json /rules/1/material", "text"},
-        BadRule{R"({"colour": "red|mauve", "assign": "bark"})", "r.json /rules/1/colour", "'mauve' is no colour"},
+        BadRule{R"({"colour": "red|mauve", "assign": "bark"})", "r.json /rules/1/colour", "'mauve' is not a colour"},
         BadRule{R"({"material": "x", "assign": "bark", "hidden": 1})", "r.json /rules/1/hidden", "true or false"},
         BadRule{R"({"ifc_class": "x", "assign": "bark", "hidden": true})", "r.json /rules/1/hidden",
                 "requires a pattern"},

@@ -57,7 +57,7 @@ TEST(Worklist, FindsMaterialsWithoutDataAtTheInstrumentsWavelength) {
   const auto result = assignMaterials(b.environment, library, shippedRules(), {}, options, progress).value();
   ASSERT_EQ(result.report.findings.size(), 1U);
   EXPECT_EQ(result.report.findings[0].kind, "no-data");
-  EXPECT_THAT(result.report.findings[0].message, HasSubstr("no figure at 1550 nm"));
+  EXPECT_THAT(result.report.findings[0].message, HasSubstr("no data at 1550 nm"));
 }
 
 TEST(Worklist, NamesGapsOfTheLibraryAndLeavesTheSurfaceWithoutAMaterial) {

@@ -101,7 +101,7 @@ TEST(Allowance, KeepsEachShareToItsOwnBudgetAndNamesTheLeastThatCanBeReached) {
   options.products[1].lod = "LoD 200";
   const auto tight = optimized(environment, options);
   EXPECT_FALSE(tight.budget_reached);
-  EXPECT_THAT(tight.report.issues.back().message, ::testing::HasSubstr("LoD 200: 200 triangles cannot be reached"));
+  EXPECT_THAT(tight.report.issues.back().message, ::testing::HasSubstr("LoD 200: cannot reach 200 triangles"));
 }
 
 TEST(Allowance, OutOfRangeIsRefused) {

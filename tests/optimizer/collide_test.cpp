@@ -370,7 +370,7 @@ TEST(Rooms, ThatAreWalledInAreReported) {
                                             testing::Field(&Issue::message, testing::HasSubstr(text))));
   };
   EXPECT_THAT(result.report.issues, issue("#14", "cannot be reached"));
-  EXPECT_THAT(result.report.issues, issue("#10", "0.50 m are clear"));
+  EXPECT_THAT(result.report.issues, issue("#10", "0.50 m clear width"));
   EXPECT_THAT(result.report.issues, issue("#11", "no floor"));
   EXPECT_EQ(result.report.issues.size(), 3);
 }

@@ -224,7 +224,7 @@ TEST(Pcd, OfAGridCountsTheReturnsThatShareACell) {
   ASSERT_OK((*writer)->write(points));
   ASSERT_OK((*writer)->end());
   ASSERT_OK((*writer)->close());
-  EXPECT_THAT(testing::said((*writer)->report()), ::testing::HasSubstr("3 further returns"));
+  EXPECT_THAT(testing::said((*writer)->report()), ::testing::HasSubstr("3 additional returns"));
   KeptScans kept;
   ASSERT_OK(readAll(folder / "s.pcd", kept));
   EXPECT_THAT(kept.scans.at(0).points.row, ::testing::ElementsAre(0u, 2u));
@@ -239,7 +239,7 @@ TEST(Pcd, OfOthersIsReadAsTextAndBinary) {
   KeptScans kept;
   const auto report = readAll(folder / "a.pcd", kept);
   ASSERT_OK(report);
-  EXPECT_THAT(testing::said(*report), ::testing::HasSubstr("not read: normal"));
+  EXPECT_THAT(testing::said(*report), ::testing::HasSubstr("skipped fields: normal"));
   const auto& scan = kept.scans.at(0);
   ASSERT_EQ(scan.points.size(), 2u);
   EXPECT_EQ(scan.header.file_from_scanner.translation, Eigen::Vector3d(1, 2, 3));

@@ -298,24 +298,25 @@ TEST(Cleaning, SaysWhatCannotBe) {
   const TemporaryFolder folder;
   writeMade(folder / "in.e57", {wall("S1", 0.5)});
   testing::putBytes(folder / "plain.xyz", "1 2 3\n2 3 4\n3 4 5\n");
-  const std::vector<std::pair<std::string, std::string>> words = {{"polish", "unknown filter 'polish'"},
-                                                                  {"range", "requires 'from' or 'to'"},
-                                                                  {"range:from=3,to=2", "larger than 'to'"},
-                                                                  {"range:from=-1", "must be from 0"},
-                                                                  {"range:from=nan", "must be a number"},
-                                                                  {"range:from=1,from=2", "given twice"},
-                                                                  {"range:far=3", "keys are from, to"},
-                                                                  {"range:", "keys are from, to"},
-                                                                  {"voxel", "'cell' is missing"},
-                                                                  {"voxel:cell=0", "must be from 1e-04"},
-                                                                  {"every:n=1.5", "whole number"},
-                                                                  {"share:keep=2", "must be from 0 to 1"},
-                                                                  {"box:from=1/2,to=3/4/5", "three numbers"},
-                                                                  {"box:from=3/0/0,to=1/1/1", "the box is empty"},
-                                                                  {"sphere:radius=1", "requires 'station' or 'at'"},
-                                                                  {"sphere:radius=1,station=S9", "it has S1"},
-                                                                  {"mixed:by=eye", "grid or distance"},
-                                                                  {"duplicates:distance=", "must be a number"}};
+  const std::vector<std::pair<std::string, std::string>> words = {
+      {"polish", "unknown filter 'polish'"},
+      {"range", "requires 'from' or 'to'"},
+      {"range:from=3,to=2", "larger than 'to'"},
+      {"range:from=-1", "must be from 0"},
+      {"range:from=nan", "must be a number"},
+      {"range:from=1,from=2", "given twice"},
+      {"range:far=3", "valid keys: from, to"},
+      {"range:", "valid keys: from, to"},
+      {"voxel", "'cell' is missing"},
+      {"voxel:cell=0", "must be from 1e-04"},
+      {"every:n=1.5", "whole number"},
+      {"share:keep=2", "must be from 0 to 1"},
+      {"box:from=1/2,to=3/4/5", "three numbers"},
+      {"box:from=3/0/0,to=1/1/1", "the box is empty"},
+      {"sphere:radius=1", "requires 'station' or 'at'"},
+      {"sphere:radius=1,station=S9", "unknown station 'S9'; available: S1"},
+      {"mixed:by=eye", "grid or distance"},
+      {"duplicates:distance=", "must be a number"}};
   for (const auto& [word, why] : words) {
     const auto refused = clean(folder / "in.e57", folder / "out.e57", {word});
     ASSERT_FALSE(refused) << word;

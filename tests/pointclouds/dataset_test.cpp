@@ -151,7 +151,7 @@ TEST(ClassMaps, NameWhatIsWrongWithThem) {
       {"{\"name\":\"a\",\"unknown\":\"x\",\"classes\":{\"x\":1},\"ifc\":{}}", "/noise"},
       {"{\"name\":\"a\",\"unknown\":\"x\",\"noise\":\"x\",\"classes\":{\"x\":70000},\"ifc\":{}}", "/classes/x"},
       {"{\"name\":\"a\",\"unknown\":\"x\",\"noise\":\"x\",\"classes\":{\"x\":1},\"ifc\":{\"IfcWall\":\"y\"}}",
-       "'y' is none"},
+       "'y' is not one of the classes"},
       {"{\"name\":", "parse error"}};
   for (const auto& [text, says] : faults) {
     testing::putBytes(folder / "map.json", text);

@@ -127,8 +127,8 @@ TEST(HostilePcd, IsRefusedAtOnceWithTheReason) {
     return "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n" + lines;
   };
   const std::pair<std::string, const char*> faults[] = {
-      {file("WIDTH 1000000000\nHEIGHT 1000\nPOINTS 1000000000000\nDATA binary\nabc"), "no room for 1000000000000"},
-      {file("WIDTH 99999999999999999999\nDATA binary\n"), "WIDTH is no number"},
+      {file("WIDTH 1000000000\nHEIGHT 1000\nPOINTS 1000000000000\nDATA binary\nabc"), "no space for 1000000000000"},
+      {file("WIDTH 99999999999999999999\nDATA binary\n"), "WIDTH is not a point count"},
       {file("WIDTH 1099511627776\nHEIGHT 1099511627776\nDATA binary\n"), "too large"},
       {file("WIDTH 2\nHEIGHT 1\nPOINTS 3\nDATA ascii\n1 2 3\n1 2 3\n1 2 3\n"), "POINTS is not"},
       {file("WIDTH 1\nHEIGHT 1\nVIEWPOINT 0 0 0 0 0 0 0\nPOINTS 1\nDATA ascii\n1 2 3\n"), "VIEWPOINT"},
@@ -137,7 +137,7 @@ TEST(HostilePcd, IsRefusedAtOnceWithTheReason) {
       {"# .PCD v0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 4000000000\n", "no size or count"},
       {"# .PCD v0.7\nFIELDS x y z\nSIZE 4 4 3\nTYPE F F F\nWIDTH 1\nHEIGHT 1\nDATA ascii\n1 2 3\n", "no known type"},
       {"# .PCD v0.7\nFIELDS x y\nSIZE 4 4\nTYPE F F\nWIDTH 1\nHEIGHT 1\nDATA ascii\n1 2\n", "x y z"},
-      {"no such file\n", "no 'no'"}};
+      {"no such file\n", "unknown PCD header entry 'no'"}};
   for (const auto& [text, says] : faults) {
     testing::putBytes(folder / "bad.pcd", text);
     KeptScans kept;

@@ -138,7 +138,7 @@ TEST(Las, OfAdjustedTimesBeginsAtTheSecondOfItsFirstPoint) {
   EXPECT_EQ(header.acquisition_start_gps_s, 1450000000.0);
   EXPECT_THAT(points.time_s, ::testing::ElementsAre(0.75, 3.25, 5.75));
   EXPECT_THAT(points.return_count, ::testing::ElementsAre(3, 3, 1));
-  EXPECT_THAT(testing::said(*report), HasSubstr("1 return numbers are none of their pulse"));
+  EXPECT_THAT(testing::said(*report), HasSubstr("1 invalid return numbers were set to 1 of 1"));
 }
 
 TEST(Las, ReadsTheCoordinateSystemBehindThePoints) {
@@ -163,13 +163,13 @@ struct Fault {
 TEST(HostileLas, IsRefusedAtOnceWithTheReason) {
   const Fault faults[] = {
       {"is not a LAS file", [](std::string& b) { b[0] = 'X'; }},
-      {"LAS 2.4 is not known", [](std::string& b) { b[24] = 2; }},
+      {"LAS 2.4 is not supported", [](std::string& b) { b[24] = 2; }},
       {"compressed points (LAZ)", [](std::string& b) { b[104] = static_cast<char>(b[104] | 0x80); }},
       {"point format 11", [](std::string& b) { b[104] = 11; }},
       {"a point record has 0 bytes", [](std::string& b) { put<std::uint16_t>(b, 105, 0); }},
-      {"room for 3 of 1000000000000 points", [](std::string& b) { put<std::uint64_t>(b, 247, 1000000000000); }},
-      {"points are said to begin at byte 4294967295", [](std::string& b) { put<std::uint32_t>(b, 96, 0xFFFFFFFF); }},
-      {"points are said to begin at byte 10", [](std::string& b) { put<std::uint32_t>(b, 96, 10); }},
+      {"space for 3 of 1000000000000 points", [](std::string& b) { put<std::uint64_t>(b, 247, 1000000000000); }},
+      {"point data offset is byte 4294967295", [](std::string& b) { put<std::uint32_t>(b, 96, 0xFFFFFFFF); }},
+      {"point data offset is byte 10", [](std::string& b) { put<std::uint32_t>(b, 96, 10); }},
       {"has 375 bytes, this one 12", [](std::string& b) { put<std::uint16_t>(b, 94, 12); }},
       {"scale or offset of y", [](std::string& b) { put<double>(b, 139, 0); }},
       {"scale or offset of x", [](std::string& b) { put<double>(b, 131, NAN); }},

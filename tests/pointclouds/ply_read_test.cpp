@@ -55,7 +55,7 @@ TEST(PlyCloud, IsTheSameInItsThreeEncodingsAndWhateverTheOrder) {
     EXPECT_EQ(points.red[0], 1);
     EXPECT_EQ(points.green[0], 2);
     EXPECT_EQ(points.blue[0], 3);
-    EXPECT_THAT(testing::said(*report), HasSubstr("not read: quality"));
+    EXPECT_THAT(testing::said(*report), HasSubstr("skipped vertex properties: quality"));
   }
 }
 
@@ -96,7 +96,7 @@ TEST(PlyCloud, OfAMeshIsItsVerticesAndTheFacesAreLostAloud) {
   const auto report = readAll(folder / "m.ply", kept);
   ASSERT_OK(report);
   EXPECT_EQ(kept.scans.at(0).points.size(), 3u);
-  EXPECT_THAT(testing::said(*report), HasSubstr("1 faces are not read"));
+  EXPECT_THAT(testing::said(*report), HasSubstr("1 faces skipped"));
 }
 
 TEST(HostilePlyCloud, IsRefusedAtOnceWithLineAndReason) {

@@ -202,7 +202,7 @@ TEST(Ptx, CountsTheReturnsThatShareACell) {
   ASSERT_OK((*writer)->end());
   ASSERT_OK((*writer)->close());
   EXPECT_EQ((*writer)->report().losses(), 1u);
-  EXPECT_THAT(testing::said((*writer)->report()), ::testing::HasSubstr("3 further returns"));
+  EXPECT_THAT(testing::said((*writer)->report()), ::testing::HasSubstr("3 additional returns"));
   KeptScans kept;
   ASSERT_OK(readAll(folder / "s.ptx", kept));
   EXPECT_THAT(kept.scans.at(0).points.row, ::testing::ElementsAre(0u, 2u));

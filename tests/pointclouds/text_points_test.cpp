@@ -55,17 +55,17 @@ TEST(TextPoints, BehindTheStatedNumberAreLostAloud) {
   ASSERT_OK(report);
   EXPECT_EQ(kept.scans.at(0).points.size(), 1u);
   EXPECT_EQ(report->losses(), 1u);
-  EXPECT_THAT(testing::said(*report), HasSubstr("1 points stand behind"));
+  EXPECT_THAT(testing::said(*report), HasSubstr("1 points exceed the specified count"));
 }
 
 TEST(HostileTextPoints, AreRefusedWithLineAndReason) {
   const TemporaryFolder folder;
   const std::tuple<const char*, const char*, const char*> bad[] = {
-      {"a.pts", "1000000000000\n1 2 3\n", "no room for 1000000000000"},
+      {"a.pts", "1000000000000\n1 2 3\n", "no space for 1000000000000"},
       {"a.pts", "-1\n1 2 3\n", "must start with its point count"},
       {"a.pts", "3\n1 2 3\n1 2 3 \n", "truncated"},
       {"a.pts", "2\n1 2 3\n1 2 x\n", "a line of numbers"},
-      {"a.xyz", "1 2 3\n1 2 3 4\n", "those before it 3"},
+      {"a.xyz", "1 2 3\n1 2 3 4\n", "previous points have 3"},
       {"a.xyz", "1 2\n", "at least x y z"},
       {"a.xyz", "1 2 3 300 0 0\n", "outside 0 to 255"},
       {"a.xyz", "words\n", "contains no points"}};

@@ -251,7 +251,7 @@ TEST(EmptyScan, OfASurfaceThatIsTooNearAllRoundSaysFromWhereOnTheInstrumentMeasu
       {{"instrument", "leica-rtc360"}, {"set", {"resolution=12mm"}}, {"output", (folder.path() / "s.e57").string()}});
   ASSERT_TRUE(done) << describe(done.error());
   EXPECT_EQ(done->answer["stations"][0]["points"].get<int>(), 0);
-  EXPECT_THAT(said(done->report), HasSubstr("nearer than 0.50 m"));
+  EXPECT_THAT(said(done->report), HasSubstr("closer than 0.50 m, the minimum range of the Leica RTC360"));
 }
 
 TEST(EmptyScan, OfASceneWithNothingInItIsRefusedOrEmptyInClearWords) {
@@ -262,7 +262,7 @@ TEST(EmptyScan, OfASceneWithNothingInItIsRefusedOrEmptyInClearWords) {
   d.imported = nothing;
   const auto station = run("station", d, {{"add", "S"}, {"at", {500002, 5600002, 1.6}}});
   ASSERT_FALSE(station);
-  EXPECT_THAT(station.error().message, HasSubstr("float"));
+  EXPECT_THAT(station.error().message, HasSubstr("no ground below"));
   const auto planned = run("plan", d, {{"instrument", "leica-rtc360"}});
   ASSERT_FALSE(planned);
   EXPECT_THAT(planned.error().message, HasSubstr("the scene contains no products"));

@@ -76,10 +76,11 @@ TEST(Placement, RefusesTheTopOfAWallWhereThreeFeetHaveNoRoom) {
 TEST(Placement, RefusesToFloatAndToStandTooLow) {
   const auto d = ground();
   EXPECT_THAT(refusal(d, {{"at", {0, 0, 5.0}}}),
-              AllOf(HasSubstr("float"), HasSubstr("5.00 m below"), HasSubstr("lower it by 2.80 m")));
+              AllOf(HasSubstr("too high"), HasSubstr("5.00 m below"), HasSubstr("lower it by at least 2.80 m")));
   EXPECT_THAT(refusal(d, {{"at", {0, 0, 0.5}}}), HasSubstr("needs at least 0.80 m"));
-  EXPECT_THAT(refusal(d, {{"at", {30, 0, 5.0}}}), HasSubstr("float")) << "next to the model";
-  EXPECT_THAT(refusal(d, {{"at", {0, 0, -5.0}}}), HasSubstr("float")) << "below the model";
+  EXPECT_THAT(refusal(d, {{"at", {30, 0, 5.0}}}), HasSubstr("too high: the lowest level of the model is 5.50 m below"))
+      << "next to the model";
+  EXPECT_THAT(refusal(d, {{"at", {0, 0, -5.0}}}), HasSubstr("no ground below")) << "below the model";
   EXPECT_THAT(refusal(d, {{"on", {0, 0}}, {"height", 3}}), HasSubstr("0.80 to 2.20 m"));
   EXPECT_TRUE(run("station", d, {{"add", "S"}, {"at", {0, 0, 5.0}}, {"stand", "free"}})) << "floating";
 }
@@ -129,7 +130,7 @@ TEST(Placement, MovingAsksTheSame) {
   const auto d = run("station", ground(), {{"add", "S"}, {"at", {0, 0, 1.6}}})->document;
   const auto moved = run("station", d, {{"move", "S"}, {"at", {0, 0, 5}}});
   ASSERT_FALSE(moved);
-  EXPECT_THAT(moved.error().message, HasSubstr("float"));
+  EXPECT_THAT(moved.error().message, HasSubstr("too high"));
 }
 
 }  // namespace

@@ -103,11 +103,12 @@ TEST_F(Registered, SaysWhatIsWrongWithItsOptions) {
   };
   EXPECT_THAT(message({{"register", "cloud"}}), HasSubstr("--pairs"));
   EXPECT_THAT(message({{"icp", true}}), HasSubstr("--register"));
-  EXPECT_THAT(message({{"register", "cloud"}, {"pairs", {"0,0,0=1,1"}}}), HasSubstr("'0,0,0=1,1' is not"));
+  EXPECT_THAT(message({{"register", "cloud"}, {"pairs", {"0,0,0=1,1"}}}),
+              HasSubstr("'0,0,0=1,1' must be X,Y,Z in the cloud"));
   EXPECT_THAT(message({{"register", "cloud"}, {"pairs", {"0,0,0=0,0,0", "1,1,1=1,1,1", "2,2,2=2,2,2"}}}),
               HasSubstr("collinear"));
-  EXPECT_THAT(message({{"register", "cloud"}, {"icp", true}}), HasSubstr("only 2 different places"));
-  EXPECT_THAT(message({{"register", "clod"}, {"icp", true}}), HasSubstr("there is cloud"));
+  EXPECT_THAT(message({{"register", "cloud"}, {"icp", true}}), HasSubstr("only 2 distinct points in the cloud"));
+  EXPECT_THAT(message({{"register", "clod"}, {"icp", true}}), HasSubstr("available: cloud"));
 }
 
 }  // namespace

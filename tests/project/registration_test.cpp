@@ -197,11 +197,12 @@ TEST_F(Registration, SaysWhatIsWrong) {
   const auto late = refused(few, {{"files", file}});
   EXPECT_THAT(late, HasSubstr("ideal.e57: 2 targets were measured from station S1"));
   EXPECT_THAT(late, HasSubstr("; late: "));
-  EXPECT_THAT(refused(*scanned_, {{"files", file}, {"fix", "S9"}}), HasSubstr("no station 'S9'"));
-  EXPECT_THAT(refused(*scanned_, {{"files", {path("ideal.e57"), path("noisy.e57")}}}), HasSubstr("station S1 is in"));
+  EXPECT_THAT(refused(*scanned_, {{"files", file}, {"fix", "S9"}}), HasSubstr("unknown station 'S9'"));
+  EXPECT_THAT(refused(*scanned_, {{"files", {path("ideal.e57"), path("noisy.e57")}}}),
+              HasSubstr("station S1 is also in"));
   Document other = twoStoreyDocument();
   other.job = std::make_shared<const Job>(Job{"", {}, scanned_->job->targets, {}});
-  EXPECT_THAT(refused(other, {{"files", file}}), HasSubstr("'S1' is of no station"));
+  EXPECT_THAT(refused(other, {{"files", file}}), HasSubstr("'S1' matches no station"));
   std::ofstream(path("list.xyz")) << "0 0 0\n1 0 0\n";
   EXPECT_THAT(refused(*scanned_, {{"files", {path("list.xyz")}}}), HasSubstr("has no scanner grid"));
   EXPECT_THAT(refused(*scanned_, {{"files", {path("none.e57")}}}), HasSubstr("none.e57"));

@@ -61,9 +61,9 @@ TEST(Target, OnTheCeilingLooksDown) {
 
 TEST(Target, IsRefusedWithTheReason) {
   const Document d = withStation();
-  EXPECT_THAT(targetRefusal(d, {{"add", "T"}, {"at", {500003, 5600002, 2.9}}}), HasSubstr("inside of IfcSlab slab1"));
+  EXPECT_THAT(targetRefusal(d, {{"add", "T"}, {"at", {500003, 5600002, 2.9}}}), HasSubstr("inside IfcSlab slab1"));
   EXPECT_THAT(targetRefusal(d, {{"add", "T"}, {"at", {500004.5, 5600003, 0.4}}}),
-              HasSubstr("inside of IfcFurniture table"));
+              HasSubstr("inside IfcFurniture table"));
   EXPECT_THAT(targetRefusal(d, {{"add", "T"}, {"at", {500000.05, 5600002, 1}}}), HasSubstr("west0"));
   EXPECT_THAT(targetRefusal(d, {{"add", "T"}, {"on", {600000, 5600002}}}), HasSubstr("no floor"));
   EXPECT_THAT(targetRefusal(d, {{"add", "T"}, {"on", {500002, 5600002, 1.5}}}),
@@ -92,7 +92,7 @@ TEST(Target, SaysWhatStationsCannotMeasureIt) {
   const auto flat =
       run("target", d, {{"add", "T"}, {"on-surface", {500005.8, 5600000.01, 1.6}}, {"kind", "checkerboard"}});
   ASSERT_TRUE(flat) << describe(flat.error());
-  EXPECT_THAT(said(flat->report), HasSubstr("a plate is measured up to 60°"));
+  EXPECT_THAT(said(flat->report), HasSubstr("incidence 68° exceeds the limit of 60°"));
 }
 
 // instrument-facts.md §4.3: a sphere of 145 mm gets 60 points of a FARO at 1/16 up to 108.1 m / 16, and here it is 3.9
@@ -109,7 +109,8 @@ TEST(Target, IsMeasuredAsFarAsTheGridLaysSixtyPointsOnIt) {
   coarse["set"] = {"resolution=1/32", "quality=4x"};
   const auto far = run("target", withStation(), coarse);
   ASSERT_TRUE(far) << describe(far.error());
-  EXPECT_THAT(far->answer.at("seen_from").at(0).at("why_not").get<std::string>(), HasSubstr("measured up to 3.4 m"));
+  EXPECT_THAT(far->answer.at("seen_from").at(0).at("why_not").get<std::string>(),
+              HasSubstr("exceeds the limit of 3.4 m"));
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ TEST(Underlay, IsMovedTurnedHiddenAndRemovedByName) {
   EXPECT_TRUE(run("underlay", hidden->document, {{"remove", "scan"}})->document.underlays.empty());
   const auto unknown = run("underlay", document, {{"remove", "sacn"}});
   ASSERT_FALSE(unknown);
-  EXPECT_THAT(unknown.error().message, HasSubstr("there is scan"));
+  EXPECT_THAT(unknown.error().message, HasSubstr("available: scan"));
   EXPECT_FALSE(run("underlay", document, {{"hide", "scan"}, {"show", "scan"}}));
 }
 

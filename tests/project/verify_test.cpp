@@ -254,7 +254,7 @@ TEST_F(Verify, SaysWhatIsMissing) {
   Document none = laid(path("scan.ptx"));
   none.materials = nullptr;
   EXPECT_THAT(refusal(none), HasSubstr("no materials assigned"));
-  EXPECT_THAT(refusal(laid(path("scan.ptx")), {{"underlay", "clod"}}), HasSubstr("there is cloud"));
+  EXPECT_THAT(refusal(laid(path("scan.ptx")), {{"underlay", "clod"}}), HasSubstr("available: cloud"));
   const auto unsaid = run("verify", laid(path("scan.ptx")), json::object());
   ASSERT_FALSE(unsaid);
   EXPECT_THAT(unsaid.error().message, HasSubstr("--instrument"));
@@ -274,7 +274,7 @@ TEST_F(Verify, OfAHandfulOfPointsSaysThatTheyAreTooFewAndNotThatTheyLieWrong) {
     return n++ < 40 ? text(x, y, z, intensity) : std::string("0 0 0 0.5");
   });
   const auto said = refusal(laid(few));
-  EXPECT_THAT(said, AllOf(HasSubstr("it has 40 points"), HasSubstr("fewer than 100"),
+  EXPECT_THAT(said, AllOf(HasSubstr("only 40 points"), HasSubstr("at least 100 required"),
                           HasSubstr("underlay PROJECT --add FILE")));
   EXPECT_THAT(said, Not(HasSubstr("--register")));
 }
