@@ -12,7 +12,14 @@ printf '%s\n' "${sources[@]}" | xargs -P "$(nproc)" -n 64 clang-format --dry-run
   wrong=1
 }
 
-long=$(LC_ALL=C.UTF-8 awk 'length > 120 { print FILENAME ":" FNR ": " length " columns" }' "${sources[@]}")
+long=$(python3 - "${sources[@]}" <<'PY'
+import sys
+for path in sys.argv[1:]:
+    for number, line in enumerate(open(path, encoding='utf-8'), 1):
+        if len(line.rstrip('\n')) > 120:
+            print(f'{path}:{number}: {len(line) - 1} columns')
+PY
+)
 [[ -z $long ]] || { printf '%s\nLines: at most 120 columns.\n' "$long"; wrong=1; }
 
 # The glossary's list, one regular expression a line, searched for in the texts of the program and its screens.

@@ -183,7 +183,7 @@ struct Model : Style {
   CloudLoader cloud_loader_;
   std::shared_ptr<const Cloud> cloud_;
   std::shared_ptr<LiveCloud> live_;              // null: none, or it is no longer looked at
-  const VerbTask* live_task_ = nullptr;              // that it belongs to, while that runs
+  const VerbTask* live_task_ = nullptr;          // that it belongs to, while that runs
   std::shared_ptr<const Environment> imported_;  // whose products selection and visibility speak of
   std::uint64_t seen_revision_ = ~0ULL;
   mutable Catalogue catalogue_;

@@ -178,8 +178,7 @@ class MaterialReader {
     const auto& gltf =
         file_.element(model.samplers, "samplers", *sampler, "/textures/" + std::to_string(texture) + "/sampler");
     if (gltf.wrapS != TINYGLTF_TEXTURE_WRAP_REPEAT || gltf.wrapT != TINYGLTF_TEXTURE_WRAP_REPEAT)
-      not_kept_.add("the texture wrap mode (/samplers/" + std::to_string(*sampler) + ")",
-                    place_);
+      not_kept_.add("the texture wrap mode (/samplers/" + std::to_string(*sampler) + ")", place_);
   }
 
   void optics(const Json& extensions, Surface& surface) {

@@ -8,17 +8,17 @@ namespace {
 
 TEST(KnownInstead, NamesWhatIsMostAlikeFirst) {
   EXPECT_EQ(knownInstead("scan_begun", {"targets", "scan_started", "linked"}),
-            "did you mean 'scan_started'? Known are scan_started, targets, linked");
+            "did you mean 'scan_started'? available: scan_started, targets, linked");
 }
 
 TEST(KnownInstead, TakesTheSameBeginningForMoreThanTheSameLength) {
   EXPECT_EQ(knownInstead("scan_begun", {"screen", "linked", "scan_stored"}),
-            "did you mean 'scan_stored'? Known are scan_stored, screen, linked");
+            "did you mean 'scan_stored'? available: scan_stored, screen, linked");
 }
 
 TEST(KnownInstead, GuessesNothingWhereNothingIsAlike) {
-  EXPECT_EQ(knownInstead("xyz", {"targets", "linked"}), "Known are linked, targets");
-  EXPECT_EQ(knownInstead("", {"S1"}), "Known are S1");
+  EXPECT_EQ(knownInstead("xyz", {"targets", "linked"}), "available: linked, targets");
+  EXPECT_EQ(knownInstead("", {"S1"}), "available: S1");
   EXPECT_EQ(knownInstead("S1", {}), "none");
 }
 

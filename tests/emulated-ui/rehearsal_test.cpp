@@ -66,7 +66,7 @@ TEST_F(RehearsalTest, AStepThatIsDoneBeforeTheStudentComesIsRefusedByFileAndPlac
   auto text = shortLesson();
   text["steps"][0]["done"] = "power == on";
   EXPECT_THAT(refusal(text), HasSubstr("x.json /steps/0/done"));
-  EXPECT_THAT(refusal(text), HasSubstr("'power == on' holds at the start"));
+  EXPECT_THAT(refusal(text), HasSubstr("'power == on' is true"));
 }
 
 // While it starts, the Focus is not yet at 1/32.
@@ -103,7 +103,7 @@ TEST_F(RehearsalTest, WhatTheEnvironmentOrTheDeviceRefusesAtTheStartIsToldByFile
 TEST_F(RehearsalTest, ARuleThatNothingAskedSaysSoAndClaimsNoConsequence) {
   const auto rehearsal = start(shortLesson());
   ASSERT_TRUE(rehearsal);
-  const std::pair<const char*, const char*> kSaid[] = {{"en", "Never asked: no scan was started"},
+  const std::pair<const char*, const char*> kSaid[] = {{"en", "Not evaluated: no scan was started"},
                                                        {"de", "Nie gefragt: kein Scan wurde gestartet"},
                                                        {"uk", "Не запитано: жодного скану не розпочато"}};
   for (const auto& [language, said] : kSaid) {
