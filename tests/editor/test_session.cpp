@@ -59,7 +59,7 @@ class DemoSession : public ::testing::Test {
 TEST(Session, WithoutAModelSaysWhatToDoFirst) {
   const Session session(steeredVerbs(), [] {});
   EXPECT_EQ(session.whyNot("demo"), "");
-  EXPECT_NE(session.whyNot("rename").find("import"), std::string::npos);
+  EXPECT_NE(session.whyNot("rename").find("Import a model"), std::string::npos);
   EXPECT_NE(session.whyNot("no-such-verb"), "");
   EXPECT_FALSE(session.modified());
 }
