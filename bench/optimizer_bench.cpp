@@ -23,7 +23,7 @@
 #include "bench/optimizer_peers.h"
 #include "importers/importers.h"
 #include "optimizer/optimizer.h"
-#include "project/project_files.h"
+#include "project/storage/project_files.h"
 
 namespace standpoint::bench {
 namespace {

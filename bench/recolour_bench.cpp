@@ -11,7 +11,8 @@
 #include "editor/viewport/merged_scene.h"
 #include "editor/viewport/offscreen.h"
 #include "editor/viewport/vtk_scene_view.h"
-#include "project/model_verbs.h"
+#include "project/materials/materials_verb.h"
+#include "project/model/model_verbs.h"
 
 using namespace standpoint;
 

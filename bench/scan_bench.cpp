@@ -10,6 +10,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "core/data_folder.h"
 #include "pointclouds/formats.h"
 #include "project/verb.h"
 #include "scanners/engine/ray_engine.h"

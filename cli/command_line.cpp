@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "project/answers.h"
-#include "project/session.h"
+#include "project/storage/session.h"
 
 namespace standpoint {
 

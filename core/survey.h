@@ -36,6 +36,12 @@ struct Scan {
   double instrument_seconds = 0;
 };
 
+// A place on a floor: "X,Y" or "X,Y,Z" in metres, the frame of the model's file.
+struct FloorPlace {
+  double x_m = 0, y_m = 0;
+  std::optional<double> z_m;
+};
+
 struct Station {
   std::string name;
   double instrument_height_m = 0;   // tilting axis above the ground mark

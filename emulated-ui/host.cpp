@@ -16,10 +16,10 @@
 #include "pointclouds/files/file_access.h"
 #include "pointclouds/filters/cleaning.h"
 #include "pointclouds/formats.h"
-#include "project/file_verbs.h"
-#include "project/levelling.h"
-#include "project/registration.h"
-#include "project/survey_verbs.h"
+#include "project/survey/register_verb.h"
+#include "project/survey/survey_verbs.h"
+#include "project/verbs/file_verbs.h"
+#include "survey/stations/levelling.h"
 
 namespace standpoint {
 

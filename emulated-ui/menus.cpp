@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/data_folder.h"
 #include "emulated-ui/device/check.h"
 #include "emulated-ui/faro/focus.h"
 #include "emulated-ui/generic/generic.h"
@@ -12,8 +13,8 @@
 #include "emulated-ui/leica/rtc360.h"
 #include "emulated-ui/riegl/vz_i.h"
 #include "emulated-ui/trimble/x7.h"
-#include "project/instruments.h"
 #include "project/verb.h"
+#include "survey/instruments.h"
 
 namespace standpoint {
 

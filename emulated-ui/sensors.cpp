@@ -8,7 +8,7 @@
 
 #include "core/random.h"
 #include "core/units.h"
-#include "project/levelling.h"
+#include "survey/stations/levelling.h"
 
 namespace standpoint {
 

@@ -8,10 +8,10 @@
 
 #include "core/units.h"
 #include "emulated-ui/device/settings.h"
-#include "project/instruments.h"
-#include "project/levelling.h"
-#include "project/survey_verbs.h"
-#include "project/target_measuring.h"
+#include "project/survey/survey_verbs.h"
+#include "survey/instruments.h"
+#include "survey/stations/levelling.h"
+#include "survey/targets/target_measuring.h"
 
 namespace standpoint {
 
@@ -75,7 +75,7 @@ Result<std::vector<FittedTarget>> targetsIn(const Document& document, const fs::
   MeasuringRequest request;
   request.files = {file};
   request.seed = seed;
-  TRY_ASSIGN(const auto measured, measureTargets(document, request, progress));
+  TRY_ASSIGN(const auto measured, measureTargets(*document.job, request, progress));
   std::vector<FittedTarget> targets;
   const auto& job = *document.job;
   for (const auto& m : measured.found) {

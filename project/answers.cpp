@@ -22,6 +22,32 @@ json toJson(const Bounds& bounds_local, const Eigen::Vector3d& shift_m) {
   return {toJson(bounds_local.min + shift_m), toJson(bounds_local.max + shift_m)};
 }
 
+json toJson(const SurfaceFit& fit) {
+  json free = json::array();
+  for (const auto& motion : fit.free)
+    free.push_back({{"along", motion.shift.isZero() ? json(nullptr) : toJson(motion.shift)},
+                    {"about", motion.axis.isZero() ? json(nullptr) : toJson(motion.axis)},
+                    {"held_share", motion.held_fraction}});
+  return {{"iterations", fit.iterations},
+          {"settled", fit.settled},
+          {"rms_m", fit.rms_m},
+          {"used_share", fit.used_fraction},
+          {"moved_m", fit.moved_m},
+          {"sigma_shift_m", toJson(fit.sigma_shift_m)},
+          {"sigma_turn_deg", toJson(Eigen::Vector3d(fit.sigma_turn_rad / kRadPerDeg))},
+          {"not_held", std::move(free)}};
+}
+
+json poseToJson(const Pose& p) {
+  return {{"rotation", {p.rotation.w(), p.rotation.x(), p.rotation.y(), p.rotation.z()}},
+          {"translation", toJson(p.translation)}};
+}
+
+Pose poseFrom(const json& j) {
+  const auto& q = j.at("rotation");
+  return {Eigen::Quaterniond(q.at(0), q.at(1), q.at(2), q.at(3)), vectorFrom(j.at("translation"))};
+}
+
 json identity(const Product& product) {
   return {{"id", product.id}, {"global_id", product.global_id}, {"class", product.ifc_class}, {"name", product.name}};
 }

@@ -90,7 +90,7 @@ struct ScanChoice {
   bool operator==(const ScanChoice&) const = default;
 };
 
-struct Verification;  // of the materials, by a cloud: project/verification.h
+struct Verification;  // of the materials, by a cloud: project/materials/verification.h
 
 // The document is a value: every part is shared and immutable; two parts with the same pointer have not changed, so a
 // viewport or a ray engine rebuilds only what did. Parts that do not exist yet are null.
@@ -113,6 +113,8 @@ struct Document {
   const std::shared_ptr<const Environment>& environment() const {
     return simplified ? simplified->environment : imported;
   }
+  // Where one can walk in the scene; null until its collision shapes were made.
+  const Mesh* walkable() const { return collision ? &collision->walkable : nullptr; }
   bool operator==(const Document&) const = default;
 };
 

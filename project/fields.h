@@ -20,15 +20,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/result.h"
+#include "core/survey.h"
 #include "project/verb.h"
 
 namespace standpoint {
-
-// A place on a floor: "X,Y" or "X,Y,Z" in metres, the frame of the model's file.
-struct FloorPlace {
-  double x_m = 0, y_m = 0;
-  std::optional<double> z_m;
-};
 
 // "key=value", in the order given.
 using KeyValues = std::vector<std::pair<std::string, std::string>>;

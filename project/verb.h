@@ -83,8 +83,4 @@ Result<nlohmann::json> checkOptions(const Verb& verb, const nlohmann::json& opti
 // checkOptions, then run. Every door goes through here.
 Result<Outcome> runVerb(const Verb& verb, const Document& document, const nlohmann::json& options, Progress& progress);
 
-// Where the program's own data lies: instruments, materials, rules, schemas, samples. STANDPOINT_DATA, else beside the
-// program's sources as built.
-std::filesystem::path dataFolder();
-
 }  // namespace standpoint

@@ -9,8 +9,8 @@
 
 #include "editor/instrument/preview_picture.h"
 #include "emulated-ui/rehearsal/marks.h"
-#include "project/instruments.h"
-#include "project/project_files.h"
+#include "project/storage/project_files.h"
+#include "survey/instruments.h"
 
 namespace standpoint {
 

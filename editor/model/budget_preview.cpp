@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/model/budget_preview.h"
 
-#include "project/optimize_verb.h"
+#include "project/model/optimize_verb.h"
 
 namespace standpoint {
 

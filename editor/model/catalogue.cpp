@@ -3,9 +3,10 @@
 
 #include <algorithm>
 
+#include "core/data_folder.h"
 #include "materials/materials.h"
-#include "project/instruments.h"
 #include "project/verb.h"
+#include "survey/instruments.h"
 
 namespace standpoint {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "project/product_match.h"
-#include "project/treatments.h"
-#include "project/underlay_placing.h"
+#include "project/model/product_match.h"
+#include "project/model/treatments.h"
+#include "survey/registration/underlay_placing.h"
 
 namespace standpoint {
 

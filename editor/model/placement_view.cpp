@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/model/placement_view.h"
 
-#include "project/instruments.h"
-#include "project/survey_verbs.h"
+#include "survey/instruments.h"
+#include "survey/stations/station_places.h"
 
 namespace standpoint {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "project/placement.h"
+#include "survey/stations/placement.h"
 
 namespace standpoint {
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "project/scan_request.h"
+#include "project/survey/scan_request.h"
 
 namespace standpoint {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/model/scan_outlook.h"
 
-#include "project/survey_plan.h"
+#include "survey/stations/survey_plan.h"
 
 namespace standpoint {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "project/scan_preparation.h"
+#include "project/survey/scan_preparation.h"
 #include "project/task.h"
 
 namespace standpoint {

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "project/import_verb.h"
-#include "project/project_files.h"
+#include "project/model/import_verb.h"
+#include "project/storage/project_files.h"
 
 namespace standpoint {
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/data_folder.h"
 #include "project/verb.h"
 
 namespace standpoint {
@@ -100,7 +101,7 @@ void TargetList::work(const Document& document, const RayScene& scene, const std
     if (wake_) wake_();
     // The operator clicks on the target itself.
     auto measured =
-        measureTargets(document, {.files = files, .seed = 1, .click_m = 0, .targets = true, .sample = false}, progress);
+        measureTargets(job, {.files = files, .seed = 1, .click_m = 0, .targets = true, .sample = false}, progress);
     if (measured)
       measured_ = *std::move(measured);
     else

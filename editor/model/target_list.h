@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "project/target_measuring.h"
-#include "project/target_sight.h"
 #include "project/task.h"
+#include "survey/targets/target_measuring.h"
+#include "survey/targets/target_sight.h"
 
 namespace standpoint {
 

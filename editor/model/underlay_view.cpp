@@ -6,7 +6,7 @@
 #include <thread>
 #include <utility>
 
-#include "project/underlays.h"
+#include "project/survey/underlays.h"
 
 namespace standpoint {
 

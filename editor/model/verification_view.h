@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "project/verification.h"
+#include "project/materials/verification.h"
 
 namespace standpoint {
 

@@ -10,7 +10,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
-#include "project/material_findings.h"
+#include "project/materials/material_findings.h"
 
 namespace standpoint {
 

@@ -12,7 +12,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
-#include "project/geodesy.h"
+#include "survey/geodesy.h"
 
 namespace standpoint {
 

@@ -11,7 +11,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
-#include "project/survey_verbs.h"
+#include "survey/stations/station_places.h"
 
 namespace standpoint {
 

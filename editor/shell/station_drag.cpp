@@ -5,7 +5,7 @@
 
 #include "core/units.h"
 #include "editor/shell/editor.h"
-#include "project/levelling.h"
+#include "survey/stations/levelling.h"
 
 namespace standpoint {
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/data_folder.h"
 #include "emulated-ui/device/json_fields.h"
 #include "emulated-ui/rehearsal/events.h"
 #include "materials/json_file.h"

@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
+#include "core/html_text.h"
 #include "emulated-ui/device/format.h"
 #include "emulated-ui/device/replaced.h"
 #include "emulated-ui/rehearsal/marks.h"
 #include "emulated-ui/rehearsal/setup_picture.h"
-#include "project/html_text.h"
 
 namespace standpoint {
 

@@ -7,7 +7,7 @@
 
 namespace standpoint {
 
-// The verbs of the emulated instruments: `rehearse`. The doors join them with those of project/verbs.cpp.
+// The verbs of the emulated instruments: `rehearse`. The doors join them with those of project/verbs/verbs.cpp.
 std::span<const Verb> rehearsalVerbs();
 // Both tables in one.
 std::span<const Verb> allVerbs();

@@ -5,11 +5,12 @@
 #include <numeric>
 
 #include "core/units.h"
-#include "project/instruments.h"
-#include "project/placement.h"
-#include "project/scan_request.h"
-#include "project/survey_plan.h"
-#include "project/survey_verbs.h"
+#include "project/survey/scan_request.h"
+#include "project/survey/survey_verbs.h"
+#include "survey/instruments.h"
+#include "survey/scanning/scan_world.h"
+#include "survey/stations/placement.h"
+#include "survey/stations/survey_plan.h"
 
 namespace standpoint {
 
@@ -60,7 +61,7 @@ std::map<std::string, double> readSurvey(const Exercise& exercise, const Device&
   Progress quiet;
   const auto assignment = scanAssignment(document, quiet);
   if (!assignment) return {};
-  const ScanWorld world = scanWorld(document, *assignment);
+  const ScanWorld world = scanWorld(document.environment(), document.job->targets, *assignment);
   const auto scene = RayScene::build(world.environment, quiet);
   if (!scene) return {};
   PlanRequest request;

@@ -65,6 +65,7 @@ class Expectation {
     return triangles_.materialOf(instance, triangle);
   }
   const RayScene& scene() const { return *scene_; }
+  const MaterialAssignment& assignment() const { return *assignment_; }
   const ReturnLaw& law() const { return law_; }
 
  private:

@@ -41,6 +41,13 @@ std::string effectList() {
   return list;
 }
 
+std::string leftOut(Effects effects) {
+  std::string names;
+  for (const auto& e : effectNames())
+    if (!effects.has(e.effect)) names += (names.empty() ? "" : ",") + std::string(e.name);
+  return names;
+}
+
 Result<Effects> effectsWithout(std::string_view names) {
   Effects effects;
   for (std::size_t from = 0; from <= names.size();) {

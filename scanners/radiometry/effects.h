@@ -63,5 +63,7 @@ const std::array<EffectName, 23>& effectNames();
 std::string effectList();  // the names, separated by commas
 // Everything but the listed ones: "striping,footprint". An unknown name is an error that lists the known ones.
 Result<Effects> effectsWithout(std::string_view names);
+// The effects that are left out, separated by commas: what effectsWithout reads.
+std::string leftOut(Effects effects);
 
 }  // namespace standpoint

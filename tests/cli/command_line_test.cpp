@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "project/project_files.h"
+#include "project/storage/project_files.h"
 #include "tests/project/support.h"
 
 namespace standpoint {

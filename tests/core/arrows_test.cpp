@@ -22,7 +22,8 @@ Folders with(Folders a, const Folders& b) {
 }
 
 const std::map<std::string, Folders>& allowed() {
-  static const Folders below_project = with({"core"}, kSiblings);
+  static const Folders siblings = with({"core"}, kSiblings);
+  static const Folders below_doors = with(siblings, {"survey", "project"});
   static const std::map<std::string, Folders> table = {
       {"core", {}},
       {"importers", {"core"}},
@@ -30,10 +31,11 @@ const std::map<std::string, Folders>& allowed() {
       {"optimizer", {"core"}},
       {"scanners", {"core"}},
       {"pointclouds", {"core"}},
-      {"project", below_project},
-      {"emulated-ui", with(below_project, {"project"})},
-      {"editor", with(below_project, {"project", "emulated-ui"})},
-      {"cli", with(below_project, {"project", "emulated-ui"})},
+      {"survey", siblings},
+      {"project", with(siblings, {"survey"})},
+      {"emulated-ui", below_doors},
+      {"editor", with(below_doors, {"emulated-ui"})},
+      {"cli", with(below_doors, {"emulated-ui"})},
   };
   return table;
 }

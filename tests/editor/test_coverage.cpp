@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/data_folder.h"
 #include "demo_verbs.h"
 #include "editor/model/coverage_view.h"
 #include "editor/model/expected_view.h"

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/data_folder.h"
 #include "demo_document.h"
 #include "editor/model/expected_view.h"
 #include "editor/model/picker.h"

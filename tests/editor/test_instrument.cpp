@@ -10,7 +10,7 @@
 #include "editor/instrument/instrument.h"
 #include "editor/widgets/theme.h"
 #include "item_probe.h"
-#include "project/project_files.h"
+#include "project/storage/project_files.h"
 #include "tests/project/support.h"
 
 namespace standpoint {

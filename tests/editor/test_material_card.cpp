@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/data_folder.h"
 #include "core/units.h"
 #include "editor/model/material_card.h"
 #include "project/verb.h"

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/data_folder.h"
 #include "editor/model/material_edit.h"
 #include "materials/materials.h"
 #include "project/verb.h"

@@ -2,13 +2,14 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/data_folder.h"
 #include "demo_verbs.h"
 #include "editor/model/live_cloud.h"
 #include "editor/model/scan_form.h"
 #include "editor/model/scan_outlook.h"
 #include "editor/panels/scan_panel.h"
 #include "item_probe.h"
-#include "project/scan_request.h"
+#include "project/survey/scan_request.h"
 
 namespace standpoint {
 namespace {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/data_folder.h"
 #include "emulated-ui/device/check.h"
 #include "emulated-ui/menus.h"
 #include "materials/json_file.h"

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/data_folder.h"
 #include "project/verb.h"
 #include "tests/emulated-ui/support.h"
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <set>
 
+#include "core/data_folder.h"
 #include "emulated-ui/device/check.h"
-#include "project/instruments.h"
 #include "project/verb.h"
+#include "survey/instruments.h"
 #include "tests/emulated-ui/support.h"
 
 namespace standpoint {

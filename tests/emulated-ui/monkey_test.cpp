@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <set>
 
-#include "project/instruments.h"
+#include "survey/instruments.h"
 #include "tests/emulated-ui/support.h"
 
 namespace standpoint {

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/data_folder.h"
 #include "emulated-ui/menus.h"
 #include "tests/project/support.h"
 

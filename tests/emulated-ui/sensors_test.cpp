@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "core/units.h"
-#include "project/levelling.h"
+#include "survey/stations/levelling.h"
 #include "tests/emulated-ui/support.h"
 #include "tests/project/support.h"
 

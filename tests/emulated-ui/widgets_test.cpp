@@ -4,6 +4,7 @@
 #include <iterator>
 #include <set>
 
+#include "core/data_folder.h"
 #include "emulated-ui/widget_list.h"
 #include "project/verb.h"
 #include "tests/emulated-ui/working.h"

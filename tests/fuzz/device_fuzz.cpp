@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fuzzer/FuzzedDataProvider.h>
 
+#include "core/data_folder.h"
 #include "emulated-ui/device/check.h"
 #include "emulated-ui/menus.h"
 #include "materials/json_file.h"

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "pointclouds/formats.h"
-#include "project/scan_parts.h"
+#include "survey/scanning/scan_parts.h"
 #include "tests/project/support.h"
 
 namespace standpoint {

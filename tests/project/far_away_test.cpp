@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "pointclouds/formats.h"
-#include "project/session.h"
+#include "project/storage/session.h"
 #include "tests/project/support.h"
 
 namespace standpoint {

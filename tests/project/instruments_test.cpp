@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "project/instruments.h"
+#include "survey/instruments.h"
 
 #include <cstdlib>
 #include <fstream>

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "core/face_normal.h"
-#include "project/project_files.h"
-#include "project/session.h"
+#include "project/storage/project_files.h"
+#include "project/storage/session.h"
 #include "tests/project/support.h"
 
 namespace standpoint {

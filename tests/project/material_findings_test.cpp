@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a verification proposes stands among the findings, as long as it holds.
-#include "project/material_findings.h"
+#include "project/materials/material_findings.h"
 
 #include <gmock/gmock.h>
 
-#include "project/verification.h"
+#include "project/materials/verification.h"
 #include "tests/project/support.h"
 
 namespace standpoint {

@@ -6,8 +6,8 @@
 
 #include "core/face_normal.h"
 #include "core/face_patches.h"
-#include "project/materials_json.h"
-#include "project/project_files.h"
+#include "project/materials/materials_json.h"
+#include "project/storage/project_files.h"
 #include "tests/project/support.h"
 
 namespace standpoint {

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "pointclouds/formats.h"
-#include "project/instruments.h"
-#include "project/survey_plan.h"
 #include "scanners/forecast/scan_forecast.h"
+#include "survey/instruments.h"
+#include "survey/stations/survey_plan.h"
 #include "tests/project/support.h"
 
 namespace standpoint {

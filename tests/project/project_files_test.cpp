@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "project/project_files.h"
+#include "project/storage/project_files.h"
 
 #include <csignal>
 #include <fstream>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include "project/project_files.h"
-#include "project/session.h"
+#include "project/storage/project_files.h"
+#include "project/storage/session.h"
 #include "tests/project/support.h"
 
 namespace standpoint {

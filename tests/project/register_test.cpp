@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "project/underlays.h"
+#include "project/survey/underlays.h"
 #include "tests/project/support.h"
 
 namespace standpoint {

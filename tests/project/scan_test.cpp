@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "pointclouds/formats.h"
-#include "project/project_files.h"
+#include "project/storage/project_files.h"
 #include "tests/project/support.h"
 
 namespace standpoint {

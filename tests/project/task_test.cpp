@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "project/survey_verbs.h"
+#include "project/survey/survey_verbs.h"
 #include "tests/project/support.h"
 
 namespace standpoint {

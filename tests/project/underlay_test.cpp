@@ -3,8 +3,8 @@
 
 #include <gmock/gmock.h>
 
-#include "project/project_files.h"
-#include "project/underlays.h"
+#include "project/storage/project_files.h"
+#include "project/survey/underlays.h"
 #include "tests/project/support.h"
 
 namespace standpoint {

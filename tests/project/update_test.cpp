@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "project/project_files.h"
-#include "project/session.h"
+#include "project/storage/project_files.h"
+#include "project/storage/session.h"
 #include "tests/project/support.h"
 
 namespace standpoint {

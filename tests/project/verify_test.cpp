@@ -5,8 +5,8 @@
 
 #include <gmock/gmock.h>
 
-#include "project/project_files.h"
-#include "project/verification.h"
+#include "project/materials/verification.h"
+#include "project/storage/project_files.h"
 #include "tests/project/support.h"
 
 namespace standpoint {

@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/model/import_verb.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "project/answers.h"
+#include "project/materials/materials_verb.h"
+#include "project/model/model_verbs.h"
+#include "survey/geodesy.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+
+// Appends `model` to `into`, whose frame differs from the model's by whole metres.
+void appendEnvironment(Environment& into, Environment&& model, const Eigen::Vector3d& shift_difference_m) {
+  const auto mesh_offset = static_cast<std::uint32_t>(into.meshes.size());
+  const auto surface_offset = static_cast<std::uint32_t>(into.surfaces.size());
+  const auto product_offset = static_cast<std::uint32_t>(into.products.size());
+  const auto spatial_offset = static_cast<std::int32_t>(into.spatial.size());
+  for (const auto& mesh : model.meshes) {
+    auto moved = std::make_shared<Mesh>(*mesh);
+    for (auto& s : moved->surface_of_triangle) s += surface_offset;
+    into.meshes.push_back(std::move(moved));
+  }
+  const auto image_offset = static_cast<std::int32_t>(into.images.size());
+  for (auto& surface : model.surfaces) {
+    if (surface.image >= 0) surface.image += image_offset;
+    into.surfaces.push_back(std::move(surface));
+  }
+  into.images.insert(into.images.end(), model.images.begin(), model.images.end());
+  for (auto& product : model.products) {
+    if (product.container >= 0) product.container += spatial_offset;
+    if (product.whole >= 0) product.whole += static_cast<std::int32_t>(product_offset);
+    into.products.push_back(std::move(product));
+  }
+  for (auto instance : model.instances) {
+    instance.mesh += mesh_offset;
+    instance.product += product_offset;
+    instance.world_from_mesh.pretranslate(shift_difference_m);
+    into.instances.push_back(instance);
+  }
+  for (auto& node : model.spatial) {
+    if (node.parent >= 0) node.parent += spatial_offset;
+    into.spatial.push_back(std::move(node));
+  }
+}
+
+bool sameConversion(const Georeference& a, const Georeference& b) {
+  if (a.map_from_file.has_value() != b.map_from_file.has_value()) return false;
+  if (!a.map_from_file) return true;
+  const Eigen::Vector3d probe(10, 20, 3);
+  return (mapFromFile(*a.map_from_file, probe) - mapFromFile(*b.map_from_file, probe)).norm() < 1e-4;
+}
+
+// Volume in m³ of the placed closed meshes; null when one of them is open.
+std::vector<json> productVolumes(const Environment& environment) {
+  std::vector<double> of_mesh(environment.meshes.size());
+  std::vector<bool> closed(environment.meshes.size());
+  for (std::size_t i = 0; i < of_mesh.size(); ++i) {
+    closed[i] = isClosed(*environment.meshes[i]);
+    if (closed[i]) of_mesh[i] = std::abs(volume(*environment.meshes[i]));
+  }
+  std::vector<json> result(environment.products.size());
+  std::vector<bool> open(environment.products.size());
+  for (const auto& i : environment.instances) {
+    if (!closed[i.mesh]) open[i.product] = true;
+    if (open[i.product]) continue;
+    const double scaled = of_mesh[i.mesh] * std::abs(i.world_from_mesh.linear().determinant());
+    result[i.product] = (result[i.product].is_null() ? 0.0 : result[i.product].get<double>()) + scaled;
+  }
+  for (std::size_t i = 0; i < result.size(); ++i)
+    if (open[i]) result[i] = nullptr;
+  return result;
+}
+
+// From the project down to where it stands: "House / Block A / Ground".
+std::string placeOf(const Environment& environment, const Product& product) {
+  std::string path;
+  for (std::int32_t n = product.container; n >= 0; n = environment.spatial[static_cast<std::size_t>(n)].parent) {
+    const auto& node = environment.spatial[static_cast<std::size_t>(n)];
+    const auto& word = node.name.empty() ? node.ifc_class : node.name;
+    path = path.empty() ? word : word + " / " + path;
+  }
+  return path;
+}
+
+json layerRows(const Product& product) {
+  json rows = json::array();
+  for (const auto& layer : product.layers) rows.push_back({{"material", layer.name}, {"thickness", layer.thickness_m}});
+  return rows;
+}
+
+// {set: {name: value}}; where a name stands several times in a set, its values are a list.
+json propertySets(const std::vector<Property>& properties) {
+  json sets = json::object();
+  for (const auto& p : properties) {
+    json& at = sets[p.set][p.name];
+    if (at.is_null()) {
+      at = p.value;
+    } else {
+      if (!at.is_array()) at = json::array({at});
+      at.push_back(p.value);
+    }
+  }
+  return sets;
+}
+
+json spatialRows(const Environment& environment) {
+  json rows = json::array();
+  for (const auto& n : environment.spatial)
+    rows.push_back(
+        {{"id", n.id},
+         {"global_id", n.global_id},
+         {"class", n.ifc_class},
+         {"name", n.name},
+         {"parent", n.parent < 0 ? json(nullptr) : json(environment.spatial[static_cast<std::size_t>(n.parent)].id)},
+         {"elevation", n.elevation_m},
+         {"properties", propertySets(n.properties)}});
+  return rows;
+}
+
+json surfaceRows(const Environment& environment) {
+  json rows = json::array();
+  for (const auto& s : environment.surfaces) {
+    json row = {{"name", s.name}, {"source", s.source}, {"colour", {s.colour.r, s.colour.g, s.colour.b, s.colour.a}}};
+    if (s.image >= 0) row["image"] = environment.images[static_cast<std::size_t>(s.image)]->name;
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+using SurfaceAreas = std::map<std::uint32_t, double>;  // m² by surface
+
+SurfaceAreas surfaceAreas(const Mesh& mesh, const Eigen::Matrix3d& linear) {
+  SurfaceAreas areas;
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+    const auto& t = mesh.triangles[k];
+    const Eigen::Vector3d a = mesh.positions[t[0]].cast<double>();
+    const Eigen::Vector3d u = linear * (mesh.positions[t[1]].cast<double>() - a),
+                          v = linear * (mesh.positions[t[2]].cast<double>() - a);
+    areas[mesh.surface_of_triangle[k]] += u.cross(v).norm() / 2;
+  }
+  return areas;
+}
+
+// What each product shows: a wall of several layers has several. Meshes that are placed often are measured once.
+std::vector<SurfaceAreas> productSurfaces(const Environment& environment) {
+  std::vector<SurfaceAreas> of_mesh(environment.meshes.size()), result(environment.products.size());
+  for (const auto& i : environment.instances) {
+    const Eigen::Matrix3d linear = i.world_from_mesh.linear();
+    const bool rigid = (linear.transpose() * linear).isIdentity(1e-9);
+    auto& kept = of_mesh[i.mesh];
+    if (rigid && kept.empty()) kept = surfaceAreas(*environment.meshes[i.mesh], Eigen::Matrix3d::Identity());
+    for (const auto& [surface, area] : rigid ? kept : surfaceAreas(*environment.meshes[i.mesh], linear))
+      result[i.product][surface] += area;
+  }
+  return result;
+}
+
+json surfacesOf(const SurfaceAreas& areas, const Environment& environment) {
+  json rows = json::array();
+  for (const auto& [surface, area] : areas)
+    rows.push_back({{"surface", surface}, {"name", environment.surfaces[surface].name}, {"area", area}});
+  return rows;
+}
+
+json productRows(const Environment& environment, const Eigen::Vector3d& shift_m) {
+  const auto product_bounds = productBounds(environment);
+  const auto volumes = productVolumes(environment);
+  const auto surfaces = productSurfaces(environment);
+  std::vector<std::uint64_t> triangles(environment.products.size());
+  for (const auto& i : environment.instances) triangles[i.product] += environment.meshes[i.mesh]->triangles.size();
+  json rows = json::array();
+  for (std::size_t i = 0; i < environment.products.size(); ++i) {
+    const auto& p = environment.products[i];
+    rows.push_back(
+        {{"id", p.id},
+         {"global_id", p.global_id},
+         {"class", p.ifc_class},
+         {"predefined_type", p.predefined_type},
+         {"name", p.name},
+         {"type", p.type_name},
+         {"storey", p.storey},
+         {"place", placeOf(environment, p)},
+         {"whole", p.whole < 0 ? json(nullptr) : json(environment.products[static_cast<std::size_t>(p.whole)].id)},
+         {"tangible", p.tangible},
+         {"groups", p.groups},
+         {"triangles", triangles[i]},
+         {"bounds", toJson(product_bounds[i], shift_m)},
+         {"volume", volumes[i]},
+         {"materials", p.materials},
+         {"layers", layerRows(p)},
+         {"surfaces", surfacesOf(surfaces[i], environment)},
+         {"properties", propertySets(p.properties)}});
+  }
+  return rows;
+}
+
+double metresOf(FileUnit unit) {
+  switch (unit) {
+    case FileUnit::metre: return 1;
+    case FileUnit::centimetre: return 0.01;
+    case FileUnit::millimetre: return 0.001;
+    case FileUnit::inch: return 0.0254;
+    case FileUnit::foot: return 0.3048;
+  }
+  return 1;
+}
+
+ImportOptions importOptions(const AddOptions& options) {
+  ImportOptions result;
+  result.shift = options.shift.mode;
+  result.given_shift_m = options.shift.given_m;
+  if (options.up) result.up = *options.up;
+  if (options.unit) result.metres_per_unit = metresOf(*options.unit);
+  return result;
+}
+
+}  // namespace
+
+Result<Outcome> importModels(const Document& document, const std::vector<std::filesystem::path>& files,
+                             const ImportOptions& options, const std::string& crs, Progress& progress) {
+  if (files.empty()) return failure(ErrorKind::usage, "specify at least one model file", "import");
+  Outcome outcome;
+  outcome.document.name = document.name.empty() ? files.front().stem().string() : document.name;
+  Environment environment;
+  Georeference georeference;
+  ImportOptions each = options;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    progress.stage("Import " + files[i].filename().string(), static_cast<double>(i) / static_cast<double>(files.size()),
+                   static_cast<double>(i + 1) / static_cast<double>(files.size()));
+    auto model = importFile(files[i], each, progress);
+    if (!model) return failure(model.error());
+    if (auto wrong = validate(model->environment); !wrong.empty())
+      return failure(ErrorKind::internal, "internal error: the importer produced an inconsistent model: " + wrong,
+                     files[i].string());
+    if (files.size() > 1)
+      for (auto& issue : model->report.issues) issue.source = files[i].filename().string() + " " + issue.source;
+    outcome.report.append(model->report);
+    outcome.document.sources.push_back(files[i].string());
+    if (i == 0) {
+      environment = std::move(model->environment);
+      georeference = std::move(model->georeference);
+      each.shift = ShiftMode::given;
+      each.given_shift_m = georeference.shift_m;
+      continue;
+    }
+    if (model->georeference.crs != georeference.crs || !sameConversion(model->georeference, georeference))
+      outcome.report.warn(files[i].filename().string(),
+                          "georeference differs from the first file; using that of the first file");
+    appendEnvironment(environment, std::move(model->environment), model->georeference.shift_m - georeference.shift_m);
+  }
+  const bool building = std::any_of(environment.spatial.begin(), environment.spatial.end(),
+                                    [](const SpatialNode& n) { return n.ifc_class == "IfcBuilding"; });
+  if (building && crs.empty() && georeference.crs.empty() && !georeference.map_from_file)
+    outcome.report.warn("georeference",
+                        "the model has no georeference; set it with `georeference` (--crs, --origin, --rotation-deg)");
+  if (!crs.empty()) {
+    TRY_ASSIGN(auto found, findCrs(crs));
+    georeference.crs = found.code;
+  }
+  outcome.answer = {{"products", productRows(environment, georeference.shift_m)},
+                    {"spatial", spatialRows(environment)},
+                    {"surfaces", surfaceRows(environment)},
+                    {"triangles", triangleCount(environment)},
+                    {"bounds", toJson(bounds(environment), georeference.shift_m)},
+                    {"georeference", georeferenceToJson(georeference)}};
+  outcome.description = fmt::format("Imported {}: {} products, {} triangles", files.front().filename().string(),
+                                    environment.products.size(), triangleCount(environment));
+  outcome.document.imported = std::make_shared<const Environment>(std::move(environment));
+  outcome.document.georeference = std::make_shared<const Georeference>(std::move(georeference));
+  outcome.document.import_report = std::make_shared<const Report>(outcome.report);
+  outcome.document.job = std::make_shared<const Job>(Job{outcome.document.name, {}, {}, {}});
+  return outcome;
+}
+
+Result<ShiftChoice> FieldValue<ShiftChoice>::read(const json& value) {
+  const auto text = value.get<std::string>();
+  if (text == "auto") return ShiftChoice{};
+  if (text == "none") return ShiftChoice{ShiftMode::none, Eigen::Vector3d::Zero()};
+  const auto numbers = parseNumbers(text);
+  if (!numbers || numbers->size() != 3)
+    return failure(ErrorKind::usage, fmt::format("invalid shift '{}': use auto, none or E,N,H in metres", text));
+  return ShiftChoice{ShiftMode::given, vectorFrom(*numbers)};
+}
+
+json FieldValue<ShiftChoice>::write(const ShiftChoice& shift) {
+  if (shift.mode == ShiftMode::given)
+    return fmt::format("{},{},{}", shift.given_m.x(), shift.given_m.y(), shift.given_m.z());
+  return shift.mode == ShiftMode::none ? "none" : "auto";
+}
+
+std::span<const Choice<FileUnit>> choices(FileUnit) {
+  static constexpr std::array kUnits = {Choice<FileUnit>{"m", FileUnit::metre},
+                                        Choice<FileUnit>{"cm", FileUnit::centimetre},
+                                        Choice<FileUnit>{"mm", FileUnit::millimetre},
+                                        Choice<FileUnit>{"in", FileUnit::inch}, Choice<FileUnit>{"ft", FileUnit::foot}};
+  return kUnits;
+}
+
+std::span<const Choice<UpAxis>> choices(UpAxis) {
+  static constexpr std::array kAxes = {Choice<UpAxis>{"y", UpAxis::y}, Choice<UpAxis>{"z", UpAxis::z}};
+  return kAxes;
+}
+
+const Fields<AddOptions>& addFields() {
+  using O = AddOptions;
+  static const Fields<O> fields = {{"files", &O::files, "the model files", {.positional = true, .required = true}},
+                                   {"shift", &O::shift, "global shift: auto, none, or E,N,H", {.unit = "m"}},
+                                   {"crs", &O::crs, "coordinate reference system, as EPSG:n"},
+                                   {"up", &O::up, "up axis of the file (default: that of the format)"},
+                                   {"unit", &O::unit, "unit of the file's coordinates (default: that of the format)"}};
+  return fields;
+}
+
+const Fields<ImportVerbOptions>& importFields() {
+  using O = ImportVerbOptions;
+  static const Fields<O> fields = {
+      {"files", &O::files, "the model files", {.positional = true, .required = true}},
+      {"output", &O::output, "folder of the new project"},
+      {"replace", &O::replace, "replace the contents of that folder"},
+      {"update", &O::update, "read a changed model; keep stations, targets and materials, and list the changes"},
+      {"shift", &O::shift, "global shift: auto, none, or E,N,H", {.unit = "m"}},
+      {"crs", &O::crs, "coordinate reference system, as EPSG:n"},
+      {"up", &O::up, "up axis of the file (default: that of the format)"},
+      {"unit", &O::unit, "unit of the file's coordinates (default: that of the format)"}};
+  return fields;
+}
+
+Result<Outcome> runImport(const Document& document, const ImportVerbOptions& options, Progress& progress) {
+  const auto typed = importOptions(options);
+  return options.update ? updateModels(document, options.files, typed, options.crs, progress)
+                        : importModels(document, options.files, typed, options.crs, progress);
+}
+
+Result<Outcome> addImported(const Document& document, Outcome imported, Progress& progress) {
+  const Georeference &mine = *document.georeference, &its = *imported.document.georeference;
+  Outcome outcome{document, std::move(imported.answer), std::move(imported.report), {}};
+  const std::string source = imported.document.sources.empty()
+                                 ? ""
+                                 : std::filesystem::path(imported.document.sources.front()).filename().string();
+  if (its.crs != mine.crs || !sameConversion(its, mine))
+    outcome.report.warn(source, "georeference differs from the environment; using that of the environment");
+  Report all = *document.import_report;
+  all.append(outcome.report);
+  auto environment = std::make_shared<Environment>(*document.imported);
+  const auto products = imported.document.imported->products.size();
+  appendEnvironment(*environment, Environment(*imported.document.imported), its.shift_m - mine.shift_m);
+  Document& d = outcome.document;
+  d.imported = std::move(environment);
+  d.import_report = std::make_shared<const Report>(std::move(all));
+  d.sources.insert(d.sources.end(), imported.document.sources.begin(), imported.document.sources.end());
+  if (d.simplified || d.collision)
+    outcome.report.note(
+        source, "the simplified model and collision shapes are out of date: run `optimize` and `collide` again");
+  d.simplified.reset();
+  d.collision.reset();
+  if (d.materials) {
+    TRY_ASSIGN(auto assigned, assignDocumentMaterials(d, {}, progress));
+    d.materials = assigned.document.materials;
+  }
+  outcome.description = fmt::format("Added {}: {} products", source, products);
+  return outcome;
+}
+
+Result<Outcome> runAdd(const Document& document, const AddOptions& options, Progress& progress) {
+  auto imported = importModels(Document(), options.files, importOptions(options), options.crs, progress);
+  if (!imported) return imported;
+  return addImported(document, *std::move(imported), progress);
+}
+
+}  // namespace standpoint

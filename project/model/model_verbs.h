@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The verbs that make the model fit for its purpose: solid to walk on, at a known place.
+
+#include <string>
+#include <vector>
+
+#include "project/fields.h"
+
+namespace standpoint {
+
+std::span<const Choice<DoorState>> choices(DoorState);
+struct CollideVerbOptions {
+  double agent_radius_m = CollideOptions{}.agent_radius_m;
+  double agent_height_m = CollideOptions{}.agent_height_m;
+  DoorState doors = DoorState::open;
+  std::vector<std::string> closed;  // selectors of doors, with DoorState::as_set; empty: those that were closed last
+};
+const Fields<CollideVerbOptions>& collideFields();
+Result<Outcome> runCollide(const Document& document, const CollideVerbOptions& options, Progress& progress);
+
+struct GeoreferenceOptions {
+  std::string crs;                        // empty: as it is
+  std::optional<Eigen::Vector3d> origin;  // map coordinates E,N,H of the file's origin, m
+  std::optional<double> rotation_deg;
+};
+const Fields<GeoreferenceOptions>& georeferenceFields();
+Result<Outcome> runGeoreference(const Document& document, const GeoreferenceOptions& options, Progress& progress);
+
+}  // namespace standpoint

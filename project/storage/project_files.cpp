@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/storage/project_files.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "importers/gltf/gltf_writer.h"
+#include "project/materials/verification.h"
+#include "project/storage/project_json.h"
+#include "project/survey/underlays.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr const char* kProjectFile = "project.json";
+constexpr auto kReplace = json::error_handler_t::replace;  // of a name that is not UTF-8 the bytes that are wrong
+
+tl::unexpected<Error> cannotWrite(const fs::path& file) {
+  return failure(ErrorKind::file_system,
+                 fmt::format("cannot write the file ({}); the project is unchanged", std::strerror(errno)),
+                 file.string());
+}
+
+Result<std::string> readText(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in)
+    return failure(ErrorKind::file_system, fmt::format("cannot read the file ({})", std::strerror(errno)),
+                   file.string());
+  return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+Result<void> writeText(const fs::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary | std::ios::trunc);
+  out.write(text.data(), static_cast<std::streamsize>(text.size()));
+  out.flush();
+  if (!out) return cannotWrite(file);
+  return {};
+}
+
+Result<json> readJson(const fs::path& file) {
+  TRY_ASSIGN(auto text, readText(file));
+  json value = json::parse(text, nullptr, false);
+  if (value.is_discarded())
+    return failure(ErrorKind::unusable, "invalid JSON: the file is damaged or not a Standpoint project", file.string());
+  return value;
+}
+
+// Parts are stored under the name of their content, so an unchanged part is not written again and an old project.json
+// keeps pointing at its own parts until the new one replaces it.
+Result<std::string> storeUnderContentName(const fs::path& fresh, const std::string& stem) {
+  TRY_ASSIGN(auto text, readText(fresh));
+  const auto name = fmt::format("{}-{:016x}{}", stem, contentHash(text), fresh.extension().string());
+  std::error_code error;
+  fs::rename(fresh, fresh.parent_path() / name, error);
+  if (error) return failure(ErrorKind::file_system, "cannot rename: " + error.message(), fresh.string());
+  return name;
+}
+
+Result<std::string> storeEnvironment(const Environment& environment, const Georeference& georeference,
+                                     const fs::path& geometry, const std::string& stem, Progress& progress) {
+  const auto fresh = geometry / (".new-" + stem + ".glb");
+  if (auto written = writeEnvironmentGlb(environment, georeference, fresh, progress); !written) {
+    std::error_code ignored;
+    fs::remove(fresh, ignored);
+    return failure(written.error());
+  }
+  return storeUnderContentName(fresh, stem);
+}
+
+Result<std::string> storeJson(const json& value, const fs::path& geometry, const std::string& stem) {
+  const auto fresh = geometry / (".new-" + stem + ".json");
+  if (auto written = writeText(fresh, value.dump(-1, ' ', false, kReplace)); !written) {
+    std::error_code ignored;
+    fs::remove(fresh, ignored);
+    return failure(written.error());
+  }
+  return storeUnderContentName(fresh, stem);
+}
+
+// Only what an earlier save of ours left in geometry/ and no project.json names any more.
+void removeUnreferenced(const fs::path& geometry, const std::set<std::string>& named) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(geometry, ignored)) {
+    const auto name = entry.path().filename().string();
+    const bool ours = name.rfind("imported-", 0) == 0 || name.rfind("products-", 0) == 0 ||
+                      name.rfind("light-", 0) == 0 || name.rfind("collision-", 0) == 0 || name.rfind(".new-", 0) == 0;
+    if (ours && !named.contains(name)) fs::remove(entry.path(), ignored);
+  }
+}
+
+Result<Environment> loadEnvironment(const fs::path& file, const Environment& records, Progress& progress) {
+  auto environment = readEnvironmentGlb(file, progress);
+  if (!environment) return environment;
+  environment->products = records.products;
+  environment->spatial = records.spatial;
+  if (auto wrong = validate(*environment); !wrong.empty())
+    return failure(ErrorKind::unusable, wrong + ": the file is damaged", file.string());
+  return environment;
+}
+
+Result<Document> fromJson(const json& project, const fs::path& folder, Progress& progress) {
+  const auto geometry = folder / "geometry";
+  TRY_ASSIGN(auto records, readJson(geometry / project.at("products").get<std::string>()));
+  Environment named = recordsFrom(records);
+  TRY_ASSIGN(auto imported, loadEnvironment(geometry / project.at("imported").get<std::string>(), named, progress));
+  Document d = documentFrom(project);
+  d.imported = std::make_shared<const Environment>(std::move(imported));
+  TRY_ASSIGN(auto georeference, georeferenceFrom(project.at("georeference")));
+  d.georeference = std::make_shared<const Georeference>(std::move(georeference));
+  if (project.contains("lightening")) {
+    const auto& part = project.at("lightening");
+    TRY_ASSIGN(auto light, loadEnvironment(geometry / part.at("geometry").get<std::string>(), named, progress));
+    d.simplified = simplificationFrom(part, std::make_shared<const Environment>(std::move(light)));
+  }
+  if (project.contains("collision")) {
+    const auto& part = project.at("collision");
+    TRY_ASSIGN(auto shapes, readEnvironmentGlb(geometry / part.at("geometry").get<std::string>(), progress));
+    d.collision = collisionFrom(part, shapes);
+  }
+  if (project.contains("verification")) d.verification = verificationFrom(project.at("verification"));
+  if (project.contains("underlays")) d.underlays = underlaysFrom(project.at("underlays"), folder);
+  return d;
+}
+
+}  // namespace
+
+std::uint64_t contentHash(const std::string& bytes) {
+  // Eight bytes a step: FNV-1a's mixing on words; a name for content, not a defence.
+  std::uint64_t hash = 0xcbf29ce484222325ULL ^ bytes.size();
+  std::size_t i = 0;
+  for (; i + 8 <= bytes.size(); i += 8) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + i, 8);
+    hash = (hash ^ word) * 0x9E3779B97F4A7C15ULL;
+    hash ^= hash >> 29U;
+  }
+  for (; i < bytes.size(); ++i) hash = (hash ^ static_cast<unsigned char>(bytes[i])) * 0x100000001b3ULL;
+  return hash;
+}
+
+Result<void> saveProject(const Document& document, const fs::path& folder, Progress& progress) {
+  if (!document.imported) return failure(ErrorKind::usage, "nothing to save: import a model first");
+  progress.stage("Save " + folder.filename().string());
+  const auto geometry = folder / "geometry";
+  std::error_code error;
+  fs::create_directories(geometry, error);
+  if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), folder.string());
+
+  json project = documentToJson(document);
+  if (!document.underlays.empty()) project["underlays"] = underlaysToJson(document.underlays, folder);
+  if (document.verification) project["verification"] = verificationToJson(*document.verification);
+  std::set<std::string> named;
+  const auto store = [&](json& at, const char* key, Result<std::string> name) -> Result<void> {
+    if (!name) return failure(name.error());
+    at[key] = *name;
+    named.insert(*name);
+    return {};
+  };
+  const auto& g = *document.georeference;
+  if (auto ok = store(project, "products", storeJson(recordsToJson(*document.imported), geometry, "products")); !ok)
+    return ok;
+  if (auto ok = store(project, "imported", storeEnvironment(*document.imported, g, geometry, "imported", progress));
+      !ok)
+    return ok;
+  if (document.simplified)
+    if (auto ok = store(project["lightening"], "geometry",
+                        storeEnvironment(*document.simplified->environment, g, geometry, "light", progress));
+        !ok)
+      return ok;
+  if (document.collision)
+    if (auto ok =
+            store(project["collision"], "geometry",
+                  storeEnvironment(collisionEnvironment(*document.collision), g, geometry, "collision", progress));
+        !ok)
+      return ok;
+
+  const auto fresh = folder / ".project.json.new";
+  if (auto written = writeText(fresh, project.dump(2, ' ', false, kReplace) + "\n"); !written) {
+    fs::remove(fresh, error);
+    return written;
+  }
+  fs::rename(fresh, folder / kProjectFile, error);
+  if (error)
+    return failure(ErrorKind::file_system, "cannot replace the file: " + error.message(),
+                   (folder / kProjectFile).string());
+  removeUnreferenced(geometry, named);
+  return {};
+}
+
+Result<Document> loadProject(const fs::path& folder, Progress& progress) {
+  const auto file = folder / kProjectFile;
+  std::error_code ignored;
+  if (!fs::exists(file, ignored))
+    return failure(ErrorKind::file_system,
+                   "not a Standpoint project (no project.json); create one with `standpoint import FILE -o " +
+                       folder.string() + "`",
+                   folder.string());
+  progress.stage("Open " + folder.filename().string());
+  auto project = readJson(file);
+  if (!project) return failure(project.error());
+  try {
+    const int version = project->at("version").get<int>();
+    if (version > kProjectVersion)
+      return failure(ErrorKind::unusable,
+                     fmt::format("the project was created by a newer version of Standpoint (project version {}, "
+                                 "supported: {}); update Standpoint",
+                                 version, kProjectVersion),
+                     file.string() + " /version");
+    auto document = fromJson(*project, folder, progress);
+    if (!document) return document;
+    document->name = fs::absolute(folder).filename().string();
+    if (auto wrong = inconsistency(*document); !wrong.empty())
+      return failure(ErrorKind::unusable, wrong, file.string());
+    return document;
+  } catch (const json::exception& e) {
+    return failure(ErrorKind::unusable, fmt::format("missing or invalid entry: {}", e.what()), file.string());
+  }
+}
+
+}  // namespace standpoint

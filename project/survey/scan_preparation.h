@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/points.h"
+#include "project/survey/survey_verbs.h"
+#include "survey/scanning/scan_world.h"
+
+namespace standpoint {
+
+// What all scans of a document need and what takes a while to make, so that it can be made before it is asked for: a
+// million triangles take half a second. It stays good while stations move.
+struct ScanPreparation {
+  std::shared_ptr<const Environment> model;  // these three are what it was made for
+  std::shared_ptr<const MaterialChoice> materials;
+  std::vector<Target> targets;
+  ScanWorld world;
+  std::shared_ptr<const RayScene> scene;
+  std::uint64_t fingerprint = 0;  // of the world
+
+  bool fits(const Document& document) const;
+};
+
+// `of_model` is a scene of the document's environment, where there is one already; without targets it is the one.
+Result<std::shared_ptr<const ScanPreparation>> prepareScan(const Document& document,
+                                                           std::shared_ptr<const RayScene> of_model,
+                                                           Progress& progress);
+
+// Whom a scan is made for: what was prepared for it, and who watches its points beside the file. Both may be null.
+struct ScanSurroundings {
+  std::shared_ptr<const ScanPreparation> preparation;
+  std::shared_ptr<PointSink> watcher;
+};
+
+// The verb `scan` with company.
+Result<Outcome> runScan(const Document& document, const ScanVerbOptions& options, const ScanSurroundings& company,
+                        Progress& progress);
+
+}  // namespace standpoint

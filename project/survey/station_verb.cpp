@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "project/answers.h"
+#include "project/survey/survey_verbs.h"
+#include "survey/instruments.h"
+#include "survey/stations/levelling.h"
+#include "survey/stations/placement.h"
+#include "survey/stations/station_places.h"
+#include "survey/stations/survey_plan.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+
+// What a station stands on and how it stands, as the options say it.
+struct Setup {
+  TripodStand stand;
+  double trunnion_m = kUsualTrunnion_m, height_m = kUsualHeight_m;
+  bool free = false;  // it hangs or is held: no ground is asked for
+};
+
+Result<Setup> setupFrom(const StationOptions& options) {
+  Setup setup;
+  TRY_ASSIGN(auto stand, readTripodStand(tripodStandFile()));
+  setup.stand = stand;
+  if (!options.instrument.empty()) {
+    const auto instrument = instrumentById(options.instrument);
+    if (!instrument) return failure(instrument.error());
+    if (instrument->moving)
+      return failure(
+          ErrorKind::usage,
+          fmt::format("the {} {} is carried and cannot be placed on a tripod", instrument->maker, instrument->model),
+          "--instrument");
+    setup.trunnion_m = instrument->trunnion_height_m;
+    setup.height_m = instrument->tripod_height_m;
+  }
+  setup.height_m = options.height_m.value_or(setup.height_m);
+  setup.free = options.stand == StationStand::free;
+  return setup;
+}
+
+bool saysLevel(const StationOptions& options) { return options.tilt_deg || options.levelling_error_deg; }
+
+// Turned by its yaw and then leant over by its tilt, as stated or drawn.
+Eigen::Quaterniond standingRotation(const StationOptions& options, const std::string& name) {
+  Tilt tilt{options.tilt_deg.value_or(0) * kRadPerDeg, options.tilt_towards_deg * kRadPerDeg};
+  if (options.levelling_error_deg) tilt = drawnTilt(*options.levelling_error_deg * kRadPerDeg, options.seed, name);
+  return rotationOf(options.yaw_deg * kRadPerDeg, tilt);
+}
+
+json stationRow(const Station& s, const Georeference& g) {
+  json scans = json::array();
+  for (const auto& scan : s.scans)
+    scans.push_back({{"instrument", scan.instrument}, {"file", scan.file}, {"points", scan.points}});
+  const Tilt tilt = tiltOf(s.true_pose.rotation);
+  json row{{"name", s.name},
+           {"at", toJson(s.true_pose.translation + g.shift_m)},
+           {"instrument_height", s.instrument_height_m},
+           {"yaw_deg", yawOf(s.true_pose.rotation) / kRadPerDeg},
+           {"scans", std::move(scans)}};
+  row["tilt_deg"] = tilt.angle_rad / kRadPerDeg;
+  if (tilt.angle_rad > 0) row["tilt_towards_deg"] = tilt.towards_rad / kRadPerDeg;
+  return row;
+}
+
+// Beside other stations: what is not seen from any of them yet.
+Result<std::optional<NextStation>> addingMost(const Document& document, const StationPlacement& placement,
+                                              double height_m, Progress& progress) {
+  constexpr std::size_t kSamples = 12000;
+  TRY_ASSIGN(const auto samples, sampleSurfaces(placement.scene(), kSamples, 1, progress));
+  std::vector<std::uint8_t> seen;
+  for (const auto& sample : samples.samples)
+    seen.push_back(static_cast<std::uint8_t>(std::any_of(
+        document.job->stations.begin(), document.job->stations.end(),
+        [&](const Station& s) { return inSight(placement.scene(), s.true_pose.translation, sample.place, {}); })));
+  return nextStation(*document.job, document.walkable(), placement, samples, seen, {}, height_m, progress);
+}
+
+// Where nothing was said.
+Result<Eigen::Vector3d> bestPlace(const Document& document, const StationPlacement& placement, double height_m,
+                                  Report& report, Progress& progress) {
+  const auto& scene = placement.scene();
+  if (!document.job->stations.empty()) {
+    TRY_ASSIGN(auto next, addingMost(document, placement, height_m, progress));
+    if (next) return next->centre;
+  }
+  const auto worth = [&](const Eigen::Vector3d& centre) { return roomAround(scene, centre); };
+  if (const auto chosen = bestOf(floorsToTry(document.walkable(), scene, height_m), *document.job, placement, height_m,
+                                 worth, progress))
+    return *chosen;
+  if (const auto beside = bestOf(groundBeside(scene), *document.job, placement, height_m, worth, progress)) {
+    report.warn("station", "no free floor in the model: the tripod was placed next to the model at its lowest level");
+    return *beside;
+  }
+  TRY(progress.check());
+  return failure(ErrorKind::unusable,
+                 "no free place found for the tripod; specify one with --at X,Y,Z or --on X,Y[,Z]");
+}
+
+// The instrument's centre in the local frame, from --at or --on.
+Result<Eigen::Vector3d> centreFrom(const RayScene& scene, const Georeference& g, const StationOptions& options,
+                                   double height) {
+  if (options.at) return *options.at - g.shift_m;
+  const auto& on = *options.on;
+  const double x = on.x_m - g.shift_m.x();
+  const double y = on.y_m - g.shift_m.y();
+  const auto floors = floorsAt(scene, x, y, height);
+  if (floors.empty())
+    return failure(ErrorKind::unusable,
+                   fmt::format("no floor at ({}, {}) with {:.2f} m of free height for the tripod; choose another "
+                               "place, or specify the instrument centre with --at X,Y,Z",
+                               on.x_m, on.y_m, height + kRoomAbove_m));
+  if (!on.z_m) return Eigen::Vector3d(x, y, floors.front() + height);
+  const double z = *on.z_m - g.shift_m.z();
+  const auto nearest = *std::min_element(floors.begin(), floors.end(),
+                                         [z](double a, double b) { return std::abs(a - z) < std::abs(b - z); });
+  if (std::abs(nearest - z) > kFloorSearch_m)
+    return failure(ErrorKind::unusable, fmt::format("no floor within {} m of height {}; the nearest floor is at {:.3f}",
+                                                    kFloorSearch_m, *on.z_m, nearest + g.shift_m.z()));
+  return Eigen::Vector3d(x, y, nearest + height);
+}
+
+tl::unexpected<Error> refused(const std::string& name, const Refusal& why) {
+  return failure(ErrorKind::unusable, fmt::format("cannot place station {}: {}; {}", name, why.reason, why.remedy));
+}
+
+// `before` is what moves: where no place is said but a tilt is, it stays where it is.
+Result<Station> place(const Document& document, const std::string& name, const StationOptions& options,
+                      const Station* before, Report& report, Progress& progress) {
+  if (options.at && options.on)
+    return failure(ErrorKind::usage, "specify either --at X,Y,Z (instrument centre) or --on X,Y[,Z] (floor)");
+  TRY_ASSIGN(const auto setup, setupFrom(options));
+  TRY_ASSIGN(auto scene, RayScene::build(document.environment(), progress));
+  const StationPlacement placement(*scene, setup.stand, setup.trunnion_m);
+  const bool somewhere = options.at || options.on;
+  const bool stays = !somewhere && before != nullptr && saysLevel(options);
+  if (!setup.free && !options.at && !stays)
+    if (auto why = placement.badHeight(setup.height_m)) return refused(name, *why);
+  TRY_ASSIGN(auto centre, stays       ? Result<Eigen::Vector3d>(before->true_pose.translation)
+                          : somewhere ? centreFrom(*scene, *document.georeference, options, setup.height_m)
+                                      : bestPlace(document, placement, setup.height_m, report, progress));
+  if (auto why = setup.free ? placement.tooNear(centre) : placement.whyNot(centre)) return refused(name, *why);
+  if (const auto odd = placement.remark(centre)) report.warn(name, *odd);
+  Station station;
+  station.name = name;
+  station.instrument_height_m = setup.height_m;
+  if (const auto ground = placement.groundBelow(centre)) {
+    station.instrument_height_m = centre.z() - ground->z;
+    if (!ground->modelled() && !setup.free && somewhere)
+      report.warn(name, "outside the model: the tripod is placed on ground at the model's lowest level");
+  }
+  station.true_pose.translation = centre;
+  station.true_pose.rotation = standingRotation(options, name);
+  return station;
+}
+
+std::vector<Station>::iterator find(Job& job, const std::string& name) {
+  return std::find_if(job.stations.begin(), job.stations.end(), [&](const Station& s) { return s.name == name; });
+}
+
+tl::unexpected<Error> noStation(const Job& job, const std::string& name) {
+  std::vector<std::string> names;
+  for (const auto& s : job.stations) names.push_back(s.name);
+  return failure(ErrorKind::usage, fmt::format("unknown station '{}'; available: {}", name,
+                                               names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+}
+
+}  // namespace
+
+std::span<const Choice<StationStand>> choices(StationStand) {
+  static constexpr std::array kStands = {Choice<StationStand>{"tripod", StationStand::tripod},
+                                         Choice<StationStand>{"free", StationStand::free}};
+  return kStands;
+}
+
+const Fields<StationOptions>& stationFields() {
+  using O = StationOptions;
+  static const Fields<O> fields = {
+      {"add", &O::add, "name of a new station"},
+      {"move", &O::move, "name of the station to move"},
+      {"remove", &O::remove, "name of the station to remove"},
+      {"at", &O::at, "X,Y,Z of the instrument's centre, in the file's frame", {.unit = "m"}},
+      {"on",
+       &O::on,
+       "X,Y[,Z] of the floor, to which the tripod adds its height; without Z the lowest floor with room",
+       {.unit = "m"}},
+      {"height",
+       &O::height_m,
+       "height of the instrument's centre above the floor (default: the instrument's, else 1.6)",
+       {.unit = "m", .minimum = 0.1, .maximum = 10}},
+      {"instrument", &O::instrument, "id of the instrument to set up, for its heights"},
+      {"stand", &O::stand, "free: suspended or hand-held; only its clearance is checked"},
+      {"tilt-deg",
+       &O::tilt_deg,
+       "tilt of the standing axis from the plumb line",
+       {.unit = "deg", .minimum = 0, .maximum = 60}},
+      {"tilt-towards-deg",
+       &O::tilt_towards_deg,
+       "direction of the tilt, counter-clockwise from the file's X",
+       {.unit = "deg", .minimum = -360, .maximum = 360}},
+      {"levelling-error-deg",
+       &O::levelling_error_deg,
+       "maximum of a tilt drawn by seed and name, instead of a stated one",
+       {.unit = "deg", .minimum = 0, .maximum = 60}},
+      {"seed", &O::seed, "seed of that tilt", {.minimum = 0, .maximum = 9007199254740991.0}},
+      {"yaw-deg",
+       &O::yaw_deg,
+       "direction of the instrument's X axis, counter-clockwise from the file's X",
+       {.unit = "deg", .minimum = -360, .maximum = 360}}};
+  return fields;
+}
+
+Result<Outcome> runStation(const Document& document, const StationOptions& options, Progress& progress) {
+  progress.stage("Station");
+  const int asked = static_cast<int>(options.add.has_value()) + static_cast<int>(options.move.has_value()) +
+                    static_cast<int>(options.remove.has_value());
+  if (asked > 1) return failure(ErrorKind::usage, "specify one of --add NAME, --move NAME, --remove NAME");
+  if (options.tilt_deg && options.levelling_error_deg)
+    return failure(ErrorKind::usage, "use either --tilt-deg, or --levelling-error-deg for a random tilt");
+  Outcome outcome{document, json::object(), {}, {}};
+  Job job = *document.job;
+  const auto& g = *document.georeference;
+  if (options.add) {
+    const auto& name = *options.add;
+    if (name.empty() || name.find_first_of(",/\\") != std::string::npos)
+      return failure(ErrorKind::usage,
+                     fmt::format("invalid station name '{}': commas and slashes are not allowed", name));
+    if (find(job, name) != job.stations.end())
+      return failure(ErrorKind::usage, fmt::format("station '{}' already exists; use --move, or another name", name));
+    auto station = place(document, name, options, nullptr, outcome.report, progress);
+    if (!station) return failure(station.error());
+    outcome.answer["placed"] = stationRow(*station, g);
+    outcome.description = "Added station " + name;
+    job.stations.push_back(*std::move(station));
+  } else if (options.move) {
+    const auto& name = *options.move;
+    const auto at = find(job, name);
+    if (at == job.stations.end()) return noStation(job, name);
+    auto station = place(document, name, options, &*at, outcome.report, progress);
+    if (!station) return failure(station.error());
+    const double distance = (station->true_pose.translation - at->true_pose.translation).norm();
+    station->scans = at->scans;
+    *at = *std::move(station);
+    outcome.answer["placed"] = stationRow(*at, g);
+    outcome.description = fmt::format("Moved station {} by {:.2f} m", name, distance);
+  } else if (options.remove) {
+    const auto& name = *options.remove;
+    const auto at = find(job, name);
+    if (at == job.stations.end()) return noStation(job, name);
+    job.stations.erase(at);
+    outcome.description = "Removed station " + name;
+  }
+  json rows = json::array();
+  for (const auto& s : job.stations) rows.push_back(stationRow(s, g));
+  outcome.answer["stations"] = std::move(rows);
+  if (asked == 1) outcome.document.job = std::make_shared<const Job>(std::move(job));
+  return outcome;
+}
+
+}  // namespace standpoint

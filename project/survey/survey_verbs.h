@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "project/fields.h"
+#include "scanners/engine/ray_engine.h"
+#include "scanners/instruments/instrument.h"
+#include "scanners/radiometry/atmosphere.h"
+#include "scanners/radiometry/effects.h"
+#include "scanners/radiometry/sun.h"
+#include "survey/scanning/field_fault.h"
+#include "survey/targets/target_placing.h"
+
+namespace standpoint {
+
+enum class StationStand { tripod, free };  // free: it hangs or is held, and only its clearance is checked
+std::span<const Choice<StationStand>> choices(StationStand);
+
+// Of add, move and remove at most one; none lists. Places in metres, the frame of the model's file.
+struct StationOptions {
+  std::optional<std::string> add, move, remove;
+  std::optional<Eigen::Vector3d> at;  // the instrument's centre
+  std::optional<FloorPlace> on;
+  std::optional<double> height_m;
+  std::string instrument;  // id; empty: the usual heights
+  StationStand stand = StationStand::tripod;
+  std::optional<double> tilt_deg;
+  double tilt_towards_deg = 0;
+  std::optional<double> levelling_error_deg;
+  std::uint64_t seed = 1;
+  double yaw_deg = 0;
+};
+const Fields<StationOptions>& stationFields();
+Result<Outcome> runStation(const Document& document, const StationOptions& options, Progress& progress);
+
+std::span<const Choice<TargetKind>> choices(TargetKind);
+
+// Places in metres, the frame of the model's file.
+struct TargetOptions : TargetPlace {
+  std::optional<std::string> add, remove;
+  std::string type;  // article; empty: the first of the kind
+  std::optional<TargetKind> kind;
+  std::optional<double> size_m;
+  bool sight = false;
+  std::string instrument;
+  KeyValues settings;
+};
+const Fields<TargetOptions>& targetFields();
+Result<Outcome> runTarget(const Document& document, const TargetOptions& options, Progress& progress);
+
+// "all", or names separated by commas.
+struct StationNames {
+  std::vector<std::string> names;  // empty: all
+};
+template <>
+struct FieldValue<StationNames> {
+  static constexpr auto kKind = ParameterKind::text;
+  static void describe(Parameter&) {}
+  static Result<StationNames> read(const nlohmann::json& text);
+  static nlohmann::json write(const StationNames& stations);
+};
+
+// "i/n": every n-th station from the i-th; 1 <= i <= n.
+struct Shard {
+  unsigned index = 1, count = 1;
+};
+template <>
+struct FieldValue<Shard> {
+  static constexpr auto kKind = ParameterKind::text;
+  static void describe(Parameter&) {}
+  static Result<Shard> read(const nlohmann::json& text);
+  static nlohmann::json write(const Shard& shard);
+};
+
+// What the stations' scans would bring, before they are made: coverage, overlap, points, time, and a place for another
+// one.
+struct PlanOptions {
+  StationNames stations;
+  std::string instrument;
+  KeyValues settings;
+  std::optional<double> spacing_m, max_incidence_deg, max_range_m;  // what counts as seen; nothing: SeenWhen's own
+  std::size_t samples = 40000;
+  std::uint64_t seed = 1;
+};
+const Fields<PlanOptions>& planFields();
+Result<Outcome> runPlan(const Document& document, const PlanOptions& options, Progress& progress);
+
+template <>
+struct FieldValue<Effects> {  // named are those that are left out
+  static constexpr auto kKind = ParameterKind::text;
+  static void describe(Parameter&) {}
+  static Result<Effects> read(const nlohmann::json& text);
+  static nlohmann::json write(Effects effects);
+};
+template <>
+struct FieldValue<Weather> {
+  static constexpr auto kKind = ParameterKind::text;
+  static void describe(Parameter&) {}
+  static Result<Weather> read(const nlohmann::json& text);
+  static nlohmann::json write(const Weather& weather);
+};
+template <>
+struct FieldValue<Sun> {
+  static constexpr auto kKind = ParameterKind::text;
+  static void describe(Parameter&) {}
+  static Result<Sun> read(const nlohmann::json& text);
+  static nlohmann::json write(const Sun& sun);
+};
+
+template <>
+struct FieldValue<FieldFault> {
+  static constexpr auto kKind = ParameterKind::pairs;
+  static void describe(Parameter&) {}
+  static Result<FieldFault> read(const nlohmann::json& pairs) { return fieldFaultFrom(pairs); }
+  static nlohmann::json write(const FieldFault& fault) {
+    const auto pairs = pairsOf(fault);
+    return pairs.empty() ? nlohmann::json() : nlohmann::json(pairs);
+  }
+};
+
+enum class Switch { on, off };
+std::span<const Choice<Switch>> choices(Switch);
+
+struct ScanVerbOptions {
+  StationNames stations;
+  std::string instrument;  // id
+  KeyValues settings;      // in the device's own words
+  std::uint64_t seed = 1;
+  bool ideal = false;
+  std::optional<Effects> without;  // the effects that are left
+  std::optional<Weather> weather;
+  std::optional<Sun> sun;
+  double interference = 0;  // 0..1
+  FieldFault field_fault;
+  KeyValues notes;
+  bool panorama = false;
+  std::optional<std::uint32_t> panorama_columns;
+  Switch compensator = Switch::on;
+  bool truth = false;
+  std::string as;   // variant of the format
+  int threads = 0;  // 0: all
+  bool resume = false;
+  std::optional<Shard> shard;
+  std::filesystem::path output;
+};
+const Fields<ScanVerbOptions>& scanFields();
+Result<Outcome> runScan(const Document& document, const ScanVerbOptions& options, Progress& progress);
+
+}  // namespace standpoint

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/data_folder.h"
+#include "project/answers.h"
+#include "project/survey/survey_verbs.h"
+#include "survey/targets/target_placing.h"
+#include "survey/targets/target_sight.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+
+json targetRow(const Target& t, const Georeference& g) {
+  json row = {{"name", t.name},
+              {"kind", t.kind == TargetKind::sphere ? "sphere" : "checkerboard"},
+              {"at", toJson(t.centre + g.shift_m)},
+              {"size", t.size_m}};
+  if (t.kind == TargetKind::checkerboard) row["normal"] = toJson(t.normal);
+  return row;
+}
+
+// Builds the rays' scene, which only adding and looking need.
+// Shape and size as said by --type, --kind and --size; place and normal are not set.
+Result<Target> targetArticleFrom(const TargetKinds& kinds, const TargetOptions& options) {
+  Target t;
+  t.name = options.add.value_or("");
+  if (t.name.empty() || t.name.find_first_of(",= \t") != std::string::npos)
+    return failure(ErrorKind::usage,
+                   fmt::format("invalid target name '{}': spaces, commas and equals signs are not allowed", t.name));
+  const auto& type = options.type;
+  const auto kind = options.kind;
+  const auto found = std::find_if(kinds.articles.begin(), kinds.articles.end(), [&](const TargetArticle& a) {
+    if (!type.empty()) return a.id == type;
+    return !kind || *kind == a.shape;
+  });
+  if (found == kinds.articles.end()) {
+    std::vector<std::string> ids;
+    for (const auto& a : kinds.articles) ids.push_back(a.id);
+    return failure(ErrorKind::usage, fmt::format("unknown target '{}'; available: {}", type, fmt::join(ids, ", ")),
+                   "--type");
+  }
+  if (!type.empty() && kind && *kind != found->shape)
+    return failure(ErrorKind::usage,
+                   fmt::format("'{}' is not a {}: leave out --kind", type,
+                               *kind == TargetKind::sphere ? "sphere" : "checkerboard"),
+                   "--kind");
+  t.kind = found->shape;
+  t.size_m = options.size_m.value_or(found->size_m);
+  return t;
+}
+
+json rowsOf(const std::vector<TargetSight>& sights) {
+  json rows = json::array();
+  for (const auto& s : sights)
+    rows.push_back({{"station", s.station},
+                    {"distance_m", s.distance_m},
+                    {"incidence_deg", s.incidence_rad / kRadPerDeg},
+                    {"seen_share", s.seen_fraction},
+                    {"points", s.points ? json(std::round(*s.points)) : json(nullptr)},
+                    {"most_distance_m", s.max_distance_m},
+                    {"why_not", s.why_not.empty() ? json(nullptr) : json(s.why_not)}});
+  return rows;
+}
+
+Result<json> sightRows(const Document& document, const RayScene& scene, const TargetKinds& kinds,
+                       const std::vector<Target>& targets, const TargetOptions& options, Report& report) {
+  const SightRequest request{options.instrument, options.settings};
+  json rows = json::object();
+  for (const auto& t : targets) {
+    TRY_ASSIGN(const auto sights, sightsOf(*document.job, scene, t, kinds.rules, request));
+    tell(t, sights, report);
+    rows[t.name] = rowsOf(sights);
+  }
+  return rows;
+}
+
+Result<Target> addedTarget(const Document& document, const TargetOptions& options, Outcome& outcome,
+                           Progress& progress) {
+  TRY_ASSIGN(const auto kinds, readTargetKinds(dataFolder() / "scanners" / "targets" / "kinds.json"));
+  TRY_ASSIGN(auto article, targetArticleFrom(kinds, options));
+  const auto& targets = document.job->targets;
+  if (std::any_of(targets.begin(), targets.end(), [&](const Target& t) { return t.name == article.name; }))
+    return failure(ErrorKind::usage,
+                   fmt::format("target '{}' already exists; remove it, or use another name", article.name));
+  TRY_ASSIGN(auto scene, RayScene::build(document.environment(), progress));
+  std::string stands;
+  auto target = placedTarget(*document.job, document.georeference->shift_m, *scene, std::move(article), options, stands,
+                             outcome.report);
+  if (!target) return target;
+  TRY_ASSIGN(auto sights, sightRows(document, *scene, kinds, {*target}, options, outcome.report));
+  outcome.answer["placed"] = targetRow(*target, *document.georeference);
+  if (!stands.empty()) outcome.answer["placed"]["stands_on"] = stands;
+  outcome.answer["seen_from"] = std::move(sights[target->name]);
+  return target;
+}
+
+Result<json> sightsOfAll(const Document& document, const TargetOptions& options, Report& report, Progress& progress) {
+  TRY_ASSIGN(const auto kinds, readTargetKinds(dataFolder() / "scanners" / "targets" / "kinds.json"));
+  TRY_ASSIGN(auto scene, RayScene::build(document.environment(), progress));
+  return sightRows(document, *scene, kinds, document.job->targets, options, report);
+}
+
+}  // namespace
+
+std::span<const Choice<TargetKind>> choices(TargetKind) {
+  static constexpr std::array kKinds = {Choice<TargetKind>{"sphere", TargetKind::sphere},
+                                        Choice<TargetKind>{"checkerboard", TargetKind::checkerboard}};
+  return kKinds;
+}
+
+const Fields<TargetOptions>& targetFields() {
+  using O = TargetOptions;
+  static const Fields<O> fields = {
+      {"add", &O::add, "name of a new target"},
+      {"remove", &O::remove, "name of the target to remove"},
+      {"at", &O::at, "X,Y,Z of its centre, in the file's frame", {.unit = "m"}},
+      {"on", &O::on, "X,Y[,Z] of the floor for its tripod or pole; without Z the lowest with room", {.unit = "m"}},
+      {"height", &O::height_m, "height of its centre above that floor", {.unit = "m", .minimum = 0.05, .maximum = 5}},
+      {"on-surface", &O::on_surface, "X,Y,Z near the wall, column or ceiling to attach it to", {.unit = "m"}},
+      {"stand-off",
+       &O::stand_off_m,
+       "depth of a magnetic base or bracket between surface and target",
+       {.unit = "m", .minimum = 0, .maximum = 1}},
+      {"type", &O::type,
+       "article of scanners/targets/kinds.json: sphere-145, sphere-200, sphere-139, paper-150, bw-114, bw-152"},
+      {"kind", &O::kind, "kind of target where no article is named"},
+      {"size", &O::size_m, "diameter or side (default: the article's)", {.unit = "m", .minimum = 0.01, .maximum = 2}},
+      {"normal", &O::normal, "direction that a checkerboard faces (default on a tripod: the nearest station)"},
+      {"sight", &O::sight, "list how each station sees each target"},
+      {"instrument", &O::instrument, "id of the measuring instrument (default: those used for scanning)"},
+      {"set", &O::settings, "settings of the instrument, as of scan"}};
+  return fields;
+}
+
+Result<Outcome> runTarget(const Document& document, const TargetOptions& options, Progress& progress) {
+  progress.stage("Target");
+  if (options.add && options.remove) return failure(ErrorKind::usage, "specify one of --add NAME, --remove NAME");
+  Outcome outcome{document, json::object(), {}, {}};
+  Job job = *document.job;
+  const auto& g = *document.georeference;
+  const auto find = [&](const std::string& wanted) {
+    return std::find_if(job.targets.begin(), job.targets.end(), [&](const Target& t) { return t.name == wanted; });
+  };
+  if (options.add) {
+    auto target = addedTarget(document, options, outcome, progress);
+    if (!target) return failure(target.error());
+    outcome.description = "Added target " + target->name;
+    job.targets.push_back(*std::move(target));
+  } else if (options.remove) {
+    const auto at = find(*options.remove);
+    if (at == job.targets.end()) return failure(ErrorKind::usage, fmt::format("unknown target '{}'", *options.remove));
+    outcome.description = "Removed target " + at->name;
+    job.targets.erase(at);
+  } else if (options.sight) {
+    TRY_ASSIGN(auto sights, sightsOfAll(document, options, outcome.report, progress));
+    outcome.answer["seen_from"] = std::move(sights);
+  }
+  json rows = json::array();
+  for (const auto& t : job.targets) rows.push_back(targetRow(t, g));
+  outcome.answer["targets"] = std::move(rows);
+  if (!outcome.description.empty()) outcome.document.job = std::make_shared<const Job>(std::move(job));
+  return outcome;
+}
+
+}  // namespace standpoint

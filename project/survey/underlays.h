@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "project/fields.h"
+
+namespace standpoint {
+
+using Underlays = std::vector<std::shared_ptr<const Underlay>>;
+
+// As they stand in project.json: a file that lies in the project's folder or beside it is named relative to it, so both
+// can move together. Readers throw nlohmann::json::exception.
+nlohmann::json underlaysToJson(const Underlays& underlays, const std::filesystem::path& project_folder);
+Underlays underlaysFrom(const nlohmann::json& part, const std::filesystem::path& project_folder);
+
+// Of the cloud in the model's file frame.
+Bounds boundsInFile(const Underlay& underlay);
+
+// The same place as the cloud's file and as the model's has it.
+struct PlacePair {
+  Eigen::Vector3d cloud_m = Eigen::Vector3d::Zero(), model_m = Eigen::Vector3d::Zero();
+};
+// "x,y,z=X,Y,Z" of each; errors name the pair.
+template <>
+struct FieldValue<std::vector<PlacePair>> {
+  static constexpr auto kKind = ParameterKind::pairs;
+  static void describe(Parameter&) {}
+  static Result<std::vector<PlacePair>> read(const nlohmann::json& texts);
+  static nlohmann::json write(const std::vector<PlacePair>& pairs);
+};
+
+// Registers the underlay by pairs, to the model's surface, or first the one and then the other. `answer` gets what came
+// of it.
+struct RegisterRequest {
+  std::vector<PlacePair> pairs;
+  bool to_surface = false;
+  double reach_m = 0.5;
+};
+Result<Underlay> registered(const Document& document, const Underlay& underlay, const RegisterRequest& request,
+                            nlohmann::json& answer, Report& report, Progress& progress);
+
+// Adds, moves, registers, shows, hides, removes or lists clouds that lie under the model.
+// Of the actions at most one; none lists.
+struct UnderlayOptions : RegisterRequest {  // for `fit`
+  std::optional<std::filesystem::path> add;
+  std::string name;  // of what is added; empty: the file's
+  std::optional<std::string> move, fit, remove, show, hide;
+  std::optional<Eigen::Vector3d> at;  // the cloud's origin in the file's frame, m
+  std::optional<double> yaw_deg;
+};
+const Fields<UnderlayOptions>& underlayFields();
+Result<Outcome> runUnderlay(const Document& document, const UnderlayOptions& options, Progress& progress);
+
+}  // namespace standpoint

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/output_place.h"
+#include "core/split_by_material.h"
+#include "core/unused_meshes.h"
+#include "core/visible_colour.h"
+#include "importers/gltf/gltf_writer.h"
+#include "importers/helios/helios_writer.h"
+#include "importers/obj/obj_writer.h"
+#include "project/answers.h"
+#include "project/model/optimize_verb.h"
+#include "project/storage/project_json.h"
+#include "project/verbs/file_verbs.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr double kNoLimit = 1000;  // m: a level of detail is bought with deviation, which is measured and written
+
+std::string lowerExtension(const fs::path& file) {
+  auto extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+Result<std::vector<std::uint64_t>> budgetsOf(const std::vector<std::string>& texts, std::uint64_t triangles) {
+  std::vector<std::uint64_t> budgets;
+  for (const auto& text : texts) {
+    std::uint64_t value = 0;
+    const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (wrong != std::errc() || end != text.data() + text.size() || value == 0)
+      return failure(ErrorKind::usage, fmt::format("'{}' is not a triangle count", text), "--levels");
+    const auto before = budgets.empty() ? triangles : budgets.back();
+    if (value >= before)
+      return failure(ErrorKind::usage,
+                     fmt::format("each level of detail must have fewer triangles than the previous one: {} follows {}",
+                                 value, before),
+                     "--levels");
+    budgets.push_back(value);
+  }
+  return budgets;
+}
+
+// The levels with the environments that they point to.
+struct Levels {
+  std::vector<std::unique_ptr<Environment>> environments;
+  std::vector<GltfLevel> levels;
+  json answer = json::array();
+};
+
+Result<Levels> makeLevels(const Document& document, const std::vector<std::uint64_t>& budgets, Report& report,
+                          Progress& progress) {
+  Levels result;
+  for (const auto budget : budgets) {
+    SimplificationRequest request;
+    request.budget = budget;
+    request.max_deviation_m = kNoLimit;
+    TRY_ASSIGN(const auto plan, planLightening(document, request, progress));
+    TRY_ASSIGN(auto lighter, optimize(*document.imported, plan.options, progress));
+    result.environments.push_back(std::make_unique<Environment>(sceneOf(lighter.environment)));
+    GltfLevel level{fmt::format("LOD{}: {} triangles", result.levels.size() + 1, lighter.all.triangles_after),
+                    result.environments.back().get(),
+                    {},
+                    {}};
+    for (const auto& loss : lighter.products) {
+      level.max_deviation_m.push_back(loss.max_deviation_m);
+      level.mean_deviation_m.push_back(loss.mean_deviation_m);
+    }
+    if (!lighter.budget_reached)
+      report.warn("--levels",
+                  fmt::format("cannot reach {} triangles; the level has {}", budget, lighter.all.triangles_after));
+    result.answer.push_back({{"triangles", lighter.all.triangles_after},
+                             {"max_deviation_m", lighter.all.max_deviation_m},
+                             {"mean_deviation_m", lighter.all.mean_deviation_m}});
+    result.levels.push_back(std::move(level));
+  }
+  return result;
+}
+
+GltfCollision collisionOf(const CollideResult& collision, const Environment& shapes, CollisionNaming naming) {
+  GltfCollision result{&shapes, {}, naming};
+  for (const auto& shape : collision.shapes) result.convex.push_back(shape.kind != CollisionShapeKind::mesh);
+  return result;
+}
+
+// One for each surface; empty where the project has no materials.
+std::vector<const PhysicalMaterial*> physicalSurfaces(const Document& document,
+                                                      std::span<Environment* const> environments, LooksOfSplit looks) {
+  std::vector<const PhysicalMaterial*> physical;
+  if (!document.materials) return physical;
+  const auto& assignment = document.materials->result.assignment;
+  for (const auto material : splitByMaterial(environments, assignment, looks))
+    physical.push_back(material < 0 ? nullptr : &assignment.materials[static_cast<std::size_t>(material)]);
+  return physical;
+}
+
+Result<void> exportGltf(const Document& document, Environment& scene, const fs::path& file,
+                        const ExportOptions& options, Outcome& outcome, Progress& progress) {
+  GltfCompanions companions;
+  TRY_ASSIGN(const auto budgets, budgetsOf(options.levels, triangleCount(scene)));
+  auto levels = makeLevels(document, budgets, outcome.report, progress);
+  if (!levels) return failure(levels.error());
+  companions.levels = std::move(levels->levels);
+  std::vector<Environment*> all = {&scene};
+  for (const auto& environment : levels->environments) all.push_back(environment.get());
+  companions.physical = physicalSurfaces(document, all, LooksOfSplit::kept);
+  if (!levels->answer.empty()) outcome.answer["levels"] = std::move(levels->answer);
+  Environment shapes;
+  if (options.collision) {
+    if (!document.collision)
+      return failure(ErrorKind::usage, "there are no collision shapes; compute them with `collide` first",
+                     "--collision");
+    shapes = collisionEnvironment(*document.collision);
+    companions.collision = collisionOf(*document.collision, shapes, *options.collision);
+    outcome.answer["collision_shapes"] = shapes.instances.size();
+  }
+  return exportEnvironmentGltf(scene, *document.georeference, file, progress, companions);
+}
+
+// The physical materials instead of the looks.
+Result<void> exportPhysical(const Document& document, Environment& scene, const fs::path& file, bool helios,
+                            Report& report, Progress& progress) {
+  if (!document.materials)
+    return failure(ErrorKind::usage, "there are no materials; assign them with `materials` first", file.string());
+  const std::array all = {&scene};
+  const auto physical = physicalSurfaces(document, all, LooksOfSplit::left_out);
+  if (helios) return writeHeliosScene(scene, physical, *document.georeference, file, report, progress);
+  for (std::size_t i = 0; i < physical.size(); ++i) {
+    if (physical[i] == nullptr) continue;
+    auto& surface = scene.surfaces[i];
+    surface.name = physical[i]->id;
+    surface.colour = visibleColour(*physical[i]);
+    if (!physical[i]->transmittance.empty()) surface.colour.a = 0.3F;
+  }
+  return writeEnvironmentObj(scene, *document.georeference, file, progress);
+}
+
+}  // namespace
+
+std::span<const Choice<CollisionNaming>> choices(CollisionNaming) {
+  static constexpr std::array kNamings = {Choice<CollisionNaming>{"unreal", CollisionNaming::unreal},
+                                          Choice<CollisionNaming>{"godot", CollisionNaming::godot},
+                                          Choice<CollisionNaming>{"physics", CollisionNaming::physics}};
+  return kNamings;
+}
+
+const Fields<ExportOptions>& exportFields() {
+  using O = ExportOptions;
+  static const Fields<O> fields = {
+      {"output", &O::output, "file to write (.glb, .gltf, .obj; .xml for HELIOS++)", {.required = true}},
+      {"physical", &O::physical, "write the physical materials to the .obj instead of the appearance"},
+      {"levels", &O::levels, "triangles of simpler levels of detail, from fine to coarse, as MSFT_lod: 10000 2000"},
+      {"collision", &O::collision, "add the collision shapes, named for an engine"}};
+  return fields;
+}
+
+Result<Outcome> runExport(const Document& document, const ExportOptions& options, Progress& progress) {
+  const fs::path& file = options.output;
+  progress.stage("Export " + file.filename().string());
+  const auto extension = lowerExtension(file);
+  const bool gltf = extension == ".glb" || extension == ".gltf", helios = extension == ".xml";
+  const bool physical = options.physical;
+  if (!gltf && !helios && extension != ".obj")
+    return failure(ErrorKind::usage,
+                   fmt::format("unsupported format '{}'; use .glb, .gltf, .obj, or .xml for HELIOS++", extension),
+                   "--output");
+  if (physical && extension != ".obj")
+    return failure(ErrorKind::usage,
+                   "this option applies to .obj only; glTF and HELIOS++ scenes always contain the physical materials",
+                   "--physical");
+  if (!gltf && (!options.levels.empty() || options.collision))
+    return failure(ErrorKind::usage, "levels of detail and collision shapes can be exported to .glb or .gltf only",
+                   "--output");
+  TRY(checkFolderOf(file, "--output"));
+  Environment scene = sceneOf(*document.environment());
+  dropUnusedMeshes(scene);
+  Outcome outcome{document, {{"file", file.string()}, {"triangles", triangleCount(scene)}}, {}, {}};
+  TRY(gltf                 ? exportGltf(document, scene, file, options, outcome, progress)
+      : helios || physical ? exportPhysical(document, scene, file, helios, outcome.report, progress)
+                           : writeEnvironmentObj(scene, *document.georeference, file, progress));
+  if (const auto left_out = document.environment()->instances.size() - scene.instances.size(); left_out > 0)
+    outcome.report.note(
+        "spaces", fmt::format("{} bodies outside the scene (spaces, excluded products) were not exported", left_out));
+  outcome.description = "Exported " + file.filename().string();
+  return outcome;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdlib>
+
+#include "project/fields.h"
+#include "project/materials/materials_verb.h"
+#include "project/materials/verification.h"
+#include "project/model/import_verb.h"
+#include "project/model/model_verbs.h"
+#include "project/model/optimize_verb.h"
+#include "project/model/treatments.h"
+#include "project/survey/register_verb.h"
+#include "project/survey/survey_verbs.h"
+#include "project/survey/underlays.h"
+#include "project/verb.h"
+#include "project/verbs/file_verbs.h"
+
+namespace standpoint {
+
+namespace {
+
+using S = VerbScope;
+
+// The table: a new verb is a typed function in its room with a table of its fields, and one entry here. Command
+// line, help, job files and the editor's forms follow from it.
+const std::vector<Verb>& table() {
+  static const std::vector<Verb> verbs = {
+      verbOf("import",
+             "Import models (IFC, glTF, OBJ, PLY, STL) as a new project, or update a project from a changed model",
+             S::creates, importFields(), runImport),
+      verbOf("add", "Add models to the environment", S::changes, addFields(), runAdd),
+      verbOf("optimize", "Optimize the model to a triangle budget and measure the deviation", S::changes,
+             optimizeFields(), runOptimize),
+      verbOf("treat", "Set or list the treatment of single products: excluded, kept, or simplified within own limits",
+             S::changes, treatFields(), runTreat),
+      verbOf("collide", "Make collision shapes and the walkable surface, and check doors and rooms", S::changes,
+             collideFields(), runCollide),
+      verbOf("materials", "Assign materials by rule and review open findings", S::changes, materialsFields(),
+             runMaterials),
+      verbOf("georeference", "Show or set the model's position on Earth", S::changes, georeferenceFields(),
+             runGeoreference),
+      verbOf("station",
+             "Add, move, remove or list stations; without --at or --on at the place that adds most to what is seen",
+             S::changes, stationFields(), runStation),
+      verbOf("target", "Add, remove or list targets, and list the stations that can measure them", S::changes,
+             targetFields(), runTarget),
+      verbOf("underlay", "Add point clouds as underlays of the model, or list them; the points stay in their files",
+             S::changes, underlayFields(), runUnderlay),
+      verbOf("verify", "Compare the assigned materials with the intensities of an underlay", S::changes, verifyFields(),
+             runVerify),
+      verbOf("plan", "Forecast what the stations would see: coverage, overlap, points, time, holes, the next place",
+             S::reads, planFields(), runPlan),
+      verbOf("scan", "Scan from the stations with an instrument into point-cloud files", S::changes, scanFields(),
+             runScan),
+      verbOf("register",
+             "Solve the stations' poses from their scans, by targets or cloud to cloud, with residuals and true errors",
+             S::changes, registerFields(), runRegister),
+      verbOf("export", "Write the model as glTF, as OBJ, or as a scene for HELIOS++", S::reads, exportFields(),
+             runExport),
+      verbOf("convert", "Convert a point cloud to another format or to a labelled set", S::files, convertFields(),
+             runConvert),
+      verbOf("clean",
+             "Filter a point cloud, and count what each filter removed by its true cause where the file has it",
+             S::files, cleanFields(), runClean),
+      verbOf("info", "List the contents of a point cloud, a model or a project", S::files, infoFields(), runInfo),
+      verbOf("compare", "Compare two point clouds: noise on planes, roughness, intensity, coverage", S::files,
+             compareFields(), runCompare),
+      verbOf("instruments", "List the instruments and their files, or copy one to edit it", S::files,
+             instrumentsFields(), runInstruments),
+      verbOf("run", "Replay a job: a list of verbs with their options", S::files, jobFields(), runJob),
+  };
+  return verbs;
+}
+
+}  // namespace
+
+std::span<const Verb> verbs() { return table(); }
+
+}  // namespace standpoint

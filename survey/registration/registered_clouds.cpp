@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "survey/registration/registered_clouds.h"
+
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "core/output_place.h"
+#include "core/random.h"
+#include "pointclouds/formats.h"
+#include "survey/targets/target_measuring.h"
+
+namespace standpoint {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Pose product(const Pose& a, const Pose& b) { return {a.rotation * b.rotation, a * b.translation}; }
+
+Pose inverse(const Pose& p) {
+  const Eigen::Quaterniond back = p.rotation.conjugate();
+  return {back, -(back * p.translation)};
+}
+
+// Another pose makes another scan.
+std::string guidAt(const ScanHeader& header, const Pose& pose) {
+  const auto text =
+      fmt::format("{} {} {}", header.guid, fmt::join(pose.translation, " "), fmt::join(pose.rotation.coeffs(), " "));
+  const std::uint64_t a = stableHash(text.c_str()), b = stableHash(text.c_str(), a);
+  return fmt::format("{{{:08x}-{:04x}-8{:03x}-8{:03x}-{:012x}}}", a >> 32U, (a >> 16U) & 0xFFFFU, (a >> 4U) & 0xFFFU,
+                     a & 0xFFFU, b & 0xFFFFFFFFFFFFU);
+}
+
+class PosedSink final : public PointSink {
+ public:
+  PosedSink(PointSink& to, const Job& job, const Eigen::Vector3d& shift_m, const fs::path& file)
+      : to_(to), job_(job), shift_m_(shift_m), stations_(job, file) {}
+
+  Result<void> begin(const ScanHeader& header) override {
+    TRY_ASSIGN(auto index, stations_.next(header));
+    const Station& station = job_.stations[index];
+    if (!station.solved_pose) return failure(ErrorKind::internal, "this station was not registered", station.name);
+    ScanHeader posed = header;
+    posed.file_from_scanner = *station.solved_pose;
+    posed.file_from_scanner.translation += shift_m_;
+    moved_ = product(posed.file_from_scanner, inverse(header.file_from_scanner));
+    posed.guid = guidAt(header, posed.file_from_scanner);
+    posed.description += std::string(header.description.empty() ? "" : "; ") + "pose by registration";
+    return to_.begin(posed);
+  }
+  Result<void> write(const PointBlock& block) override { return to_.write(block); }
+  Result<void> picture(const StationPicture& picture) override {
+    StationPicture posed = picture;
+    posed.file_from_camera = product(moved_, picture.file_from_camera);
+    return to_.picture(posed);
+  }
+  Result<void> end() override { return to_.end(); }
+  Result<void> close() override { return to_.close(); }
+
+ private:
+  PointSink& to_;
+  const Job& job_;
+  Eigen::Vector3d shift_m_;
+  StationsOfFile stations_;
+  Pose moved_;  // from where the file had it to where it is now
+};
+
+}  // namespace
+
+Result<std::vector<fs::path>> registeredFiles(const std::vector<fs::path>& files, const fs::path& output) {
+  std::vector<fs::path> to;
+  std::error_code code;
+  const bool is_file = output.has_extension() && !fs::is_directory(output, code);
+  if (is_file && files.size() > 1)
+    return failure(ErrorKind::usage, fmt::format("cannot write {} scans to one file: specify a folder", files.size()),
+                   "--output");
+  if (is_file) {
+    const auto* format = cloudFormatFor(output);
+    if (format == nullptr || format->writer == nullptr)
+      return failure(ErrorKind::usage, fmt::format("unsupported format '{}'", output.extension().string()), "--output");
+    TRY(checkFolderOf(output, "--output"));
+    to.push_back(output);
+  } else {
+    for (const auto& file : files) to.push_back(output / file.filename());
+  }
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (fs::equivalent(files[i], to[i], code))
+      return failure(ErrorKind::usage, "output would overwrite the input: specify another folder", files[i].string());
+    for (std::size_t k = 0; k < i; ++k)
+      if (to[k] == to[i])
+        return failure(ErrorKind::usage,
+                       fmt::format("{} has the same file name: register one folder at a time", files[k].string()),
+                       files[i].string());
+  }
+  return to;
+}
+
+Result<void> writeRegistered(const Job& job, const Eigen::Vector3d& shift_m, const std::vector<fs::path>& files,
+                             const std::vector<fs::path>& to, Report& report, Progress& progress) {
+  std::error_code code;
+  const fs::path folder = to.front().parent_path();
+  if (!folder.empty()) fs::create_directories(folder, code);
+  if (code) return failure(ErrorKind::file_system, "cannot create the folder: " + code.message(), folder.string());
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    progress.stage("Writing " + to[i].filename().string(),
+                   0.95 + 0.05 * static_cast<double>(i) / static_cast<double>(files.size()),
+                   0.95 + 0.05 * static_cast<double>(i + 1) / static_cast<double>(files.size()));
+    const auto posed = [&](PointSink& writer) { return std::make_unique<PosedSink>(writer, job, shift_m, files[i]); };
+    TRY(convertCloud(files[i], to[i], "", report, progress, posed));
+  }
+  return {};
+}
+
+}  // namespace standpoint

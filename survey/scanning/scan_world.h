@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/environment.h"
+#include "core/physical_material.h"
+#include "core/survey.h"
+
+namespace standpoint {
+
+// The environment that a scan sees: the model, with the targets standing in it as products of their own (class
+// "Target") of stated reflectance.
+struct ScanWorld {
+  std::shared_ptr<const Environment> environment;
+  MaterialAssignment assignment;
+};
+ScanWorld scanWorld(const std::shared_ptr<const Environment>& model, const std::vector<Target>& targets,
+                    const MaterialAssignment& assignment);
+
+}  // namespace standpoint

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "survey/stations/placement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "optimizer/surface/triangle_tree.h"
+#include "survey/scene/body_winding.h"
+
+namespace standpoint {
+
+namespace {
+
+double distanceTo(const Bounds& b, const Eigen::Vector3d& p) { return (p - p.cwiseMax(b.min).cwiseMin(b.max)).norm(); }
+
+// The nearest point of an instance, no farther than `reach_m`, which shrinks.
+bool nearestOf(const Environment& environment, const Instance& instance, const Eigen::Vector3d& p, double& reach_m) {
+  const auto& mesh = *environment.meshes[instance.mesh];
+  bool found = false;
+  for (const auto& t : mesh.triangles) {
+    const auto corner = [&](int k) -> Eigen::Vector3d {
+      return instance.world_from_mesh * mesh.positions[t[k]].cast<double>();
+    };
+    const Eigen::Vector3d a = corner(0), b = corner(1), c = corner(2);
+    if (distanceTo({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)}, p) >= reach_m) continue;
+    const double distance = (closestPoint(p, a, b, c) - p).norm();
+    if (distance >= reach_m) continue;
+    reach_m = distance;
+    found = true;
+  }
+  return found;
+}
+
+const Eigen::Vector3d kDown(0, 0, -1);
+const Eigen::Vector3d kUp(0, 0, 1);
+
+}  // namespace
+
+std::string productText(const Environment& environment, std::uint32_t product) {
+  const auto& p = environment.products[product];
+  std::string text = fmt::format("{} {}", p.ifc_class.empty() ? "object" : p.ifc_class, p.id);
+  return p.name.empty() || p.name == p.id ? text : text + fmt::format(" '{}'", p.name);
+}
+
+double slopeOf(const RayHit& hit) { return std::acos(std::clamp(std::abs(hit.normal.z()), 0.0, 1.0)); }
+
+StationPlacement::StationPlacement(const RayScene& scene, const TripodStand& stand, double trunnion_m)
+    : scene_(scene), stand_(stand), trunnion_m_(trunnion_m), instances_(instanceBounds(scene.environment())) {
+  for (const auto& each : instances_) all_.extend(each);
+}
+
+std::optional<Refusal> StationPlacement::badHeight(double height_m) const {
+  if (height_m >= lowest_m() - 1e-9 && height_m <= highest_m() + 1e-9) return std::nullopt;
+  return Refusal{fmt::format("a tripod supports instrument heights of {:.2f} to {:.2f} m, not {:.2f} m", lowest_m(),
+                             highest_m(), height_m),
+                 "change --height, or use --stand free for suspended or handheld instruments"};
+}
+
+std::optional<Refusal> StationPlacement::tooNear(const Eigen::Vector3d& centre) const {
+  const auto& environment = scene_.environment();
+  double reach = stand_.clearance_m;
+  std::optional<std::uint32_t> nearest;
+  for (std::uint32_t i = 0; i < instances_.size(); ++i)
+    if (!instances_[i].empty() && distanceTo(instances_[i], centre) < reach &&
+        nearestOf(environment, environment.instances[i], centre, reach))
+      nearest = environment.instances[i].product;
+  if (!nearest) return std::nullopt;
+  return Refusal{fmt::format("the instrument centre would be {:.0f} mm from {}; it needs {:.0f} mm of clearance",
+                             reach * 1000, productText(environment, *nearest), stand_.clearance_m * 1000),
+                 fmt::format("move it {:.0f} mm away", std::ceil((stand_.clearance_m - reach) * 1000 - 0.01))};
+}
+
+bool StationPlacement::worthTrying(const Eigen::Vector3d& centre) const {
+  for (const double elevation : {-0.6, 0.0, 0.6})
+    for (int k = 0; k < 8; ++k) {
+      const double azimuth = k * std::numbers::pi / 4 + 0.01;
+      const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                                      std::sin(elevation));
+      if (scene_.intersect(centre, direction, stand_.clearance_m)) return false;
+    }
+  return !scene_.intersect(centre, kUp, stand_.headroom_m);
+}
+
+std::optional<Refusal> StationPlacement::noHeadroom(const Eigen::Vector3d& centre) const {
+  const auto above = scene_.intersect(centre, kUp, stand_.headroom_m);
+  if (!above) return std::nullopt;
+  return Refusal{fmt::format("{} is {:.2f} m above the instrument centre; it needs {:.2f} m of headroom",
+                             productText(scene_.environment(), above->product), above->range_m, stand_.headroom_m),
+                 fmt::format("lower it by {:.2f} m, or choose another place", stand_.headroom_m - above->range_m)};
+}
+
+std::optional<Ground> StationPlacement::groundBelow(const Eigen::Vector3d& centre) const {
+  if (all_.empty()) return std::nullopt;
+  if (const auto hit = scene_.intersect(centre, kDown, centre.z() - all_.min.z() + 1))
+    return Ground{hit->position.z(), slopeOf(*hit), productText(scene_.environment(), hit->product)};
+  if (all_.min.z() > centre.z()) return std::nullopt;
+  return Ground{all_.min.z(), 0, {}};
+}
+
+std::optional<Refusal> StationPlacement::badGround(const Eigen::Vector3d& centre) const {
+  const auto ground = groundBelow(centre);
+  const char* elsewhere =
+      "use --on X,Y[,Z] with a point on a floor, or --stand free for suspended or handheld instruments";
+  if (!ground) return Refusal{"no ground below: the whole model is above the station, or there is no model", elsewhere};
+  const double height = centre.z() - ground->z;
+  if (height > highest_m() + 1e-3)
+    return Refusal{
+        fmt::format("too high: {} is {:.2f} m below the instrument centre, and a tripod supports up to {:.2f} m",
+                    ground->modelled() ? ground->product : "the lowest level of the model", height, highest_m()),
+        fmt::format("lower it by at least {:.2f} m, or {}", height - highest_m(), elsewhere)};
+  if (height < lowest_m() - 1e-3)
+    return Refusal{
+        fmt::format("too low: {} is only {:.2f} m below the instrument centre, and a tripod needs at least {:.2f} m",
+                    ground->modelled() ? ground->product : "the lowest level of the model", height, lowest_m()),
+        fmt::format("raise it by {:.2f} m, or {}", lowest_m() - height, elsewhere)};
+  if (ground->slope_rad > stand_.steepest_rad)
+    return Refusal{fmt::format("the ground below is {} of {:.0f} degrees, {}; the limit for a tripod is {:.0f} degrees",
+                               ground->slope_rad > stand_.wall_rad ? "a wall" : "a slope",
+                               ground->slope_rad / kRadPerDeg, ground->product, stand_.steepest_rad / kRadPerDeg),
+                   elsewhere};
+  return noFooting(centre, *ground);
+}
+
+// Turned by any of a few angles the three feet must find ground that their legs reach.
+std::optional<Refusal> StationPlacement::noFooting(const Eigen::Vector3d& centre, const Ground& ground) const {
+  if (!ground.modelled()) return std::nullopt;
+  constexpr int kTurns = 12;
+  constexpr int kSteps = 3 * kTurns;
+  bool stands[kSteps] = {};
+  for (int k = 0; k < kSteps; ++k) {
+    const double azimuth = 2 * std::numbers::pi * k / kSteps;
+    const Eigen::Vector3d from(centre.x() + stand_.foot_radius_m * std::cos(azimuth),
+                               centre.y() + stand_.foot_radius_m * std::sin(azimuth), ground.z + stand_.foot_play_m);
+    stands[k] = scene_.intersect(from, kDown, 2 * stand_.foot_play_m).has_value();
+  }
+  for (int k = 0; k < kTurns; ++k)
+    if (stands[k] && stands[k + kTurns] && stands[k + 2 * kTurns]) return std::nullopt;
+  return Refusal{fmt::format("the tripod feet, {:.2f} m from the centre, have no ground: {} is too small here",
+                             stand_.foot_radius_m, ground.product),
+                 "move it away from the edge, or use --stand free for suspended or handheld instruments"};
+}
+
+std::optional<Refusal> StationPlacement::whyNotOn(const RayHit& hit, double height_m) const {
+  const double slope = slopeOf(hit);
+  if (slope > stand_.steepest_rad)
+    return Refusal{fmt::format("this is {} of {:.0f} degrees, {}; the limit for a tripod is {:.0f} degrees",
+                               slope > stand_.wall_rad ? "a wall" : "a slope", slope / kRadPerDeg,
+                               productText(scene_.environment(), hit.product), stand_.steepest_rad / kRadPerDeg),
+                   "choose a point on a floor"};
+  return whyNot(hit.position + Eigen::Vector3d(0, 0, height_m));
+}
+
+// In a body that has no class a tripod may stand where all else is well: many draw a room as a single box.
+std::optional<Refusal> StationPlacement::whyNot(const Eigen::Vector3d& centre) const {
+  if (auto why = tooNear(centre)) return why;
+  const auto& environment = scene_.environment();
+  const auto body = bodyRound(scene_.environment(), instances_, centre);
+  const bool solid = body && !environment.products[*body].ifc_class.empty();
+  auto why = solid ? std::nullopt : noHeadroom(centre);
+  if (!why && !solid) why = badGround(centre);
+  if (!solid && !(body && why)) return why;
+  return Refusal{fmt::format("the position is inside {}, a closed body", productText(environment, *body)),
+                 "move it out of the body; if the body models a room, use --stand free"};
+}
+
+std::optional<std::string> StationPlacement::remark(const Eigen::Vector3d& centre) const {
+  const auto body = bodyRound(scene_.environment(), instances_, centre);
+  if (!body) return std::nullopt;
+  return fmt::format("inside {}, a closed body, treated as a room modelled as a single shell",
+                     productText(scene_.environment(), *body));
+}
+
+}  // namespace standpoint

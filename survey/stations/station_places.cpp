@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "survey/stations/station_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/units.h"
+
+namespace standpoint {
+
+namespace {
+
+// Points round a box, on its lowest height.
+void addPlacesAround(const Bounds& b, int count, std::vector<Eigen::Vector3d>& places) {
+  constexpr double kAway_m = 3;
+  const Eigen::Vector3d centre = (b.min + b.max) / 2;
+  for (int k = 0; k < count; ++k) {
+    const double azimuth = 2 * std::numbers::pi * k / count;
+    places.emplace_back(centre.x() + ((b.max.x() - b.min.x()) / 2 + kAway_m) * std::cos(azimuth),
+                        centre.y() + ((b.max.y() - b.min.y()) / 2 + kAway_m) * std::sin(azimuth), b.min.z());
+  }
+}
+
+constexpr double kNoFloor_rad = 60 * kRadPerDeg;  // a wall; whether it is too steep a floor, StationPlacement says
+
+std::vector<double> heightsBelow(const RayScene& scene, double x, double y) {
+  const Bounds b = bounds(scene.environment());
+  std::vector<double> heights;
+  double z = b.max.z() + 1;
+  while (true) {
+    const auto hit = scene.intersect({x, y, z}, -Eigen::Vector3d::UnitZ(), z - b.min.z() + 1);
+    if (!hit) return heights;
+    if (slopeOf(*hit) < kNoFloor_rad) heights.push_back(hit->position.z());
+    z = hit->position.z() - 1e-4;
+    if (heights.size() > 10000) return heights;
+  }
+}
+
+}  // namespace
+
+std::vector<double> floorsAt(const RayScene& scene, double x_m, double y_m, double instrument_height_m) {
+  const auto heights = heightsBelow(scene, x_m, y_m);  // falling
+  std::vector<double> floors;
+  for (auto h = heights.rbegin(); h != heights.rend(); ++h)
+    if (!scene.intersect({x_m, y_m, *h + 1e-3}, Eigen::Vector3d::UnitZ(), instrument_height_m + kRoomAbove_m))
+      floors.push_back(*h);
+  return floors;
+}
+
+std::vector<Eigen::Vector3d> floorsToTry(const Mesh* walkable, const RayScene& scene, double height_m) {
+  std::vector<Eigen::Vector3d> places;
+  constexpr std::size_t kMost = 400;
+  if (walkable != nullptr && !walkable->triangles.empty()) {
+    const auto& mesh = *walkable;
+    const std::size_t step = mesh.triangles.size() / kMost + 1;
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += step) {
+      const auto& t = mesh.triangles[i];
+      places.emplace_back(((mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3).cast<double>());
+    }
+    return places;
+  }
+  const Bounds b = bounds(scene.environment());
+  if (b.empty()) return places;
+  for (int j = 1; j < 16; ++j)
+    for (int i = 1; i < 16; ++i) {
+      const double x = b.min.x() + (b.max.x() - b.min.x()) * i / 16;
+      const double y = b.min.y() + (b.max.y() - b.min.y()) * j / 16;
+      for (const double z : floorsAt(scene, x, y, height_m)) places.emplace_back(x, y, z);
+    }
+  return places;
+}
+
+std::vector<Eigen::Vector3d> groundBeside(const RayScene& scene) {
+  constexpr std::size_t kProducts = 40;
+  std::vector<Eigen::Vector3d> places;
+  const Bounds all = bounds(scene.environment());
+  if (all.empty()) return places;
+  addPlacesAround(all, 16, places);
+  const auto each = productBounds(scene.environment());
+  for (std::size_t p = 0; p < each.size(); p += each.size() / kProducts + 1)
+    if (scene.environment().products[p].inScene() && !each[p].empty()) addPlacesAround(each[p], 4, places);
+  return places;
+}
+
+double roomAround(const RayScene& scene, const Eigen::Vector3d& centre) {
+  constexpr int kDirections = 200;
+  constexpr double kFar_m = 4;
+  double sum = 0;
+  for (int i = 0; i < kDirections; ++i) {  // Fibonacci sphere
+    const double z = 1 - (2 * i + 1.0) / kDirections;
+    const double azimuth = i * std::numbers::pi * (3 - std::sqrt(5.0));
+    const double r = std::sqrt(1 - z * z);
+    if (const auto hit = scene.intersect(centre, {r * std::cos(azimuth), r * std::sin(azimuth), z}, 60))
+      sum += std::min(hit->range_m, kFar_m);
+  }
+  return sum / kDirections;
+}
+
+std::optional<Eigen::Vector3d> bestOf(const std::vector<Eigen::Vector3d>& grounds, const Job& job,
+                                      const StationPlacement& placement, double height_m,
+                                      const std::function<double(const Eigen::Vector3d&)>& worth, Progress& progress) {
+  constexpr double kApart_m = 2.5;
+  double best = 0;
+  std::optional<Eigen::Vector3d> chosen;
+  for (std::size_t k = 0; k < grounds.size() && !progress.cancelled(); ++k) {
+    progress.advance(static_cast<double>(k) / static_cast<double>(grounds.size()));
+    const Eigen::Vector3d centre = grounds[k] + Eigen::Vector3d(0, 0, height_m);
+    const bool apart = std::all_of(job.stations.begin(), job.stations.end(), [&](const Station& s) {
+      return (s.true_pose.translation - centre).norm() >= kApart_m;
+    });
+    if (!apart || !placement.worthTrying(centre)) continue;
+    if (const double value = worth(centre); value > best && !placement.whyNot(centre)) {
+      best = value;
+      chosen = centre;
+    }
+  }
+  return chosen;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/progress.h"
+#include "survey/stations/placement.h"
+
+namespace standpoint {
+
+constexpr double kUsualHeight_m = 1.6;    // of the instrument's centre, where no instrument says its own
+constexpr double kUsualTrunnion_m = 0.2;  // above the tripod's plate, likewise
+
+constexpr double kFloorSearch_m = 0.5;  // how far a stated floor height may be off
+
+constexpr double kRoomAbove_m = 0.3;  // of the tilting axis, for a height to count as a floor
+
+// Where a tripod of that height can stand at (x, y): upward faces below which the beam from above ends, with room for
+// the instrument. Heights of the floor in the local frame, ascending.
+std::vector<double> floorsAt(const RayScene& scene, double x_m, double y_m, double instrument_height_m);
+
+// Ground to try for another station, in the local frame: `walkable` where there is such a surface, else a grid over the
+// model's floors.
+std::vector<Eigen::Vector3d> floorsToTry(const Mesh* walkable, const RayScene& scene, double height_m);
+// For models without a floor (a roof, a set of frames, a line of masts): beside the whole and beside some of its
+// products, on the lowest height.
+std::vector<Eigen::Vector3d> groundBeside(const RayScene& scene);
+
+// How much a station would see: the mean distance to what it meets, capped so that neither a long corridor nor the open
+// ground outside outweighs a room, and nothing for beams that leave the model.
+double roomAround(const RayScene& scene, const Eigen::Vector3d& centre);
+
+// Of the places the one that is worth most (more than nothing), where a tripod can stand at least 2.5 m from every
+// station that is there already. The instrument's centre; none where there is no such place.
+std::optional<Eigen::Vector3d> bestOf(const std::vector<Eigen::Vector3d>& grounds, const Job& job,
+                                      const StationPlacement& placement, double height_m,
+                                      const std::function<double(const Eigen::Vector3d&)>& worth, Progress& progress);
+
+}  // namespace standpoint
