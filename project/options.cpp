@@ -13,30 +13,6 @@ namespace {
 
 using nlohmann::json;
 
-std::string domain(const Parameter& p) {
-  switch (p.kind) {
-    case ParameterKind::number:
-    case ParameterKind::integer: {
-      const char* what = p.kind == ParameterKind::integer ? "a whole number" : "a number";
-      const std::string unit = *p.unit != 0 ? fmt::format(" in {}", p.unit) : "";
-      if (p.minimum > -1e300 && p.maximum < 1e300)
-        return fmt::format("{}{} from {} to {}", what, unit, p.minimum, p.maximum);
-      if (p.minimum > -1e300) return fmt::format("{}{}, at least {}", what, unit, p.minimum);
-      return what + unit;
-    }
-    case ParameterKind::flag: return "true or false";
-    case ParameterKind::choice: return fmt::format("one of {}", fmt::join(p.choices, ", "));
-    case ParameterKind::triple:
-      return fmt::format("three numbers{}{}, none beyond 1e9", *p.unit != 0 ? fmt::format(" in {}", p.unit) : "",
-                         p.min_numbers < 3 ? " (the third may be left out)" : "");
-    case ParameterKind::pairs: return "a list of key=value";
-    case ParameterKind::list: return "a list of texts";
-    case ParameterKind::path: return "a path";
-    case ParameterKind::text: return "a text";
-  }
-  return {};
-}
-
 constexpr double kFarthest = 1e9;  // of a place, in metres: beyond it nothing can be computed in single precision
 
 bool isListOfTexts(const json& value) {
@@ -70,6 +46,30 @@ bool fits(const Parameter& p, const json& value) {
 
 }  // namespace
 
+std::string domainOf(const Parameter& p) {
+  switch (p.kind) {
+    case ParameterKind::number:
+    case ParameterKind::integer: {
+      const char* what = p.kind == ParameterKind::integer ? "a whole number" : "a number";
+      const std::string unit = *p.unit != 0 ? fmt::format(" in {}", p.unit) : "";
+      if (p.minimum > -1e300 && p.maximum < 1e300)
+        return fmt::format("{}{} from {} to {}", what, unit, p.minimum, p.maximum);
+      if (p.minimum > -1e300) return fmt::format("{}{}, at least {}", what, unit, p.minimum);
+      return what + unit;
+    }
+    case ParameterKind::flag: return "true or false";
+    case ParameterKind::choice: return fmt::format("one of {}", fmt::join(p.choices, ", "));
+    case ParameterKind::triple:
+      return fmt::format("three numbers{}{}, none beyond 1e9", *p.unit != 0 ? fmt::format(" in {}", p.unit) : "",
+                         p.min_numbers < 3 ? " (the third may be left out)" : "");
+    case ParameterKind::pairs: return "a list of key=value";
+    case ParameterKind::list: return "a list of texts";
+    case ParameterKind::path: return "a path";
+    case ParameterKind::text: return "a text";
+  }
+  return {};
+}
+
 Result<json> checkOptions(const Verb& verb, const json& options) {
   if (!options.is_object()) return failure(ErrorKind::usage, "options must be a JSON object", verb.name);
   json complete = json::object();
@@ -83,7 +83,7 @@ Result<json> checkOptions(const Verb& verb, const json& options) {
                      verb.name);
     }
     if (!fits(*found, value))
-      return failure(ErrorKind::usage, fmt::format("'{}' must be {}, not {}", key, domain(*found), value.dump()),
+      return failure(ErrorKind::usage, fmt::format("'{}' must be {}, not {}", key, domainOf(*found), value.dump()),
                      verb.name);
     if (found->check)
       if (auto ok = found->check(value); !ok)

@@ -77,6 +77,9 @@ struct Verb {
 std::span<const Verb> verbs();
 const Verb* findVerb(std::span<const Verb> table, std::string_view name);
 
+// What an option may be, in words: "a number in m, at least 0", "one of open, closed".
+std::string domainOf(const Parameter& parameter);
+
 // Fills in defaults and checks kinds, domains, unknown and missing options; errors name the option and what it may be.
 Result<nlohmann::json> checkOptions(const Verb& verb, const nlohmann::json& options);
 

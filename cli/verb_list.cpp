@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/verb_list.h"
+
+#include <fmt/format.h>
+
+namespace standpoint {
+
+namespace {
+
+std::string inCell(std::string text) {
+  for (std::size_t i = 0; (i = text.find('|', i)) != std::string::npos; i += 2) text.insert(i, 1, '\\');
+  return text;
+}
+
+std::string defaultOf(const Parameter& p) {
+  const auto& value = p.default_value;
+  if (p.required) return "required";
+  if (value.is_null()) return "";
+  if (value.is_string()) return value.get<std::string>();
+  return value.is_number_float() ? fmt::format("{}", value.get<double>()) : value.dump();
+}
+
+std::string spelling(const Parameter& p) {
+  if (p.positional) return p.kind == ParameterKind::list ? fmt::format("{}...", p.name) : p.name;
+  return (std::string_view(p.name) == "output" ? "-o, --" : "--") + std::string(p.name);
+}
+
+std::string usage(const Verb& verb) {
+  std::string line = fmt::format("standpoint {}", verb.name);
+  if (verb.scope == VerbScope::changes || verb.scope == VerbScope::reads) line += " PROJECT";
+  for (const auto& p : verb.parameters)
+    if (p.positional) line += p.required ? " " + spelling(p) : " [" + spelling(p) + "]";
+  return line + " [OPTIONS]";
+}
+
+}  // namespace
+
+std::string verbList(std::span<const Verb> verbs, const std::string& introduction) {
+  std::string page = introduction + kVerbListMark;
+  for (const auto& verb : verbs) {
+    page += fmt::format("\n## {}\n\n{}.\n\n`{}`\n\n", verb.name, verb.summary, usage(verb));
+    page += "| option | value | default | effect |\n|---|---|---|---|\n";
+    for (const auto& p : verb.parameters)
+      page +=
+          fmt::format("| `{}` | {} | {} | {} |\n", spelling(p),
+                      p.kind == ParameterKind::flag ? "" : inCell(domainOf(p)), inCell(defaultOf(p)), inCell(p.help));
+  }
+  return page;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "project/verb.h"
+
+namespace standpoint {
+
+// Every verb with every option as a page, from the tables that command line, job files and forms use: name, what it may
+// be, default value, what it does. `introduction` comes first.
+std::string verbList(std::span<const Verb> verbs, const std::string& introduction);
+
+// Where the introduction of docs/reference/verbs.md ends: what follows this line is generated.
+inline constexpr const char* kVerbListMark = "<!-- From here on written by list-verbs. -->\n";
+
+}  // namespace standpoint
