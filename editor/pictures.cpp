@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <thread>
 
 #include "editor/shell/actions.h"
 
@@ -23,6 +25,7 @@ void reset(Editor& editor) {
   editor.view.walkable = false;
   editor.view.tool = Tool::select;
   editor.preview.close();
+  editor.showCloud({});
   editor.view.camera.orthographic = false;
   look(editor.view.camera, StandardView::corner);
   editor.view.frame_wanted = true;
@@ -152,6 +155,20 @@ void coverageSpacing(Editor& editor) {
   editor.view.colour = ColourMode::coverage_spacing;
 }
 
+// What the last scan measured, cut open.
+void scan(Editor& editor) {
+  survey(editor);
+  const auto& job = editor.session.document().job;
+  if (!job || job->scans.empty()) return;
+  *editor.visibility.cut_height_m += 0.6;
+  editor.showCloud(job->scans.back().file);
+  while (editor.readingCloud()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    editor.update();
+  }
+  editor.update();
+}
+
 // What is open, as it would be seen before it is taken in.
 void importPreview(Editor& editor) {
   const auto& document = editor.session.document();
@@ -173,6 +190,7 @@ constexpr std::array kPictures = {Picture{"1-overview", overview},
                                   Picture{"12-measured", measured},
                                   Picture{"13-coverage", coverage},
                                   Picture{"14-coverage-spacing", coverageSpacing},
+                                  Picture{"15-scan", scan},
                                   Picture{"7-import-preview", importPreview},
                                   Picture{"6-palette", palette}};
 

@@ -211,6 +211,7 @@ ViewState Model::viewState() const {
   state.wavelength_nm = view.wavelength_nm;
   state.edges = view.edges;
   state.grid = view.grid;
+  state.shaded_points = view.shaded_points;
   if (preview.outcome() != nullptr) {
     static const auto kNoneHidden = std::make_shared<const HiddenProducts>();
     state.hidden = kNoneHidden;

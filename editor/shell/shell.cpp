@@ -112,6 +112,7 @@ void viewMenu(Editor& editor) {
                  "labels",
                  "walkable",
                  "shapes",
+                 "shaded-points",
                  "walk",
                  "",
                  "colour-model",

@@ -13,6 +13,7 @@
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkEDLShading.h>
 #include <vtkFloatArray.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkIdTypeArray.h>
@@ -220,6 +221,8 @@ class VtkSceneView : public SceneView {
       const bool larger = fine && std::int64_t{w} * h * kFineFactor * kFineFactor <= kMostFinePixels;
       setPixels(larger ? kFineFactor : 1);
       update(state);
+      renderer_->SetPass(fine && state.cloud && state.shaded_points ? static_cast<vtkRenderPass*>(depth_shading_)
+                                                                    : steps_);
       window_->Render();
       drawn_ = state;
     }
@@ -288,10 +291,10 @@ class VtkSceneView : public SceneView {
   // Plain blending into the same depth buffer: the renderer's own order-independent pass copies the depth first, which
   // fails for a multisampled framebuffer, and then everything translucent shines through walls.
   void setUpPasses() {
-    vtkNew<vtkRenderStepsPass> steps;
     vtkNew<vtkTranslucentPass> translucent;
-    steps->SetTranslucentPass(translucent);
-    renderer_->SetPass(steps);
+    steps_->SetTranslucentPass(translucent);
+    depth_shading_->SetDelegatePass(steps_);
+    renderer_->SetPass(steps_);
   }
 
   // A low sun from the camera's left, the sky from above, and a little from below so that no face is black.
@@ -532,6 +535,9 @@ class VtkSceneView : public SceneView {
 
   vtkNew<ForeignContextWindow> window_;
   vtkNew<vtkRenderer> renderer_;
+  vtkNew<vtkRenderStepsPass> steps_;
+  vtkNew<vtkEDLShading>
+      depth_shading_;  // eye-dome lighting, of a bare cloud at rest: it costs as much as a million points
   Layer opaque_, transparent_, graded_, graded_transparent_, shapes_, selected_, walkable_, edges_, outline_, grid_,
       cloud_;
   std::vector<std::unique_ptr<Layer>> painted_;  // one for each image in sight
