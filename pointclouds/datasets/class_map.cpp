@@ -53,10 +53,9 @@ Result<void> MapReader::takeRules(const json& rules) {
   for (const auto& [ifc_class, value] : rules.items()) {
     const std::string place = "ifc/" + ifc_class;
     const bool pair = value.is_array() && value.size() == 2;
-    const auto below = classNamed(pair ? value[0] : value, place), above = classNamed(pair ? value[1] : value, place);
-    if (!below) return failure(below.error());
-    if (!above) return failure(above.error());
-    map_.rules.push_back({ifc_class, {*below, *above}});
+    TRY_ASSIGN(const auto below, classNamed(pair ? value[0] : value, place));
+    TRY_ASSIGN(const auto above, classNamed(pair ? value[1] : value, place));
+    map_.rules.push_back({ifc_class, {below, above}});
   }
   return {};
 }

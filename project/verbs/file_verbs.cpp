@@ -127,10 +127,9 @@ Result<Outcome> runConvert(const Document& document, const ConvertOptions& optio
   Outcome outcome{document, json::object(), {}, {}};
   if (!options.dataset.empty()) return convertTo(options, std::move(outcome), progress);
   TRY(checkFolderOf(options.out, "OUT"));
-  auto files = convertCloud(in, options.out, options.as, outcome.report, progress);
-  if (!files) return failure(files.error());
+  TRY_ASSIGN(auto files, convertCloud(in, options.out, options.as, outcome.report, progress));
   json names = json::array();
-  for (const auto& f : *files) names.push_back(f.string());
+  for (const auto& f : files) names.push_back(f.string());
   outcome.answer["files"] = std::move(names);
   outcome.description = "Converted " + in.filename().string();
   return outcome;
