@@ -21,7 +21,7 @@ std::vector<std::string_view> wordsOf(std::string_view line) {
   return words;
 }
 
-std::string quoted(std::string_view word) { return "'" + std::string(word.substr(0, 40)) + "'"; }
+std::string shown(std::string_view word) { return "'" + std::string(word.substr(0, 40)) + "'"; }
 
 tl::unexpected<Error> broken(std::string what) { return failure(ErrorKind::unusable, std::move(what)); }
 
@@ -58,7 +58,7 @@ Result<void> PlyHeaderLines::statement(const std::vector<std::string_view>& word
   if (words[0] == "element") return element(words);
   if (words[0] == "property") return property(words);
   if (words[0] == "comment" || words[0] == "obj_info") return {};
-  return broken("unknown PLY header entry " + quoted(words[0]));
+  return broken("unknown PLY header entry " + shown(words[0]));
 }
 
 Result<void> PlyHeaderLines::format(const std::vector<std::string_view>& words) {
@@ -80,10 +80,10 @@ Result<void> PlyHeaderLines::element(const std::vector<std::string_view>& words)
   PlyElement e{std::string(words[1]), 0, {}, lines_};
   const auto text = words[2];
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), e.count);
-  if (error != std::errc() || end != text.data() + text.size()) return broken(quoted(text) + " is not a count");
+  if (error != std::errc() || end != text.data() + text.size()) return broken(shown(text) + " is not a count");
   if (std::any_of(header_.elements.begin(), header_.elements.end(),
                   [&](const PlyElement& other) { return other.name == e.name; }))
-    return broken("duplicate element " + quoted(e.name));
+    return broken("duplicate element " + shown(e.name));
   if (header_.elements.size() == kMostElements)
     return broken("more than " + std::to_string(kMostElements) + " elements");
   header_.elements.push_back(std::move(e));
@@ -95,9 +95,9 @@ Result<void> PlyHeaderLines::property(const std::vector<std::string_view>& words
   const bool list = words.size() == 5 && words[1] == "list";
   if (!list && words.size() != 3) return broken("a property requires a type and a name");
   const auto type = plyType(words[list ? 3 : 1]);
-  if (!type) return broken(quoted(words[list ? 3 : 1]) + " is not a property type");
+  if (!type) return broken(shown(words[list ? 3 : 1]) + " is not a property type");
   const auto count_type = list ? plyType(words[2]) : std::nullopt;
-  if (list && !count_type) return broken(quoted(words[2]) + " is not a property type");
+  if (list && !count_type) return broken(shown(words[2]) + " is not a property type");
   if (count_type == PlyType::float32 || count_type == PlyType::float64)
     return broken("list count must not be a floating-point type");
   if (++properties_ > kMostProperties) return broken("more than " + std::to_string(kMostProperties) + " properties");

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <set>
 
+#include "core/json_file.h"
 #include "materials/colour.h"
-#include "materials/json_file.h"
 #include "materials/materials.h"
 
 namespace standpoint {

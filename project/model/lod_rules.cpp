@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "materials/json_file.h"
+#include "core/json_file.h"
 #include "materials/materials.h"
 #include "optimizer/simplify/visibility.h"
 
