@@ -6,6 +6,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "core/edge_balance.h"
 #include "core/georeference.h"
 
 namespace standpoint {
@@ -87,26 +88,11 @@ bool isClosed(const Mesh& mesh) {
   for (std::size_t i = 0; i < order.size(); ++i)
     first[order[i]] = i > 0 && !less(order[i - 1], order[i]) ? first[order[i - 1]] : order[i];
 
-  struct Edge {
-    std::uint64_t key;
-    std::int32_t direction;
-  };
-  std::vector<Edge> edges;
+  std::vector<PassedEdge> edges;
   edges.reserve(mesh.triangles.size() * 3);
   for (const auto& t : mesh.triangles)
-    for (int k = 0; k < 3; ++k) {
-      const std::uint64_t a = first[t[k]];
-      const std::uint64_t b = first[t[(k + 1) % 3]];
-      if (a != b) edges.push_back({std::min(a, b) << 32U | std::max(a, b), a < b ? 1 : -1});
-    }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.key < b.key; });
-  for (std::size_t i = 0; i < edges.size();) {
-    std::int32_t sum = 0;
-    const auto key = edges[i].key;
-    for (; i < edges.size() && edges[i].key == key; ++i) sum += edges[i].direction;
-    if (sum != 0) return false;
-  }
-  return true;
+    for (int k = 0; k < 3; ++k) edges.emplace_back(first[t[k]], first[t[(k + 1) % 3]]);
+  return balanced(edges);
 }
 
 namespace {

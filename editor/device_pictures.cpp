@@ -39,15 +39,12 @@ Result<std::vector<StoredSetup>> scannedHouse(const fs::path& folder) {
     document = std::move(outcome.document);
     return {};
   };
-  if (auto ok = run("import", {{"files", {(samplesFolder() / "house.ifc").string()}}}); !ok) return failure(ok.error());
+  TRY(run("import", {{"files", {(samplesFolder() / "house.ifc").string()}}}));
   const std::pair<const char*, std::array<double, 3>> kStations[] = {{"S1", {4.3, 1.6, 0}}, {"S2", {4.4, 5.9, 0}}};
-  for (const auto& [name, on] : kStations)
-    if (auto ok = run("station", {{"add", name}, {"on", on}}); !ok) return failure(ok.error());
-  if (auto ok = run(
-          "scan",
-          {{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/20", "quality=4x"}}, {"output", folder.string()}});
-      !ok)
-    return failure(ok.error());
+  for (const auto& [name, on] : kStations) TRY(run("station", {{"add", name}, {"on", on}}));
+  TRY(run(
+      "scan",
+      {{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/20", "quality=4x"}}, {"output", folder.string()}}));
   std::vector<StoredSetup> setups;
   for (const auto& station : document.job->stations) {
     StoredSetup s;
@@ -132,9 +129,8 @@ void putInto(Device& device, const std::string& screen, const std::vector<Stored
 
 Result<int> drawDevicePictures(Offscreen& offscreen, const fs::path& folder, const std::string& language, float scale) {
   const auto scratch = fs::temp_directory_path() / "standpoint-device-pictures";
-  auto setups = scannedHouse(scratch);
+  TRY_ASSIGN(const auto setups, scannedHouse(scratch));
   std::error_code error;
-  if (!setups) return failure(setups.error());
   int count = 0;
   for (const auto& row : emulatedDevices()) {
     TRY_ASSIGN(const auto type, loadDevice(row));
@@ -144,7 +140,7 @@ Result<int> drawDevicePictures(Offscreen& offscreen, const fs::path& folder, con
     for (const auto& screen : type->definition.screens) screens.push_back(screen.id);
     for (const auto& screen : screens) {
       Device device(type);
-      if (!screen.empty()) putInto(device, screen, *setups, language);
+      if (!screen.empty()) putInto(device, screen, setups, language);
       DeviceView view;
       view.still = true;
       std::shared_ptr<const PixelPicture> picture;

@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
+#include "core/json_file.h"
 #include "core/units.h"
 #include "emulated-ui/memory.h"
 #include "emulated-ui/preview.h"
 #include "emulated-ui/sensors.h"
 #include "emulated-ui/sighting.h"
-#include "materials/json_file.h"
 #include "pointclouds/files/file_access.h"
 #include "pointclouds/filters/cleaning.h"
 #include "pointclouds/formats.h"

@@ -35,7 +35,7 @@ Result<LibraryFile> readFile(const std::filesystem::path& path) {
   TRY_ASSIGN(auto content, readJsonFile(path));
   LibraryFile file{path.filename().string(), std::move(content)};
   const JsonPlace at{file.name, {}};
-  if (auto checked = checkKeys(file.content, at, {"sources", "materials"}); !checked) return failure(checked.error());
+  TRY(checkKeys(file.content, at, {"sources", "materials"}));
   for (const char* key : {"sources", "materials"})
     if (file.content.contains(key) && !file.content[key].is_array()) return (at / key).unusable("must be a list");
   return file;
@@ -47,12 +47,11 @@ Result<void> readSources(const LibraryFile& file, SourceTable& sources) {
   for (std::size_t i = 0; i < list.size(); ++i) {
     const auto at = JsonPlace{file.name, {}} / "sources" / i;
     if (auto checked = checkKeys(list[i], at, {"id", "text", "licence"}); !checked) return checked;
-    const auto id = readId(list[i], at);
-    if (!id) return failure(id.error());
+    TRY_ASSIGN(const auto id, readId(list[i], at));
     TRY_ASSIGN(const auto text, readText(list[i], at, "text"));
     TRY_ASSIGN(const auto licence, readText(list[i], at, "licence"));
-    if (!sources.try_emplace(*id, FigureSource{text, licence}).second)
-      return (at / "id").unusable("the source '" + *id + "' already exists");
+    if (!sources.try_emplace(id, FigureSource{text, licence}).second)
+      return (at / "id").unusable("the source '" + id + "' already exists");
   }
   return {};
 }

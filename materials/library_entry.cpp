@@ -193,10 +193,9 @@ Result<void> readNumbers(const nlohmann::json& entry, const JsonPlace& at, Physi
     material.*figure.field = number;
   }
   if (!entry.contains("panes")) return {};
-  const auto panes = readNumber(entry["panes"], at / "panes", 2, 4);
-  if (!panes) return failure(panes.error());
+  TRY_ASSIGN(const auto panes, readNumber(entry["panes"], at / "panes", 2, 4));
   if (!entry["panes"].is_number_integer()) return (at / "panes").unusable("must be a whole number");
-  material.panes = static_cast<int>(*panes);
+  material.panes = static_cast<int>(panes);
   return {};
 }
 
@@ -234,12 +233,10 @@ Result<void> wet(PhysicalMaterial& material, const PhysicalMaterial* dry, const 
 
 Result<PhysicalMaterial> readMaterial(const nlohmann::json& entry, const JsonPlace& at, const SourceTable& sources) {
   PhysicalMaterial material;
-  if (auto checked = checkKeys(entry, at,
-                               {"id", "label", "gaps", "wet_of", "reflectance", "roughness_rad", "gloss_slope",
-                                "index_of_refraction", "complex_index", "thickness_m", "transmittance", "panes",
-                                "gap_m", "variation", "texture_scale_m", "retro_gain", "source"});
-      !checked)
-    return failure(checked.error());
+  TRY(checkKeys(entry, at,
+                {"id", "label", "gaps", "wet_of", "reflectance", "roughness_rad", "gloss_slope", "index_of_refraction",
+                 "complex_index", "thickness_m", "transmittance", "panes", "gap_m", "variation", "texture_scale_m",
+                 "retro_gain", "source"}));
   TRY_ASSIGN(const auto id, readId(entry, at));
   TRY_ASSIGN(const auto label, readText(entry, at, "label"));
   material.id = id;

@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
+#include "core/json_file.h"
 #include "core/physical_material.h"
-#include "materials/json_file.h"
 
 namespace standpoint {
 

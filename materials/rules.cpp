@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <set>
 
+#include "core/json_file.h"
 #include "materials/colour.h"
-#include "materials/json_file.h"
 #include "materials/materials.h"
 
 namespace standpoint {
@@ -37,8 +37,7 @@ class RulesReader {
 
   Result<RuleSet> read(const nlohmann::json& content) {
     RuleSet set;
-    if (auto checked = checkKeys(content, root_, {"words", "rules", "implausible", "then"}); !checked)
-      return failure(checked.error());
+    TRY(checkKeys(content, root_, {"words", "rules", "implausible", "then"}));
     TRY(readWords(content));
     if (!content.contains("rules")) return (root_ / "rules").unusable("is missing");
     for (const char* key : {"rules", "implausible"})
@@ -47,10 +46,9 @@ class RulesReader {
     if (list.size() > kMostRules)
       return (root_ / "rules").unusable("contains more than " + std::to_string(kMostRules) + " rules");
     for (std::size_t i = 0; i < list.size(); ++i) {
-      auto rule = readRule(list[i], root_ / "rules" / i);
-      if (!rule) return failure(rule.error());
-      rule->place = "rule " + std::to_string(i) + " of " + root_.file;
-      set.rules.push_back(std::move(*rule));
+      TRY_ASSIGN(auto rule, readRule(list[i], root_ / "rules" / i));
+      rule.place = "rule " + std::to_string(i) + " of " + root_.file;
+      set.rules.push_back(std::move(rule));
     }
     if (content.contains("implausible"))
       for (std::size_t i = 0; i < content["implausible"].size(); ++i) {
@@ -74,11 +72,10 @@ class RulesReader {
       auto& words = words_[name];
       words.clear();
       for (std::size_t i = 0; i < list.size(); ++i) {
-        auto word = textOf(list[i], at / i);
-        if (!word) return failure(word.error());
-        if (word->find_first_of("{}|&") != std::string::npos)
+        TRY_ASSIGN(auto word, textOf(list[i], at / i));
+        if (word.find_first_of("{}|&") != std::string::npos)
           return (at / i).unusable("must be a single word; use { } | & only in patterns");
-        words.push_back(std::move(*word));
+        words.push_back(std::move(word));
       }
     }
     return {};
@@ -109,11 +106,9 @@ class RulesReader {
   }
 
   Result<AssignmentRule> readRule(const nlohmann::json& entry, const JsonPlace& at) const {
-    if (auto checked = checkKeys(entry, at,
-                                 {"ifc_class", "material", "name", "type", "storey", "group", "layer", "colour",
-                                  "metallic", "roughness", "transmission", "assign", "hidden", "confidence"});
-        !checked)
-      return failure(checked.error());
+    TRY(checkKeys(entry, at,
+                  {"ifc_class", "material", "name", "type", "storey", "group", "layer", "colour", "metallic",
+                   "roughness", "transmission", "assign", "hidden", "confidence"}));
     AssignmentRule rule;
     bool asks = false;
     for (const auto& [key, field] : {std::pair{"ifc_class", &AssignmentRule::ifc_class},
@@ -152,8 +147,7 @@ class RulesReader {
   }
 
   Result<Implausible> readImplausible(const nlohmann::json& entry, const JsonPlace& at) const {
-    if (auto checked = checkKeys(entry, at, {"ifc_class", "assigned", "why"}); !checked)
-      return failure(checked.error());
+    TRY(checkKeys(entry, at, {"ifc_class", "assigned", "why"}));
     TRY_ASSIGN(auto ifc_class, readPattern(entry, at, "ifc_class"));
     if (!entry.contains("assigned")) return (at / "assigned").unusable("is missing");
     TRY_ASSIGN(auto assigned, readPattern(entry, at, "assigned"));
@@ -181,10 +175,9 @@ Result<RuleSet> parseAssignmentRules(const std::string& text, const std::string&
                                      const std::vector<PhysicalMaterial>& library,
                                      const std::filesystem::path& default_file) {
   TRY_ASSIGN(const auto content, parseJson(text, file_name));
-  const auto more = wantsDefault(content, JsonPlace{file_name, {}});
-  if (!more) return failure(more.error());
+  TRY_ASSIGN(const auto more, wantsDefault(content, JsonPlace{file_name, {}}));
   RuleSet defaults;
-  if (*more) {
+  if (more) {
     auto read = readAssignmentRules(default_file, library);
     if (!read) return read;
     defaults = std::move(*read);
@@ -192,7 +185,7 @@ Result<RuleSet> parseAssignmentRules(const std::string& text, const std::string&
   auto set = RulesReader(file_name, library, defaults.words).read(content);
   if (!set) return set;
   set->own = default_file.empty() ? 0 : set->rules.size();  // else they are the default rules themselves
-  if (!*more) return set;
+  if (!more) return set;
   // The default patterns keep the words that they were written with.
   for (const auto& [name, words] : defaults.words)
     if (set->words.at(name) != words)

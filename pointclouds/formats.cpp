@@ -150,24 +150,22 @@ Result<CloudExtent> measureCloud(const std::filesystem::path& file, Progress& pr
 Result<std::vector<std::filesystem::path>> convertCloud(const std::filesystem::path& in,
                                                         const std::filesystem::path& out, const std::string& as,
                                                         Report& report, Progress& progress, const SinkBefore& through) {
-  const auto from = known(in), to = known(out);
-  if (!from) return failure(from.error());
-  if (!to) return failure(to.error());
-  if (!(*from)->read)
-    return failure(ErrorKind::usage, std::string((*from)->name) + " files can only be written", in.string());
-  if (!(*to)->writer)
-    return failure(ErrorKind::usage, std::string((*to)->name) + " files can only be read", out.string());
-  TRY_ASSIGN(const auto writer, writerOf(**to, as));
+  TRY_ASSIGN(const auto from, known(in));
+  TRY_ASSIGN(const auto to, known(out));
+  if (!from->read)
+    return failure(ErrorKind::usage, std::string(from->name) + " files can only be written", in.string());
+  if (!to->writer) return failure(ErrorKind::usage, std::string(to->name) + " files can only be read", out.string());
+  TRY_ASSIGN(const auto writer, writerOf(*to, as));
   bool one_each = false;
-  if (!(*to)->many_scans) {
-    TRY_ASSIGN(const auto info, (*from)->info(in));
+  if (!to->many_scans) {
+    TRY_ASSIGN(const auto info, from->info(in));
     one_each = info.scans.size() > 1;
   }
   Distributor distributor(writer, out, one_each);
   if (!one_each) TRY(distributor.open(out));
   const std::unique_ptr<PointSink> before = through ? through(distributor) : nullptr;
   PointSink& sink = before ? *before : distributor;
-  TRY_ASSIGN(const auto lost, (*from)->read(in, sink, progress));
+  TRY_ASSIGN(const auto lost, from->read(in, sink, progress));
   TRY(sink.close());
   report.append(lost);
   report.append(distributor.report);

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "core/json_file.h"
 #include "emulated-ui/device/json_fields.h"
 #include "emulated-ui/device/numbers.h"
-#include "materials/json_file.h"
 
 namespace standpoint {
 

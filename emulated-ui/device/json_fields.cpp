@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "core/json_file.h"
 #include "emulated-ui/device/nearest.h"
-#include "materials/json_file.h"
 
 namespace standpoint {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <set>
 
+#include "core/json_file.h"
 #include "emulated-ui/device/json_fields.h"
-#include "materials/json_file.h"
 
 namespace standpoint {
 

@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "core/data_folder.h"
+#include "core/json_file.h"
 #include "emulated-ui/device/json_fields.h"
 #include "emulated-ui/rehearsal/events.h"
-#include "materials/json_file.h"
 #include "project/verb.h"
 
 namespace standpoint {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/edge_balance.h"
 #include "importers/geometry/kernel.h"
 #include "importers/geometry/polygon.h"
 
@@ -154,20 +155,10 @@ double volume(const PolyMesh& mesh) {
 bool isClosed(const PolyMesh& mesh, double weld_m) {
   if (mesh.faces.empty()) return false;
   const std::vector<std::uint32_t> map = weldMap(mesh.points, weld_m);
-  std::vector<std::pair<Edge, int>> edges;
-  for (const Face& face : mesh.faces) {
-    forEachEdge(face, [&](std::uint32_t a, std::uint32_t b) {
-      a = map[a], b = map[b];
-      if (a != b) edges.push_back({{std::min(a, b), std::max(a, b)}, a < b ? 1 : -1});
-    });
-  }
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-    int balance = 0;
-    while (end < edges.size() && edges[end].first == edges[begin].first) balance += edges[end++].second;
-    if (balance != 0) return false;
-  }
-  return true;
+  std::vector<PassedEdge> edges;
+  for (const Face& face : mesh.faces)
+    forEachEdge(face, [&](std::uint32_t a, std::uint32_t b) { edges.emplace_back(map[a], map[b]); });
+  return balanced(edges);
 }
 
 namespace {

@@ -44,7 +44,7 @@ class GltfImport {
     environment().images = std::move(materials_.images);
     no_material_ = static_cast<std::uint32_t>(environment().surfaces.size());
     const auto seen = walkScene(file_, [&](const GltfNode& node) { visit(node); });
-    if (file_.failed()) return failure(file_.error());
+    TRY(file_.whole());
     TRY(progress_.check());
     if (no_material_used_) environment().surfaces.push_back({"", {1, 1, 1, 1}, "no material"});  // glTF 2.0, 3.9.6
     listGltfRest(file_, seen, model_.report);
@@ -54,7 +54,7 @@ class GltfImport {
     if (triangleCount(environment()) == 0) model_.report.warn("/nodes", "no node has surfaces: nothing to scan");
     georeference(stored);
     if (auto wrong = validate(environment()); !wrong.empty()) file_.fail("", wrong);
-    if (file_.failed()) return failure(file_.error());
+    TRY(file_.whole());
     return std::move(model_);
   }
 
@@ -246,7 +246,7 @@ Result<ImportedModel> readGltf(const std::filesystem::path& path, const ImportOp
   progress.stage("Reading glTF");
   GltfFile file(path);
   file.load();
-  if (file.failed()) return failure(file.error());
+  TRY(file.whole());
   return GltfImport(file, options, progress).run();
 }
 

@@ -79,7 +79,7 @@ Result<Environment> readEnvironmentGlb(const std::filesystem::path& path, Progre
   TRY(progress.check());
   if (!file.failed())
     if (auto wrong = validate(environment); !wrong.empty()) file.fail("", wrong);
-  if (file.failed()) return failure(file.error());
+  TRY(file.whole());
   return environment;
 }
 

@@ -36,7 +36,7 @@ class GltfFile {
   std::size_t cameras() const { return cameras_; }
 
   bool failed() const { return error_.has_value(); }
-  const Error& error() const { return *error_; }
+  Result<void> whole() const { return error_ ? failure(*error_) : Result<void>(); }
   void fail(const std::string& place, std::string message, ErrorKind kind = ErrorKind::unusable);
   void fail(Error error);  // whose source is a place
 

@@ -14,7 +14,7 @@ namespace standpoint {
 namespace {
 
 // The surface of the faces that name no texture is 0, that of texture i is i + 1.
-void addSurfaces(const std::filesystem::path& path, const PlyHeader& header, bool textured, FaceSoup& soup,
+void addSurfaces(const std::filesystem::path& path, const PlyFileHeader& header, bool textured, FaceSoup& soup,
                  Report& report) {
   const auto place = [&](std::size_t i) { return "comment TextureFile " + header.texture_files[i]; };
   Surface plain;

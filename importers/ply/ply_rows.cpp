@@ -13,7 +13,7 @@ constexpr std::size_t kPiece = 4U << 20U;
 
 }  // namespace
 
-PlyRows::PlyRows(const FileBytes& bytes, const PlyHeader& header, const std::string& name)
+PlyRows::PlyRows(const FileBytes& bytes, const PlyFileHeader& header, const std::string& name)
     : bytes_(bytes),
       header_(header),
       name_(name),

@@ -7,7 +7,7 @@
 
 #include "importers/files/byte_stream.h"
 #include "importers/files/text_cursor.h"
-#include "importers/ply/ply_header.h"
+#include "importers/ply/ply_file_header.h"
 
 namespace standpoint {
 
@@ -21,7 +21,7 @@ struct PlyRow {
 // Reads a PLY's rows one after the other, text or binary of either order of bytes.
 class PlyRows {
  public:
-  PlyRows(const FileBytes& bytes, const PlyHeader& header, const std::string& name);
+  PlyRows(const FileBytes& bytes, const PlyFileHeader& header, const std::string& name);
 
   // An error names the element, its row and, in a text, the line.
   Result<void> next(const PlyElement& element, std::uint64_t row, PlyRow& out);
@@ -39,7 +39,7 @@ class PlyRows {
   tl::unexpected<Error> ended() const;
 
   const FileBytes& bytes_;
-  const PlyHeader& header_;
+  const PlyFileHeader& header_;
   const std::string& name_;
   ByteStream stream_;
   std::string text_;  // a piece of whole lines

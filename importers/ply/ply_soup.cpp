@@ -67,7 +67,7 @@ class ColourColumns {
 
 class SoupReader {
  public:
-  SoupReader(const FileBytes& bytes, const PlyHeader& header, const std::string& name, Report& report,
+  SoupReader(const FileBytes& bytes, const PlyFileHeader& header, const std::string& name, Report& report,
              Progress& progress)
       : header_(header), name_(name), report_(report), progress_(progress), rows_(bytes, header, name) {}
 
@@ -299,7 +299,7 @@ class SoupReader {
     return {};
   }
 
-  const PlyHeader& header_;
+  const PlyFileHeader& header_;
   const std::string& name_;
   Report& report_;
   Progress& progress_;
@@ -315,8 +315,8 @@ class SoupReader {
 
 }  // namespace
 
-Result<PlySoup> readPlySoup(const FileBytes& bytes, const PlyHeader& header, const std::string& name, Report& report,
-                            Progress& progress) {
+Result<PlySoup> readPlySoup(const FileBytes& bytes, const PlyFileHeader& header, const std::string& name,
+                            Report& report, Progress& progress) {
   return SoupReader(bytes, header, name, report, progress).run();
 }
 

@@ -7,7 +7,7 @@
 
 #include "core/progress.h"
 #include "core/report.h"
-#include "importers/ply/ply_header.h"
+#include "importers/ply/ply_file_header.h"
 #include "importers/soup/face_colours.h"
 #include "importers/soup/face_soup.h"
 
@@ -22,7 +22,7 @@ struct PlySoup {
 
 // Reads vertices, faces and triangle strips; what else there is is listed in the report. A file without faces is
 // refused: it is a point cloud.
-Result<PlySoup> readPlySoup(const FileBytes& bytes, const PlyHeader& header, const std::string& name, Report& report,
-                            Progress& progress);
+Result<PlySoup> readPlySoup(const FileBytes& bytes, const PlyFileHeader& header, const std::string& name,
+                            Report& report, Progress& progress);
 
 }  // namespace standpoint

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/winding_number.h"
 #include "optimizer/collision/pieces.h"
 
 namespace standpoint {
@@ -235,7 +236,7 @@ class Cutter {
       // A corner of the cell may lie in the plane of a face without being on it: asked a little inwards.
       Vector3d middle = Vector3d::Zero();
       for (const auto& q : corners) middle += q / static_cast<double>(corners.size());
-      if (windingNumber(part_, p + (middle - p) * 1e-4) > 0.5) points.push_back(p);
+      if (windingNumber(part_.positions, part_.triangles, p + (middle - p) * 1e-4) > 0.5) points.push_back(p);
     }
     auto piece = hullPiece(points);
     if (piece && volumeOf(piece->positions, piece->triangles) < 1e-9) return std::nullopt;
@@ -269,7 +270,8 @@ class Cutter {
   }
 
   bool isSolid(const std::vector<Vector3d>& points) const {
-    return std::all_of(points.begin(), points.end(), [&](const Vector3d& p) { return windingNumber(part_, p) > 0.5; });
+    return std::all_of(points.begin(), points.end(),
+                       [&](const Vector3d& p) { return windingNumber(part_.positions, part_.triangles, p) > 0.5; });
   }
 
   // Where two pieces of an open shape may have nothing but a missing face between them.

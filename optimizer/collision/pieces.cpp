@@ -5,10 +5,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 
-#include "core/solid_angle.h"
+#include "core/winding_number.h"
 #include "optimizer/simplify/collapse.h"
 #include "optimizer/surface/deviation.h"
 #include "optimizer/surface/triangle_tree.h"
@@ -171,7 +170,9 @@ double deviationOf(const std::vector<Piece>& pieces, const Shape& part, double m
   const auto outward = [&](const Vector3d& p, std::size_t piece) {
     const double distance = part_tree.squaredDistance(p);
     // Not where another piece covers it, nor where a crack between pieces is within the solid.
-    if (distance > worst && !covered(p, piece, kCovered) && !(closed && windingNumber(part, p) > 0.5)) worst = distance;
+    if (distance > worst && !covered(p, piece, kCovered) &&
+        !(closed && windingNumber(part.positions, part.triangles, p) > 0.5))
+      worst = distance;
     return worst <= limit;
   };
   constexpr auto kInfinite = std::numeric_limits<double>::infinity();
@@ -255,13 +256,6 @@ void addAsMesh(const Shape& part, Piece& mesh) {
 }
 
 }  // namespace
-
-double windingNumber(const Shape& part, const Vector3d& p) {
-  double sum = 0;
-  for (const auto& t : part.triangles)
-    sum += solidAngle(part.positions[t[0]] - p, part.positions[t[1]] - p, part.positions[t[2]] - p);
-  return sum / (4 * std::numbers::pi);
-}
 
 double volumeOf(const std::vector<Vector3d>& positions, const std::vector<Triangle>& triangles) {
   double sum = 0;

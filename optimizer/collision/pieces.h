@@ -35,9 +35,6 @@ std::vector<Piece> sheetPieces(const Shape& part);
 std::vector<Piece> cutPieces(const Shape& part, double tolerance_m);
 std::optional<Piece> hullPiece(const std::vector<Eigen::Vector3d>& points);
 
-// How often the surface goes around p: 1 inside of a closed part, 0 outside.
-double windingNumber(const Shape& part, const Eigen::Vector3d& p);
-
 double volumeOf(const std::vector<Eigen::Vector3d>& positions, const std::vector<Triangle>& triangles);
 
 // Sorted, values closer than `tolerance` to the one before joined.

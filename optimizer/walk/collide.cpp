@@ -135,21 +135,19 @@ Result<CollideResult> collide(const Environment& environment, const CollideOptio
     result.products[shape.product].triangles += shape.mesh.triangles.size();
   }
   progress.stage("Find the walkable surface", 0.5, 0.9);
-  auto walkable = walkableSurface(result.shapes, options, progress);
-  if (!walkable) return failure(walkable.error());
-  if (walkable->cell_m > options.agent_radius_m / 10 + 1e-6)
+  TRY_ASSIGN(auto walkable, walkableSurface(result.shapes, options, progress));
+  if (walkable.cell_m > options.agent_radius_m / 10 + 1e-6)
     result.report.note(
         "walkable",
         fmt::format("computed on a grid of {:.3f} m because of the model size: narrow passages may be missing",
-                    walkable->cell_m));
+                    walkable.cell_m));
   progress.stage("Check doors", 0.9, 1);
   TRY(progress.check());
   result.doors = checkDoors(environment, result.shapes, options, result.report);
-  joinThroughDoors(environment, result.shapes, options, result.doors, *walkable, result.report);
-  if (options.doors != DoorState::closed)
-    result.rooms = checkRooms(environment, *walkable, result.doors, result.report);
-  result.walkable_area_m2 = walkable->area_m2;
-  result.walkable = std::move(walkable->mesh);
+  joinThroughDoors(environment, result.shapes, options, result.doors, walkable, result.report);
+  if (options.doors != DoorState::closed) result.rooms = checkRooms(environment, walkable, result.doors, result.report);
+  result.walkable_area_m2 = walkable.area_m2;
+  result.walkable = std::move(walkable.mesh);
   return result;
 }
 

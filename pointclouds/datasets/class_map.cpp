@@ -2,10 +2,11 @@
 #include "pointclouds/datasets/class_map.h"
 
 #include <algorithm>
-#include <fstream>
 #include <optional>
 
 #include <nlohmann/json.hpp>
+
+#include "core/json_file.h"
 
 namespace standpoint {
 namespace {
@@ -14,68 +15,61 @@ using nlohmann::json;
 
 class MapReader {
  public:
-  explicit MapReader(std::filesystem::path file) : file_(std::move(file)) {}
-  Result<ClassMap> read(const json& root);
+  explicit MapReader(std::string file) : root_{std::move(file), {}} {}
+  Result<ClassMap> read(const json& content);
 
  private:
-  tl::unexpected<Error> broken(const std::string& place, const std::string& what) const {
-    return failure(ErrorKind::unusable, what, file_.string() + " /" + place);
-  }
-  Result<std::size_t> classNamed(const json& value, const std::string& place) const;
-  Result<void> takeClasses(const json& classes);
-  Result<void> takeRules(const json& rules);
+  Result<std::size_t> classNamed(const json& value, const JsonPlace& at) const;
+  Result<void> takeClasses(const json& classes, const JsonPlace& at);
+  Result<void> takeRules(const json& rules, const JsonPlace& at);
 
-  std::filesystem::path file_;
+  JsonPlace root_;
   ClassMap map_;
 };
 
-Result<std::size_t> MapReader::classNamed(const json& value, const std::string& place) const {
-  if (!value.is_string()) return broken(place, "must be the name of a class");
+Result<std::size_t> MapReader::classNamed(const json& value, const JsonPlace& at) const {
+  if (!value.is_string()) return at.unusable("must be the name of a class");
   const auto name = value.get<std::string>();
   for (std::size_t i = 0; i < map_.classes.size(); ++i)
     if (map_.classes[i].name == name) return i;
-  return broken(place, "'" + name + "' is not one of the classes");
+  return at.unusable("'" + name + "' is not one of the classes");
 }
 
-Result<void> MapReader::takeClasses(const json& classes) {
-  if (!classes.is_object() || classes.empty()) return broken("classes", "must be an object of names and ids");
+Result<void> MapReader::takeClasses(const json& classes, const JsonPlace& at) {
+  if (!classes.is_object() || classes.empty()) return at.unusable("must be an object of names and ids");
   for (const auto& [name, id] : classes.items()) {
     if (!id.is_number_unsigned() || id.get<std::uint64_t>() > 65535)
-      return broken("classes/" + name, "must be an id from 0 to 65535");
+      return (at / name).unusable("must be an id from 0 to 65535");
     map_.classes.push_back({name, id.get<std::uint32_t>()});
   }
   std::stable_sort(map_.classes.begin(), map_.classes.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   return {};
 }
 
-Result<void> MapReader::takeRules(const json& rules) {
-  if (!rules.is_object()) return broken("ifc", "must be an object of IFC classes");
+Result<void> MapReader::takeRules(const json& rules, const JsonPlace& at) {
+  if (!rules.is_object()) return at.unusable("must be an object of IFC classes");
   for (const auto& [ifc_class, value] : rules.items()) {
-    const std::string place = "ifc/" + ifc_class;
+    const auto place = at / ifc_class;
     const bool pair = value.is_array() && value.size() == 2;
-    const auto below = classNamed(pair ? value[0] : value, place), above = classNamed(pair ? value[1] : value, place);
-    if (!below) return failure(below.error());
-    if (!above) return failure(above.error());
-    map_.rules.push_back({ifc_class, {*below, *above}});
+    TRY_ASSIGN(const auto below, classNamed(pair ? value[0] : value, place));
+    TRY_ASSIGN(const auto above, classNamed(pair ? value[1] : value, place));
+    map_.rules.push_back({ifc_class, {below, above}});
   }
   return {};
 }
 
-Result<ClassMap> MapReader::read(const json& root) {
-  if (!root.is_object()) return broken("", "a class map must be an object");
-  for (const auto& [key, value] : root.items())
-    if (key != "name" && key != "source" && key != "unknown" && key != "noise" && key != "classes" && key != "ifc")
-      return broken(key, "unknown key");
+Result<ClassMap> MapReader::read(const json& content) {
+  TRY(checkKeys(content, root_, {"name", "source", "unknown", "noise", "classes", "ifc"}));
   for (const char* key : {"name", "unknown", "noise", "classes", "ifc"})
-    if (!root.contains(key)) return broken(key, "is missing");
-  if (!root["name"].is_string()) return broken("name", "must be a text");
-  map_.name = root["name"].get<std::string>();
-  TRY(takeClasses(root["classes"]));
+    if (!content.contains(key)) return (root_ / key).unusable("is missing");
+  TRY_ASSIGN(auto name, readText(content, root_, "name"));
+  map_.name = std::move(name);
+  TRY(takeClasses(content["classes"], root_ / "classes"));
   for (const auto& [key, member] : {std::pair("unknown", &ClassMap::unknown), std::pair("noise", &ClassMap::noise)}) {
-    TRY_ASSIGN(const auto found, classNamed(root[key], key));
+    TRY_ASSIGN(const auto found, classNamed(content[key], root_ / key));
     map_.*member = found;
   }
-  TRY(takeRules(root["ifc"]));
+  TRY(takeRules(content["ifc"], root_ / "ifc"));
   return map_;
 }
 
@@ -90,13 +84,8 @@ std::array<std::size_t, 2> ClassMap::classesOf(std::string_view ifc_class) const
 }
 
 Result<ClassMap> readClassMap(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) return failure(ErrorKind::file_system, "cannot read the file", file.string());
-  try {
-    return MapReader(file).read(json::parse(in));
-  } catch (const json::exception& e) {
-    return failure(ErrorKind::unusable, e.what(), file.string());
-  }
+  TRY_ASSIGN(const auto content, readJsonFile(file));
+  return MapReader(file.filename().string()).read(content);
 }
 
 }  // namespace standpoint

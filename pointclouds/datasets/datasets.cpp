@@ -20,10 +20,9 @@ Result<Report> convertToDataset(const std::filesystem::path& in, const std::file
   if (!format || !format->read) return failure(ErrorKind::usage, "unsupported point-cloud format", in.string());
   const auto writer = set.writer(folder, std::move(map));
   TRY(static_cast<LabelledFolder&>(*writer).start());
-  auto report = format->read(in, *writer, progress);
-  if (!report) return failure(report.error());
+  TRY_ASSIGN(auto report, format->read(in, *writer, progress));
   TRY(writer->close());
-  report->append(writer->report());
+  report.append(writer->report());
   return report;
 }
 

@@ -48,15 +48,13 @@ Result<Document> openDocument(const std::filesystem::path& path) {
   TRY_ASSIGN(auto file, PagedReader::open(path));
   TRY_ASSIGN(const auto place, readHeader(file));
   std::string xml(place.length, '\0');
-  if (auto read = file.read(place.logical, {reinterpret_cast<std::uint8_t*>(xml.data()), xml.size()}); !read)
-    return failure(read.error());
+  TRY(file.read(place.logical, {reinterpret_cast<std::uint8_t*>(xml.data()), xml.size()}));
   // Some writers count the padding of the last page in.
   xml.resize(xml.find_last_not_of('\0') + 1);
-  auto root = parseXml(xml, file.name());
-  if (!root) return failure(root.error());
-  if ((*root)->name != "e57Root")
-    return failure(ErrorKind::unusable, "the XML's root is <" + (*root)->name + ">, not <e57Root>", file.name());
-  return Document{std::move(file), std::move(*root)};
+  TRY_ASSIGN(auto root, parseXml(xml, file.name()));
+  if (root->name != "e57Root")
+    return failure(ErrorKind::unusable, "the XML's root is <" + root->name + ">, not <e57Root>", file.name());
+  return Document{std::move(file), std::move(root)};
 }
 
 double real(const Element* element, double otherwise) {

@@ -47,7 +47,7 @@ Result<std::uint64_t> writeBlob(PagedWriter& out, std::span<const std::uint8_t> 
   TRY(out.append(header));
   TRY(out.append(bytes));
   constexpr std::array<std::uint8_t, 3> kZeros{};
-  if (auto written = out.append({kZeros.data(), padding}); !written) return failure(written.error());
+  TRY(out.append({kZeros.data(), padding}));
   return offset;
 }
 

@@ -16,10 +16,9 @@ Result<bool> LineReader::more() {
   from_ = 0;
   const std::size_t kept = text_.size();
   text_.resize(kept + kPiece);
-  const auto n = file_.read(at_, {reinterpret_cast<std::uint8_t*>(text_.data()) + kept, kPiece});
-  if (!n) return failure(n.error());
-  text_.resize(kept + *n);
-  at_ += *n;
+  TRY_ASSIGN(const auto n, file_.read(at_, {reinterpret_cast<std::uint8_t*>(text_.data()) + kept, kPiece}));
+  text_.resize(kept + n);
+  at_ += n;
   return *n > 0;
 }
 

@@ -27,10 +27,9 @@ template <class Take>
 Result<void> readRecordPoints(const std::filesystem::path& path, const PointRecords& records, LocalPoints& local,
                               Progress& progress, Take take) {
   constexpr std::uint64_t kMostBytes = 8 << 20;
-  auto file = InputFile::open(path);
-  if (!file) return failure(file.error());
+  TRY_ASSIGN(auto file, InputFile::open(path));
   const auto place = [&](std::uint64_t index) {
-    return file->name() + " " + records.noun + " " + std::to_string(index);
+    return file.name() + " " + records.noun + " " + std::to_string(index);
   };
   const std::uint64_t at_once = std::clamp<std::uint64_t>(kMostBytes / records.bytes, 1, kPointsAtOnce);
   std::vector<std::uint8_t> bytes;
@@ -38,7 +37,7 @@ Result<void> readRecordPoints(const std::filesystem::path& path, const PointReco
   for (std::uint64_t done = 0; done < records.count;) {
     const std::uint64_t count = std::min(at_once, records.count - done);
     bytes.resize(count * records.bytes);
-    TRY_ASSIGN(const auto n, file->read(records.at + done * records.bytes, bytes));
+    TRY_ASSIGN(const auto n, file.read(records.at + done * records.bytes, bytes));
     if (n < bytes.size()) return failure(ErrorKind::unusable, "the file was truncated while reading", place(done));
     for (std::uint64_t i = 0; i < count; ++i)
       if (auto taken = take(done + i, bytes.data() + i * records.bytes, found); !taken)

@@ -75,9 +75,8 @@ Result<void> Reading::readBinary(LocalPoints& local, Progress& progress) {
 }
 
 Result<void> Reading::readText(LocalPoints& local, Progress& progress) {
-  auto file = InputFile::open(path_);
-  if (!file) return failure(file.error());
-  LineReader lines(std::move(*file));
+  TRY_ASSIGN(auto file, InputFile::open(path_));
+  LineReader lines(std::move(file));
   TRY(readHeader(lines));
   std::vector<double> numbers;
   FoundPoints found;

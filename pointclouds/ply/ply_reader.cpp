@@ -6,7 +6,7 @@
 #include "pointclouds/files/number_line.h"
 #include "pointclouds/files/record_points.h"
 #include "pointclouds/ply/ply.h"
-#include "pointclouds/ply/ply_header.h"
+#include "pointclouds/ply/ply_cloud_header.h"
 
 namespace standpoint::ply {
 namespace {
@@ -27,7 +27,7 @@ class Reading {
 };
 
 Result<void> Reading::readBinary(LocalPoints& local, Progress& progress) {
-  const bool turned = header_.encoding == Encoding::big_endian;
+  const bool turned = header_.form == PlyForm::big_endian;
   std::vector<double> values(header_.properties.size());
   const PointRecords records{"vertex", header_.vertices_at, header_.vertices, header_.vertex_bytes};
   return readRecordPoints(
@@ -39,9 +39,8 @@ Result<void> Reading::readBinary(LocalPoints& local, Progress& progress) {
 }
 
 Result<void> Reading::readText(LocalPoints& local, Progress& progress) {
-  auto file = InputFile::open(path_);
-  if (!file) return failure(file.error());
-  LineReader lines(std::move(*file));
+  TRY_ASSIGN(auto file, InputFile::open(path_));
+  LineReader lines(std::move(file));
   TRY(readHeader(lines));
   std::vector<double> values;
   FoundPoints found;
@@ -66,10 +65,10 @@ Result<void> Reading::readText(LocalPoints& local, Progress& progress) {
 
 Result<void> Reading::run(PointSink& sink, Report& report, Progress& progress) {
   const auto single = [&](std::size_t k) {
-    return header_.encoding != Encoding::ascii && header_.properties[*header_.places.at[k]].type == PlyType::float32;
+    return header_.form != PlyForm::text && header_.properties[*header_.places.at[k]].type == PlyType::float32;
   };
   LocalPoints local(sink, scan_, !(single(0) && single(1) && single(2)));
-  const auto read = header_.encoding == Encoding::ascii ? readText(local, progress) : readBinary(local, progress);
+  const auto read = header_.form == PlyForm::text ? readText(local, progress) : readBinary(local, progress);
   if (!read) return read;
   taker_.list(path_.filename().string(), report);
   return local.finish(report);

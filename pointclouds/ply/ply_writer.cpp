@@ -7,7 +7,7 @@
 #include "pointclouds/files/raw_bytes.h"
 #include "pointclouds/files/scan_text.h"
 #include "pointclouds/ply/ply.h"
-#include "pointclouds/ply/ply_header.h"
+#include "pointclouds/ply/ply_cloud_header.h"
 
 namespace standpoint {
 

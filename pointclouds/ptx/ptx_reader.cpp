@@ -123,11 +123,10 @@ Result<Frame> Reader::readFrame(std::string_view columns_line) {
   Numbers columns;
   if (!numbersOf(columns_line, columns) || columns.count != 1)
     return broken("a PTX scan must start with its number of columns");
-  const auto rows = headerLine(1);
-  if (!rows) return failure(rows.error());
+  TRY_ASSIGN(const auto rows, headerLine(1));
   const auto side = [](double n) { return n >= 0 && n <= kLargestSide && n == std::floor(n); };
-  if (!side(columns.value[0]) || !side(rows->value[0])) return broken("columns and rows are not valid counts");
-  Frame frame{static_cast<std::uint32_t>(columns.value[0]), static_cast<std::uint32_t>(rows->value[0])};
+  if (!side(columns.value[0]) || !side(rows.value[0])) return broken("columns and rows are not valid counts");
+  Frame frame{static_cast<std::uint32_t>(columns.value[0]), static_cast<std::uint32_t>(rows.value[0])};
   if (std::uint64_t{frame.columns} * frame.rows > lines_.left() / kShortestCell)
     return broken("the file is too short for " + std::to_string(frame.columns) + " columns of " +
                   std::to_string(frame.rows) + " rows");

@@ -72,26 +72,25 @@ Result<Instrument> instrumentFor(const VerifyOptions& options, const CloudSample
 }
 
 Result<CloudSample> usableSample(const Underlay& underlay, const VerifyOptions& options, Progress& progress) {
-  auto sample = sampleCloud(underlay.file, options.points, progress);
-  if (!sample) return failure(sample.error());
-  if (sample->intensity.empty())
+  TRY_ASSIGN(auto sample, sampleCloud(underlay.file, options.points, progress));
+  if (sample.intensity.empty())
     return failure(ErrorKind::unusable,
                    "the point cloud has no intensity: export it with intensity from the scanner software",
                    underlay.name);
-  if (!(sample->max_intensity > sample->min_intensity))
+  if (!(sample.max_intensity > sample.min_intensity))
     return failure(
         ErrorKind::unusable,
         fmt::format(
             "all points have the same intensity, {}: intensity was lost during export; export the point cloud again",
-            sample->min_intensity),
+            sample.min_intensity),
         underlay.name);
   std::size_t without = 0;
-  for (auto& scan : sample->scans) {
+  for (auto& scan : sample.scans) {
     const Pose& pose = underlay.file_from_cloud;
     if (options.from && !scan.station) scan.station = pose.rotation.conjugate() * (*options.from - pose.translation);
     without += scan.station ? 0 : 1;
   }
-  if (without == sample->scans.size())
+  if (without == sample.scans.size())
     return failure(ErrorKind::unusable,
                    "the point cloud has no scanner position: import single scans with poses (E57 or PTX with grid), or "
                    "specify it with --from X,Y,Z",

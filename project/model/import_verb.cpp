@@ -238,26 +238,25 @@ Result<Outcome> importModels(const Document& document, const std::vector<std::fi
   for (std::size_t i = 0; i < files.size(); ++i) {
     progress.stage("Import " + files[i].filename().string(), static_cast<double>(i) / static_cast<double>(files.size()),
                    static_cast<double>(i + 1) / static_cast<double>(files.size()));
-    auto model = importFile(files[i], each, progress);
-    if (!model) return failure(model.error());
-    if (auto wrong = validate(model->environment); !wrong.empty())
+    TRY_ASSIGN(auto model, importFile(files[i], each, progress));
+    if (auto wrong = validate(model.environment); !wrong.empty())
       return failure(ErrorKind::internal, "internal error: the importer produced an inconsistent model: " + wrong,
                      files[i].string());
     if (files.size() > 1)
-      for (auto& issue : model->report.issues) issue.source = files[i].filename().string() + " " + issue.source;
-    outcome.report.append(model->report);
+      for (auto& issue : model.report.issues) issue.source = files[i].filename().string() + " " + issue.source;
+    outcome.report.append(model.report);
     outcome.document.sources.push_back(files[i].string());
     if (i == 0) {
-      environment = std::move(model->environment);
-      georeference = std::move(model->georeference);
+      environment = std::move(model.environment);
+      georeference = std::move(model.georeference);
       each.shift = ShiftMode::given;
       each.given_shift_m = georeference.shift_m;
       continue;
     }
-    if (model->georeference.crs != georeference.crs || !sameConversion(model->georeference, georeference))
+    if (model.georeference.crs != georeference.crs || !sameConversion(model.georeference, georeference))
       outcome.report.warn(files[i].filename().string(),
                           "georeference differs from the first file; using that of the first file");
-    appendEnvironment(environment, std::move(model->environment), model->georeference.shift_m - georeference.shift_m);
+    appendEnvironment(environment, std::move(model.environment), model.georeference.shift_m - georeference.shift_m);
   }
   const bool building = std::any_of(environment.spatial.begin(), environment.spatial.end(),
                                     [](const SpatialNode& n) { return n.ifc_class == "IfcBuilding"; });

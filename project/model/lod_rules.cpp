@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "materials/json_file.h"
+#include "core/json_file.h"
 #include "materials/materials.h"
 #include "optimizer/simplify/visibility.h"
 
@@ -43,11 +43,9 @@ Result<void> readFlag(const json& object, const JsonPlace& at, const char* key, 
 }
 
 Result<LodRule> readRule(const json& entry, const JsonPlace& at) {
-  if (auto known = checkKeys(entry, at,
-                             {"reason", "products", "smaller_than_m", "thinner_than_m", "sees_sky_less_than", "drop",
-                              "keep", "max_deviation_m", "weight"});
-      !known)
-    return failure(known.error());
+  TRY(checkKeys(entry, at,
+                {"reason", "products", "smaller_than_m", "thinner_than_m", "sees_sky_less_than", "drop", "keep",
+                 "max_deviation_m", "weight"}));
   LodRule rule;
   TRY_ASSIGN(auto reason, readText(entry, at, "reason"));
   rule.reason = std::move(reason);
@@ -69,11 +67,8 @@ Result<LodRule> readRule(const json& entry, const JsonPlace& at) {
 }
 
 Result<LodLevel> readLevel(const json& entry, const JsonPlace& at, const char* part) {
-  if (auto known = checkKeys(
-          entry, at,
-          {"part", "level", "budget", "max_deviation_m", "hidden_faces", "farther_than_m", "products", "rules"});
-      !known)
-    return failure(known.error());
+  TRY(checkKeys(entry, at,
+                {"part", "level", "budget", "max_deviation_m", "hidden_faces", "farther_than_m", "products", "rules"}));
   LodLevel level;
   for (const auto& [key, field] : {std::pair{"part", &LodLevel::part}, std::pair{"level", &LodLevel::level}}) {
     TRY_ASSIGN(auto text, readText(entry, at, key));

@@ -160,28 +160,20 @@ Result<void> saveProject(const Document& document, const fs::path& folder, Progr
   if (document.verification) project["verification"] = verificationToJson(*document.verification);
   std::set<std::string> named;
   const auto store = [&](json& at, const char* key, Result<std::string> name) -> Result<void> {
-    if (!name) return failure(name.error());
-    at[key] = *name;
-    named.insert(*name);
+    TRY_ASSIGN(auto part, std::move(name));
+    at[key] = part;
+    named.insert(std::move(part));
     return {};
   };
   const auto& g = *document.georeference;
-  if (auto ok = store(project, "products", storeJson(recordsToJson(*document.imported), geometry, "products")); !ok)
-    return ok;
-  if (auto ok = store(project, "imported", storeEnvironment(*document.imported, g, geometry, "imported", progress));
-      !ok)
-    return ok;
+  TRY(store(project, "products", storeJson(recordsToJson(*document.imported), geometry, "products")));
+  TRY(store(project, "imported", storeEnvironment(*document.imported, g, geometry, "imported", progress)));
   if (document.simplified)
-    if (auto ok = store(project["lightening"], "geometry",
-                        storeEnvironment(*document.simplified->environment, g, geometry, "light", progress));
-        !ok)
-      return ok;
+    TRY(store(project["lightening"], "geometry",
+              storeEnvironment(*document.simplified->environment, g, geometry, "light", progress)));
   if (document.collision)
-    if (auto ok =
-            store(project["collision"], "geometry",
-                  storeEnvironment(collisionEnvironment(*document.collision), g, geometry, "collision", progress));
-        !ok)
-      return ok;
+    TRY(store(project["collision"], "geometry",
+              storeEnvironment(collisionEnvironment(*document.collision), g, geometry, "collision", progress)));
 
   const auto fresh = folder / ".project.json.new";
   if (auto written = writeText(fresh, project.dump(2, ' ', false, kReplace) + "\n"); !written) {
@@ -205,17 +197,16 @@ Result<Document> loadProject(const fs::path& folder, Progress& progress) {
                        folder.string() + "`",
                    folder.string());
   progress.stage("Open " + folder.filename().string());
-  auto project = readJson(file);
-  if (!project) return failure(project.error());
+  TRY_ASSIGN(const auto project, readJson(file));
   try {
-    const int version = project->at("version").get<int>();
+    const int version = project.at("version").get<int>();
     if (version > kProjectVersion)
       return failure(ErrorKind::unusable,
                      fmt::format("the project was created by a newer version of Standpoint (project version {}, "
                                  "supported: {}); update Standpoint",
                                  version, kProjectVersion),
                      file.string() + " /version");
-    auto document = fromJson(*project, folder, progress);
+    auto document = fromJson(project, folder, progress);
     if (!document) return document;
     document->name = fs::absolute(folder).filename().string();
     if (auto wrong = inconsistency(*document); !wrong.empty())

@@ -23,8 +23,7 @@ Result<std::filesystem::path> projectFolder(const Verb& verb, const json& option
 }
 
 Result<Outcome> runOnProject(const Verb& verb, const json& options, Progress& progress) {
-  auto folder = projectFolder(verb, options);
-  if (!folder) return failure(folder.error());
+  TRY_ASSIGN(auto folder, projectFolder(verb, options));
   json own = options;
   own.erase("project");
   // A wrong option is said before minutes are spent on reading.
@@ -34,20 +33,20 @@ Result<Outcome> runOnProject(const Verb& verb, const json& options, Progress& pr
   if (update && options.value("replace", false))
     return failure(ErrorKind::usage, "--update and --replace cannot be combined", "--update");
   const bool creates = verb.scope == VerbScope::creates && !update;
-  if (creates && std::filesystem::exists(*folder, ignored) && !std::filesystem::is_empty(*folder, ignored) &&
+  if (creates && std::filesystem::exists(folder, ignored) && !std::filesystem::is_empty(folder, ignored) &&
       !options.value("replace", false))
     return failure(ErrorKind::usage, "the folder is not empty; choose another folder, or use --replace",
-                   folder->string());
+                   folder.string());
   Document document;
   if (!creates) {
-    TRY_ASSIGN(auto loaded, loadProject(*folder, progress));
+    TRY_ASSIGN(auto loaded, loadProject(folder, progress));
     document = std::move(loaded);
   }
   auto outcome = runVerb(verb, document, own, progress);
   if (!outcome) return outcome;
-  if (creates) outcome->document.name = std::filesystem::absolute(*folder).filename().string();
+  if (creates) outcome->document.name = std::filesystem::absolute(folder).filename().string();
   if (verb.scope != VerbScope::reads && outcome->document != document)
-    TRY(saveProject(outcome->document, *folder, progress));
+    TRY(saveProject(outcome->document, folder, progress));
   return outcome;
 }
 

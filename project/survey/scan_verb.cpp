@@ -279,7 +279,7 @@ class ScanRun {
     if (!isBatch()) return count;
     std::error_code code;
     const std::uint64_t bytes = tape ? tape->size() : fs::file_size(file, code);
-    if (auto ok = parts_.record(station.name, guid, {*count, bytes}); !ok) return failure(ok.error());
+    TRY(parts_.record(station.name, guid, {*count, bytes}));
     return count;
   }
 

@@ -33,15 +33,14 @@ Result<Setup> setupFrom(const StationOptions& options) {
   TRY_ASSIGN(auto stand, readTripodStand(tripodStandFile()));
   setup.stand = stand;
   if (!options.instrument.empty()) {
-    const auto instrument = instrumentById(options.instrument);
-    if (!instrument) return failure(instrument.error());
-    if (instrument->moving)
+    TRY_ASSIGN(const auto instrument, instrumentById(options.instrument));
+    if (instrument.moving)
       return failure(
           ErrorKind::usage,
-          fmt::format("the {} {} is carried and cannot be placed on a tripod", instrument->maker, instrument->model),
+          fmt::format("the {} {} is carried and cannot be placed on a tripod", instrument.maker, instrument.model),
           "--instrument");
-    setup.trunnion_m = instrument->trunnion_height_m;
-    setup.height_m = instrument->tripod_height_m;
+    setup.trunnion_m = instrument.trunnion_height_m;
+    setup.height_m = instrument.tripod_height_m;
   }
   setup.height_m = options.height_m.value_or(setup.height_m);
   setup.free = options.stand == StationStand::free;
@@ -236,20 +235,18 @@ Result<Outcome> runStation(const Document& document, const StationOptions& optio
                      fmt::format("invalid station name '{}': commas and slashes are not allowed", name));
     if (find(job, name) != job.stations.end())
       return failure(ErrorKind::usage, fmt::format("station '{}' already exists; use --move, or another name", name));
-    auto station = place(document, name, options, nullptr, outcome.report, progress);
-    if (!station) return failure(station.error());
-    outcome.answer["placed"] = stationRow(*station, g);
+    TRY_ASSIGN(auto station, place(document, name, options, nullptr, outcome.report, progress));
+    outcome.answer["placed"] = stationRow(station, g);
     outcome.description = "Added station " + name;
-    job.stations.push_back(*std::move(station));
+    job.stations.push_back(std::move(station));
   } else if (options.move) {
     const auto& name = *options.move;
     const auto at = find(job, name);
     if (at == job.stations.end()) return noStation(job, name);
-    auto station = place(document, name, options, &*at, outcome.report, progress);
-    if (!station) return failure(station.error());
-    const double distance = (station->true_pose.translation - at->true_pose.translation).norm();
-    station->scans = at->scans;
-    *at = *std::move(station);
+    TRY_ASSIGN(auto station, place(document, name, options, &*at, outcome.report, progress));
+    const double distance = (station.true_pose.translation - at->true_pose.translation).norm();
+    station.scans = at->scans;
+    *at = std::move(station);
     outcome.answer["placed"] = stationRow(*at, g);
     outcome.description = fmt::format("Moved station {} by {:.2f} m", name, distance);
   } else if (options.remove) {

@@ -149,10 +149,9 @@ Result<Outcome> runTarget(const Document& document, const TargetOptions& options
     return std::find_if(job.targets.begin(), job.targets.end(), [&](const Target& t) { return t.name == wanted; });
   };
   if (options.add) {
-    auto target = addedTarget(document, options, outcome, progress);
-    if (!target) return failure(target.error());
-    outcome.description = "Added target " + target->name;
-    job.targets.push_back(*std::move(target));
+    TRY_ASSIGN(auto target, addedTarget(document, options, outcome, progress));
+    outcome.description = "Added target " + target.name;
+    job.targets.push_back(std::move(target));
   } else if (options.remove) {
     const auto at = find(*options.remove);
     if (at == job.targets.end()) return failure(ErrorKind::usage, fmt::format("unknown target '{}'", *options.remove));

@@ -112,13 +112,12 @@ Result<void> exportGltf(const Document& document, Environment& scene, const fs::
                         const ExportOptions& options, Outcome& outcome, Progress& progress) {
   GltfCompanions companions;
   TRY_ASSIGN(const auto budgets, budgetsOf(options.levels, triangleCount(scene)));
-  auto levels = makeLevels(document, budgets, outcome.report, progress);
-  if (!levels) return failure(levels.error());
-  companions.levels = std::move(levels->levels);
+  TRY_ASSIGN(auto levels, makeLevels(document, budgets, outcome.report, progress));
+  companions.levels = std::move(levels.levels);
   std::vector<Environment*> all = {&scene};
-  for (const auto& environment : levels->environments) all.push_back(environment.get());
+  for (const auto& environment : levels.environments) all.push_back(environment.get());
   companions.physical = physicalSurfaces(document, all, LooksOfSplit::kept);
-  if (!levels->answer.empty()) outcome.answer["levels"] = std::move(levels->answer);
+  if (!levels.answer.empty()) outcome.answer["levels"] = std::move(levels.answer);
   Environment shapes;
   if (options.collision) {
     if (!document.collision)

@@ -2,11 +2,11 @@
 #include "project/verbs/file_verbs.h"
 
 #include <algorithm>
-#include <fstream>
 
 #include <fmt/format.h>
 
 #include "core/data_folder.h"
+#include "core/json_file.h"
 #include "core/output_place.h"
 #include "importers/importers.h"
 #include "pointclouds/datasets/datasets.h"
@@ -127,10 +127,9 @@ Result<Outcome> runConvert(const Document& document, const ConvertOptions& optio
   Outcome outcome{document, json::object(), {}, {}};
   if (!options.dataset.empty()) return convertTo(options, std::move(outcome), progress);
   TRY(checkFolderOf(options.out, "OUT"));
-  auto files = convertCloud(in, options.out, options.as, outcome.report, progress);
-  if (!files) return failure(files.error());
+  TRY_ASSIGN(auto files, convertCloud(in, options.out, options.as, outcome.report, progress));
   json names = json::array();
-  for (const auto& f : *files) names.push_back(f.string());
+  for (const auto& f : files) names.push_back(f.string());
   outcome.answer["files"] = std::move(names);
   outcome.description = "Converted " + in.filename().string();
   return outcome;
@@ -186,31 +185,23 @@ const Fields<JobOptions>& jobFields() {
 
 Result<Outcome> runJob(const Document& document, const JobOptions& options, Progress& progress) {
   const fs::path& file = options.job;
-  std::ifstream in(file);
-  if (!in) return failure(ErrorKind::file_system, "cannot read the file", file.string());
-  json steps;
-  try {
-    steps = json::parse(in);
-  } catch (const json::exception& e) {  // also a number beyond double
-    return failure(ErrorKind::unusable, e.what(), file.string());
-  }
-  if (!steps.is_array()) return failure(ErrorKind::unusable, "a job must be a list of {\"verb\": …}", file.string());
+  TRY_ASSIGN(const auto steps, readJsonArray(file));
+  const JsonPlace root{file.filename().string(), {}};
   Outcome outcome{document, json::object(), {}, {}};
   json answers = json::array();
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    const auto place = fmt::format("{} /{}", file.string(), i);
-    if (!steps[i].is_object() || !steps[i].contains("verb") || !steps[i]["verb"].is_string())
-      return failure(ErrorKind::unusable, "a step must be an object with a \"verb", place);
-    const auto verb_name = steps[i]["verb"].get<std::string>();
+    const auto place = root / i;
+    if (!steps[i].is_object()) return place.unusable("must be an object with a \"verb\"");
+    TRY_ASSIGN(const auto verb_name, readText(steps[i], place, "verb"));
     const Verb* verb = findVerb(verbs(), verb_name);
     if (verb == nullptr || verb_name == "run")
-      return failure(ErrorKind::unusable, fmt::format("unknown job verb '{}'", verb_name), place);
+      return (place / "verb").unusable(fmt::format("unknown job verb '{}'", verb_name));
     json step = steps[i];
     step.erase("verb");
     auto done = runOnDisk(*verb, step, progress);
     if (!done) {
       Error error = done.error();
-      error.source = place + (error.source.empty() ? "" : " " + error.source);
+      error.source = place.file + " " + place.pointer + (error.source.empty() ? "" : " " + error.source);
       return failure(error);
     }
     for (auto issue : done->report.issues) {

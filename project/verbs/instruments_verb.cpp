@@ -49,10 +49,9 @@ Result<Outcome> runInstruments(const Document& document, const InstrumentsOption
   if (id.empty() != new_id.empty())
     return failure(ErrorKind::usage, "--copy ID and --as NEW must be used together", id.empty() ? "--copy" : "--as");
   if (!id.empty()) {
-    auto file = copyInstrument(id, new_id);
-    if (!file) return failure(file.error());
-    outcome.answer["copied"] = {{"id", new_id}, {"from", id}, {"file", file->string()}};
-    outcome.description = fmt::format("Copied {} to {}", id, file->string());
+    TRY_ASSIGN(auto file, copyInstrument(id, new_id));
+    outcome.answer["copied"] = {{"id", new_id}, {"from", id}, {"file", file.string()}};
+    outcome.description = fmt::format("Copied {} to {}", id, file.string());
   }
   TRY_ASSIGN(const auto known, instrumentsWithFiles());
   outcome.answer["own_folder"] = ownInstrumentsFolder().string();

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 
 #include <nlohmann/json.hpp>
 
+#include "core/json_file.h"
 #include "core/units.h"
 #include "scanners/instruments/figure_reader.h"
 #include "scanners/instruments/instrument.h"
@@ -363,22 +362,12 @@ class InstrumentReader : FigureReader {
 }  // namespace
 
 Result<Instrument> readInstrument(const std::filesystem::path& file) {
+  TRY_ASSIGN(const auto document, readJsonFile(file, kLargestFile));
   const std::string name = file.filename().string();
-  std::error_code code;
-  const auto size = std::filesystem::file_size(file, code);
-  std::ifstream stream(file, std::ios::binary);
-  if (code || !stream) return failure(ErrorKind::file_system, "cannot be read", file.string());
-  if (size > kLargestFile) return failure(ErrorKind::unusable, "exceeds the limit for instrument files (1 MiB)", name);
-  const std::string content{std::istreambuf_iterator<char>(stream), {}};
-  try {
-    const Json document = Json::parse(content);
-    auto instrument = InstrumentReader(name, document).read();
-    if (instrument && instrument->id != file.stem().string())
-      return failure(ErrorKind::unusable, "must match the file name, " + file.stem().string() + "\"", name + " /id");
-    return instrument;
-  } catch (const Json::exception& exception) {
-    return failure(ErrorKind::unusable, exception.what(), name);
-  }
+  TRY_ASSIGN(auto instrument, InstrumentReader(name, document).read());
+  if (instrument.id != file.stem().string())
+    return JsonPlace{name, "/id"}.unusable("must match the file name, \"" + file.stem().string() + "\"");
+  return instrument;
 }
 
 Result<std::vector<Instrument>> readInstruments(const std::filesystem::path& folder) {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scanners/instruments/stand.h"
 
-#include <fstream>
-#include <iterator>
 #include <numbers>
 
+#include "core/json_file.h"
 #include "core/units.h"
 #include "scanners/instruments/figure_reader.h"
 
@@ -43,11 +42,7 @@ class StandReader : FigureReader {
 }  // namespace
 
 Result<TripodStand> readTripodStand(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return failure(ErrorKind::file_system, "cannot be read", file.string());
-  const std::string content{std::istreambuf_iterator<char>(stream), {}};
-  const auto document = nlohmann::json::parse(content, nullptr, false);
-  if (document.is_discarded()) return failure(ErrorKind::unusable, "is not JSON", file.string());
+  TRY_ASSIGN(const auto document, readJsonFile(file, kLargestFile));
   return StandReader(file.filename().string()).read(document);
 }
 

@@ -2,10 +2,9 @@
 #include "scanners/instruments/target_kinds.h"
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 
+#include "core/json_file.h"
 #include "core/units.h"
 #include "scanners/instruments/figure_reader.h"
 
@@ -60,14 +59,7 @@ double crossSection(const Target& target) {
 }  // namespace
 
 Result<TargetKinds> readTargetKinds(const std::filesystem::path& file) {
-  std::error_code code;
-  const auto size = std::filesystem::file_size(file, code);
-  if (code) return failure(ErrorKind::file_system, "cannot be read: " + code.message(), file.string());
-  if (size > kLargestFile) return failure(ErrorKind::unusable, "file is too large for a target list", file.string());
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (json.is_discarded()) return failure(ErrorKind::unusable, "is not JSON", file.string());
+  TRY_ASSIGN(const auto json, readJsonFile(file, kLargestFile));
   FigureReader in(file.filename().string());
   TargetKinds kinds = readKinds(in, json);
   if (in.error()) return failure(*in.error());

@@ -177,10 +177,11 @@ Result<TargetRegistration> registerByTargets(const Job& job, const TargetMeasure
     return failure(ErrorKind::usage,
                    fmt::format("none of the files contains station {}", job.stations[request.held].name), "--fix");
   Numbering numbering(job, measured, r);
-  if (request.matching == TargetMatching::by_names)
+  if (request.matching == TargetMatching::by_names) {
     numbering.byNames(all, request, report);
-  else if (auto ok = numbering.byGeometry(all, request); !ok)
-    return failure(ok.error());
+  } else {
+    TRY(numbering.byGeometry(all, request));
+  }
   r.network.stations = all.size();
   r.network.targets = r.target_names.size();
   NetworkProblem problem;

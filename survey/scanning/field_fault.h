@@ -24,7 +24,8 @@ struct FieldFault {
   }
 };
 
-// "until=0.5", "noise=2", "push=0.4", "walk=0.5", "stand=0.5"; what is not so, or out of bounds, is an error.
+// "until=0.5", "noise=2", "tripod_moved=0.4", "passer_by=0.5", "operator_in_view=0.5"; what is not so, or out of
+// bounds, is an error.
 Result<FieldFault> fieldFaultFrom(const std::vector<std::string>& pairs);
 std::vector<std::string> pairsOf(const FieldFault& fault);
 

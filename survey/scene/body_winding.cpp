@@ -2,9 +2,8 @@
 #include "survey/scene/body_winding.h"
 
 #include <cmath>
-#include <numbers>
 
-#include "core/solid_angle.h"
+#include "core/winding_number.h"
 
 namespace standpoint {
 
@@ -12,24 +11,23 @@ namespace {
 
 constexpr double kInside = 0.95;  // of the winding: a body that is closed, but for rounding and hair gaps
 
-}  // namespace
-
+// Of the surfaces of one product together.
 double windingOf(const Environment& environment, const std::vector<std::uint32_t>& instances,
                  const Eigen::Vector3d& place) {
   double sum = 0;
   for (const auto i : instances) {
     const auto& instance = environment.instances[i];
     const auto& mesh = *environment.meshes[instance.mesh];
-    std::vector<Eigen::Vector3d> around;  // the corners, seen from the place
-    around.reserve(mesh.positions.size());
-    for (const auto& p : mesh.positions) around.emplace_back(instance.world_from_mesh * p.cast<double>() - place);
-    double angle = 0;
-    for (const auto& t : mesh.triangles) angle += solidAngle(around[t[0]], around[t[1]], around[t[2]]);
-    sum +=
-        instance.world_from_mesh.linear().determinant() < 0 ? -angle : angle;  // a mirrored mesh is turned inside out
+    std::vector<Eigen::Vector3d> positions;
+    positions.reserve(mesh.positions.size());
+    for (const auto& p : mesh.positions) positions.emplace_back(instance.world_from_mesh * p.cast<double>());
+    const double winding = windingNumber(positions, mesh.triangles, place);
+    sum += instance.world_from_mesh.linear().determinant() < 0 ? -winding : winding;  // mirrored: turned inside out
   }
-  return sum / (4 * std::numbers::pi);
+  return sum;
 }
+
+}  // namespace
 
 std::vector<Bounds> instanceBounds(const Environment& environment) {
   std::vector<Bounds> all(environment.instances.size());

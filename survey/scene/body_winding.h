@@ -9,12 +9,6 @@
 
 namespace standpoint {
 
-// How often the surfaces of a product go round a point: 1 inside a closed body whose faces look outwards, -1 where they
-// look inwards, 0 outside, and some share where the surface has holes. The sum of the solid angles of all triangles, so
-// it needs no lucky direction.
-double windingOf(const Environment& environment, const std::vector<std::uint32_t>& instances,
-                 const Eigen::Vector3d& place);
-
 // Of each instance; empty for what is not in the scene.
 std::vector<Bounds> instanceBounds(const Environment& environment);
 

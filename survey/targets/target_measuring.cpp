@@ -75,19 +75,18 @@ class NearSink final : public PointSink {
   NearSink(const Job& job, const MeasuringRequest& request, const fs::path& file, std::vector<StationPoints>& all)
       : job_(job), request_(request), file_(file), all_(all), stations_(job, file) {}
   Result<void> begin(const ScanHeader& header) override {
-    auto station = stations_.next(header);
-    if (!station) return failure(station.error());
+    TRY_ASSIGN(auto station, stations_.next(header));
     for (const auto& s : all_)
-      if (s.scan.station == *station)
+      if (s.scan.station == station)
         return failure(ErrorKind::usage,
                        fmt::format("station {} is also in {}: specify one scan per station",
-                                   job_.stations[*station].name, s.scan.file),
+                                   job_.stations[station].name, s.scan.file),
                        file_.string());
     StationPoints points;
-    points.scan = {*station, file_.string(), header.intensity_max > header.intensity_min, {}};
+    points.scan = {station, file_.string(), header.intensity_max > header.intensity_min, {}};
     for (std::size_t t = 0; request_.targets && t < job_.targets.size(); ++t)
       points.near.push_back(
-          {t, clicked(job_.stations[*station], job_.targets[t], t, request_), kSearch_m + job_.targets[t].size_m});
+          {t, clicked(job_.stations[station], job_.targets[t], t, request_), kSearch_m + job_.targets[t].size_m});
     all_.push_back(std::move(points));
     return {};
   }

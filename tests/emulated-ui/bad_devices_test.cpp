@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "core/data_folder.h"
+#include "core/json_file.h"
 #include "emulated-ui/device/check.h"
 #include "emulated-ui/menus.h"
-#include "materials/json_file.h"
 #include "tests/project/support.h"
 
 namespace standpoint {

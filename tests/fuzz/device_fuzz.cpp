@@ -2,9 +2,9 @@
 #include <fuzzer/FuzzedDataProvider.h>
 
 #include "core/data_folder.h"
+#include "core/json_file.h"
 #include "emulated-ui/device/check.h"
 #include "emulated-ui/menus.h"
-#include "materials/json_file.h"
 #include "project/verb.h"
 #include "tests/fuzz/fuzz_file.h"
 

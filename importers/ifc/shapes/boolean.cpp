@@ -147,13 +147,12 @@ Result<geometry::PolyMesh> withBoundedHalfSpace(const geometry::PolyMesh& host, 
 
 Result<geometry::PolyMesh> withHalfSpace(const geometry::PolyMesh& host, std::string_view operation,
                                          const Entity& entity, Scope& scope) {
-  const auto half = halfSpace(entity, scope);
-  if (!half) return failure(half.error());
+  TRY_ASSIGN(const auto half, halfSpace(entity, scope));
   if (operation == "UNION") return fail(entity, "the union with an unbounded half-space is unbounded");
   const bool keep_inside = operation == "INTERSECTION";
   if (entity.is("IFCPOLYGONALBOUNDEDHALFSPACE") && !host.faces.empty())
-    return withBoundedHalfSpace(host, keep_inside, entity, *half, scope);
-  return keep_inside ? clipSnapped(host, half->normal, half->offset) : clipSnapped(host, -half->normal, -half->offset);
+    return withBoundedHalfSpace(host, keep_inside, entity, half, scope);
+  return keep_inside ? clipSnapped(host, half.normal, half.offset) : clipSnapped(host, -half.normal, -half.offset);
 }
 
 struct Step {

@@ -68,12 +68,10 @@ Result<void> appendOutside(geometry::PolyMesh& kept, const geometry::PolyMesh& h
   for (const auto& hole : face.holes) copy(hole, own.holes.emplace_back());
   rest.faces.push_back(std::move(own));
   for (const CutPlane& plane : planes) {
-    const auto outside = geometry::clip(rest, -plane.normal, -plane.offset);
-    auto inside = geometry::clip(rest, plane.normal, plane.offset);
-    if (!outside) return failure(outside.error());
-    if (!inside) return failure(inside.error());
-    geometry::append(kept, *outside);
-    rest = std::move(*inside);
+    TRY_ASSIGN(const auto outside, geometry::clip(rest, -plane.normal, -plane.offset));
+    TRY_ASSIGN(auto inside, geometry::clip(rest, plane.normal, plane.offset));
+    geometry::append(kept, outside);
+    rest = std::move(inside);
     if (rest.faces.empty()) break;
   }
   return {};

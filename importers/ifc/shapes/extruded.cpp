@@ -18,15 +18,14 @@ Result<geometry::PolyMesh> extrudedAreaSolid(const Entity& entity, Scope& scope)
 }
 
 Result<geometry::PolyMesh> extrudedAreaSolidTapered(const Entity& entity, Scope& scope) {
-  const auto from = profile(entity.ref(0), scope), to = profile(entity.ref(4), scope);
-  if (!from) return failure(from.error());
-  if (!to) return failure(to.error());
+  TRY_ASSIGN(const auto from, profile(entity.ref(0), scope));
+  TRY_ASSIGN(const auto to, profile(entity.ref(4), scope));
   const double depth = scope.metres(entity[3].number(0));
   if (!(depth > 0)) return fail(entity, "the depth of the extrusion is not positive");
   const Eigen::Vector3d along = direction(entity.ref(2), Eigen::Vector3d::UnitZ());
   geometry::PolyMesh mesh;
-  for (std::size_t i = 0; i < std::min(from->size(), to->size()); ++i) {
-    const auto &a = (*from)[i], &b = (*to)[i];
+  for (std::size_t i = 0; i < std::min(from.size(), to.size()); ++i) {
+    const auto &a = from[i], &b = to[i];
     bool alike = a.outer.size() == b.outer.size() && a.holes.size() == b.holes.size();
     for (std::size_t h = 0; alike && h < a.holes.size(); ++h) alike = a.holes[h].size() == b.holes[h].size();
     if (!alike) return fail(entity, "the profiles at both ends have different numbers of points");

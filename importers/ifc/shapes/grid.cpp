@@ -48,15 +48,14 @@ Result<Eigen::Vector3d> crossing(const Entity& intersection, Scope& scope) {
   const Value list = intersection[1];
   for (const Value v : list)
     if (i < 3) offsets[i++] = scope.metres(v.number(0));
-  const auto a = axisLine(axes[0], offsets[0], scope), b = axisLine(axes[1], offsets[1], scope);
-  if (!a) return failure(a.error());
-  if (!b) return failure(b.error());
+  TRY_ASSIGN(const auto a, axisLine(axes[0], offsets[0], scope));
+  TRY_ASSIGN(const auto b, axisLine(axes[1], offsets[1], scope));
   std::optional<Eigen::Vector3d> best;
   double best_outside = 1e300;
-  for (std::size_t k = 1; k < a->size(); ++k)
-    for (std::size_t l = 1; l < b->size(); ++l) {
+  for (std::size_t k = 1; k < a.size(); ++k)
+    for (std::size_t l = 1; l < b.size(); ++l) {
       double outside = 0;
-      const auto p = meet((*a)[k - 1], (*a)[k], (*b)[l - 1], (*b)[l], outside);
+      const auto p = meet(a[k - 1], a[k], b[l - 1], b[l], outside);
       if (p && outside < best_outside) best = Eigen::Vector3d(p->x(), p->y(), offsets[2]), best_outside = outside;
     }
   if (!best) return fail(intersection, "the grid axes do not intersect");

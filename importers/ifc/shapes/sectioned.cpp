@@ -85,9 +85,8 @@ struct Sections {
 };
 
 Result<Sections> sectionsOf(const Entity& entity, std::size_t profiles, std::size_t positions, Scope& scope) {
-  auto directrix = curve(entity.ref(0), scope);
-  if (!directrix) return failure(directrix.error());
-  Sections found{std::move(*directrix), entity.refs(profiles), {}};
+  TRY_ASSIGN(auto directrix, curve(entity.ref(0), scope));
+  Sections found{std::move(directrix), entity.refs(profiles), {}};
   for (const Entity& p : entity.refs(positions)) found.positions.push_back(positionOf(p, scope));
   if (found.positions.size() != found.profiles.size() || found.positions.size() < 2)
     return fail(entity, "cross sections and their positions do not match");
@@ -184,13 +183,11 @@ void joinRows(geometry::PolyMesh& mesh, std::size_t first, std::size_t count) {
 
 Result<geometry::PolyMesh> surfaceAlong(const Entity& entity, const Sections& s, Scope& scope) {
   geometry::PolyMesh mesh;
-  auto before = chainOf(s.profiles[0], scope);
+  TRY_ASSIGN(auto before, chainOf(s.profiles[0], scope));
   for (std::size_t i = 1; i < s.profiles.size(); ++i) {
-    auto next = chainOf(s.profiles[i], scope);
-    if (!before) return failure(before.error());
-    if (!next) return failure(next.error());
-    if (before->points.size() < 2 || next->points.size() < 2) return fail(entity, "a cross section has no length");
-    const auto [from, to] = paired(*before, *next);
+    TRY_ASSIGN(auto next, chainOf(s.profiles[i], scope));
+    if (before.points.size() < 2 || next.points.size() < 2) return fail(entity, "a cross section has no length");
+    const auto [from, to] = paired(before, next);
     const Position &a = s.positions[i - 1], &b = s.positions[i];
     if (!(b.at.along > a.at.along)) return fail(entity, "the positions of the cross sections are not in order");
     std::vector<double> fractions = fractionsAfter(s.directrix, a, b);

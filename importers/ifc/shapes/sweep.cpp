@@ -88,13 +88,12 @@ Result<geometry::PolyMesh> sweptDiskSolid(const Entity& entity, Scope& scope) {
   double inner = scope.metres(entity[2].number(0));
   if (!(radius > 0)) return fail(entity, "the radius of the disk is missing or not positive");
   if (!(inner > 0 && inner < radius)) inner = 0;
-  auto path = trimmedDirectrix(entity.ref(0), entity[3], entity[4], scope);
-  if (!path) return failure(path.error());
+  TRY_ASSIGN(auto path, trimmedDirectrix(entity.ref(0), entity[3], entity[4], scope));
   if (entity.is("IFCSWEPTDISKSOLIDPOLYGONAL") && entity[5].number(0) > 0)
-    *path = filleted(*path, scope.metres(entity[5].number(0)), scope);
-  if (!scope.spend(path->points.size() * 16)) return fail(entity, "too many points");
-  return geometry::sweepDisk(path->points, path->closed, radius, inner, scope.tessellation,
-                             {path->start_tangent, path->end_tangent});
+    path = filleted(path, scope.metres(entity[5].number(0)), scope);
+  if (!scope.spend(path.points.size() * 16)) return fail(entity, "too many points");
+  return geometry::sweepDisk(path.points, path.closed, radius, inner, scope.tessellation,
+                             {path.start_tangent, path.end_tangent});
 }
 
 namespace {
@@ -177,10 +176,9 @@ Result<geometry::PolyMesh> sectionedSpine(const Entity& entity, Scope& scope) {
 
 // The profile turns into the other one on its way around the axis.
 Result<geometry::PolyMesh> revolvedAreaSolidTapered(const Entity& entity, Scope& scope) {
-  const auto from = profile(entity.ref(0), scope), to = profile(entity.ref(4), scope);
-  if (!from) return failure(from.error());
-  if (!to) return failure(to.error());
-  const geometry::Region2 &start = from->front(), &end = to->front();
+  TRY_ASSIGN(const auto from, profile(entity.ref(0), scope));
+  TRY_ASSIGN(const auto to, profile(entity.ref(4), scope));
+  const geometry::Region2 &start = from.front(), &end = to.front();
   if (!alike(start, end)) return fail(entity, "the profiles at both ends have different numbers of points");
   const double angle =
       std::clamp(entity[3].number(0) * scope.model.units.angle_rad, -2 * std::numbers::pi, 2 * std::numbers::pi);

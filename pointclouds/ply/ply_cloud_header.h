@@ -7,14 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "core/ply_number.h"
+#include "core/ply_header.h"
 #include "core/points.h"
 #include "pointclouds/files/line_reader.h"
 #include "pointclouds/files/point_fields.h"
 
 namespace standpoint::ply {
-
-enum class Encoding { ascii, little_endian, big_endian };
 
 struct Property {
   std::string name;
@@ -23,7 +21,7 @@ struct Property {
 };
 
 struct Header {
-  Encoding encoding = Encoding::ascii;
+  PlyForm form = PlyForm::text;
   std::uint64_t skipped_lines = 0;  // of elements before the vertices, ASCII
   std::uint64_t vertices_at = 0;    // byte of the first vertex, binary
   std::uint64_t vertices = 0;       // the file has room for as many

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "materials/json_file.h"
+#include "core/json_file.h"
 
 #include <algorithm>
 #include <fstream>
@@ -10,7 +10,6 @@ namespace standpoint {
 
 namespace {
 
-constexpr std::uintmax_t kLargestFile = 16U << 20U;  // the whole library shipped is 0.1 MB
 constexpr int kDeepest = 32;
 
 // nlohmann-json keeps the last of two equal keys; a figure given twice must not vanish, so keys are watched while
@@ -59,8 +58,8 @@ Result<std::string> readWholeFile(const std::filesystem::path& file, std::uintma
   return text;
 }
 
-Result<nlohmann::json> readJsonFile(const std::filesystem::path& file) {
-  TRY_ASSIGN(const auto text, readWholeFile(file, kLargestFile));
+Result<nlohmann::json> readJsonFile(const std::filesystem::path& file, std::uintmax_t max_bytes) {
+  TRY_ASSIGN(const auto text, readWholeFile(file, max_bytes));
   return parseJson(text, file.filename().string());
 }
 

@@ -24,10 +24,11 @@ struct JsonPlace {
 };
 
 Result<std::string> readWholeFile(const std::filesystem::path& file, std::uintmax_t max_bytes);
+constexpr std::uintmax_t kLargestJsonFile = 16U << 20U;  // of what people write: the library of materials is 0.1 MB
 
-// The whole file. One that is too large or nests too deeply, syntax errors and a key given twice are errors with their
-// place.
-Result<nlohmann::json> readJsonFile(const std::filesystem::path& file);
+// Files that people write. One that is too large or nests too deeply, syntax errors and a key given twice are errors
+// with their place.
+Result<nlohmann::json> readJsonFile(const std::filesystem::path& file, std::uintmax_t max_bytes = kLargestJsonFile);
 Result<nlohmann::json> readJsonArray(const std::filesystem::path& file);
 Result<nlohmann::json> parseJson(const std::string& text, const std::string& file_name);
 
