@@ -72,7 +72,7 @@ const PhaseRow& phaseFor(const DeviceDefinition& d, const std::string& screen) {
   const PhaseRow *own = nullptr, *rest = nullptr;
   for (const auto& p : d.phases) {
     if (p.on && p.screen == screen && (own == nullptr || (p.laser && !own->laser))) own = &p;
-    if (p.on && p.lamp.starts_with("green") && (p.lasts.empty() || p.waits)) rest = &p;
+    if (p.on && p.lamp.starts_with("green") && (!p.ends() || p.waits)) rest = &p;
   }
   if (own == nullptr && rest == nullptr) return d.phases.at(1);
   return own != nullptr ? *own : *rest;

@@ -2,17 +2,10 @@
 #include "emulated-ui/menus.h"
 
 #include <algorithm>
-#include <array>
+#include <map>
 
 #include "core/data_folder.h"
 #include "emulated-ui/device/check.h"
-#include "emulated-ui/faro/focus.h"
-#include "emulated-ui/generic/generic.h"
-#include "emulated-ui/leica/blk360.h"
-#include "emulated-ui/leica/p_series.h"
-#include "emulated-ui/leica/rtc360.h"
-#include "emulated-ui/riegl/vz_i.h"
-#include "emulated-ui/trimble/x7.h"
 #include "project/verb.h"
 #include "survey/instruments.h"
 
@@ -20,30 +13,41 @@ namespace standpoint {
 
 namespace {
 
-constexpr std::array kDevices = {
-    EmulatedDevice{"leica-rtc360", "Leica RTC360", rtc360Program},
-    EmulatedDevice{"leica-blk360", "Leica BLK360", blk360Program},
-    EmulatedDevice{"leica-p-series", "Leica ScanStation P-series", pSeriesProgram},
-    EmulatedDevice{"faro-focus", "FARO Focus", focusProgram},
-    EmulatedDevice{"trimble-x7", "Trimble X7 / X9", x7Program},
-    EmulatedDevice{"riegl-vz-i", "RIEGL VZ-i", vzIProgram},
-    EmulatedDevice{"generic", "Any laser scanner", genericProgram},  // last: for scanners that no other drives
-};
+Result<DeviceDefinition> definitionOf(const EmulatedDevice& device) {
+  const auto file = device.folder() / "device.json";
+  TRY_ASSIGN(auto definition, readDefinition(file));
+  if (definition.id != device.id)
+    return failure(ErrorKind::unusable, std::string("must be '") + device.id + "', as its folder",
+                   std::string(device.id) + "/device.json /id");
+  return definition;
+}
 
 }  // namespace
 
-std::span<const EmulatedDevice> emulatedDevices() { return kDevices; }
+const std::string& EmulatedDevice::title() const {
+  static const auto titles = [] {
+    std::map<std::string, std::string> all;
+    for (const auto& device : emulatedDevices()) {
+      const auto definition = definitionOf(device);
+      all[device.id] = definition ? definition->title : device.id;
+    }
+    return all;
+  }();
+  return titles.at(id);
+}
+
+std::filesystem::path EmulatedDevice::folder() const { return dataFolder() / "emulated-ui" / "devices" / id; }
 
 const EmulatedDevice* findDevice(const std::string& id) {
-  const auto found =
-      std::find_if(kDevices.begin(), kDevices.end(), [&](const EmulatedDevice& d) { return id == d.id; });
-  return found == kDevices.end() ? nullptr : &*found;
+  const auto devices = emulatedDevices();
+  const auto found = std::find_if(devices.begin(), devices.end(), [&](const EmulatedDevice& d) { return id == d.id; });
+  return found == devices.end() ? nullptr : &*found;
 }
 
 Result<std::shared_ptr<const DeviceType>> loadDevice(const EmulatedDevice& device, const std::string& instrument) {
-  const auto folder = dataFolder() / "emulated-ui";
-  TRY_ASSIGN(auto definition, readDefinition(folder / device.program().definition));
-  TRY_ASSIGN(auto words, Words::read(folder / "words"));
+  TRY_ASSIGN(auto definition, definitionOf(device));
+  TRY_ASSIGN(auto words, Words::read(dataFolder() / "emulated-ui" / "words"));
+  TRY(words.add(device.folder() / "words.json", device.id));
   const auto& drives = definition.instruments;
   const auto default_value =
       std::find_if(drives.begin(), drives.end(), [](const std::string& id) { return id != "*"; });
@@ -57,12 +61,12 @@ Result<std::shared_ptr<const DeviceType>> loadDevice(const EmulatedDevice& devic
 }
 
 const EmulatedDevice& deviceFor(const std::string& instrument) {
-  for (const auto& device : kDevices)
-    if (const auto definition = readDefinition(dataFolder() / "emulated-ui" / device.program().definition))
+  for (const auto& device : emulatedDevices())
+    if (const auto definition = definitionOf(device))
       if (std::find(definition->instruments.begin(), definition->instruments.end(), instrument) !=
           definition->instruments.end())
         return device;
-  return kDevices.back();
+  return emulatedDevices().back();
 }
 
 }  // namespace standpoint

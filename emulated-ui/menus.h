@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -9,13 +10,15 @@
 
 namespace standpoint {
 
+// A row of the table of devices: one line standpoint_device(<id> <sources>) of emulated-ui/CMakeLists.txt. Everything
+// else that is the device's own is in its folder emulated-ui/devices/<id>/.
 struct EmulatedDevice {
-  const char* id;     // "leica-rtc360"
-  const char* title;  // "Leica RTC360"
-  const DeviceProgram& (*program)();
+  const char* id;                     // "leica-rtc360"
+  const DeviceProgram& (*program)();  // of its code; an empty one where it has none
+  const std::string& title() const;   // of its file, "Leica RTC360"; the id where that cannot be read
+  std::filesystem::path folder() const;
 };
 
-// The table of emulated devices; a new one is a folder, a data file and one line in menus.cpp.
 std::span<const EmulatedDevice> emulatedDevices();
 const EmulatedDevice* findDevice(const std::string& id);
 

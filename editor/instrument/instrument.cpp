@@ -134,7 +134,8 @@ class InstrumentPanel {
     const auto& type = desk_.shown()->type();
     lockedCombo("Device", "##device", type.definition.title, why, [&] {
       for (const auto& device : emulatedDevices())
-        if (ImGui::Selectable(device.title, &device == desk_.device)) wanted_ = &device, wanted_instrument_.clear();
+        if (ImGui::Selectable(device.title().c_str(), &device == desk_.device))
+          wanted_ = &device, wanted_instrument_.clear();
     });
     if (desk_.scanners.size() > 1)
       lockedCombo("Scanner", "##scanner", type.instrument.maker + " " + type.instrument.model, why, [&] {

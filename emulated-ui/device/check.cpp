@@ -5,22 +5,13 @@
 #include <cctype>
 #include <map>
 #include <set>
-#include <sstream>
 
 #include <fmt/format.h>
-
-#include "emulated-ui/device/numbers.h"
 
 namespace standpoint {
 
 namespace {
 
-// What the engine, the host and the hands send by themselves.
-const std::set<std::string> kOwnEvents = {"elapsed",       "data",          "linked",       "targets_measured",
-                                          "transferred",   "failed",        "battery_low",  "battery_critical",
-                                          "battery_empty", "card_inserted", "card_removed", "tripod_moved",
-                                          "blocked",       "temperature",   "tilted",       "tracking_lost",
-                                          "wlan_lost",     "set_down",      "sighted",      "not_sighted"};
 // What every device has to know, whatever it answers.
 const std::set<std::string> kOwnDialogs = {"refused", "failed"};
 
@@ -46,11 +37,10 @@ Graph turned(const Graph& graph) {
   return other;
 }
 
-std::vector<std::string> split(const char* text) {
-  std::istringstream words(text);
-  std::vector<std::string> found;
-  for (std::string word; words >> word;) found.push_back(word);
-  return found;
+std::string listed(const Phases& phases) {
+  std::string text;
+  for (const auto& phase : phases) text += (text.empty() ? "" : " ") + phase.name;
+  return text;
 }
 
 // "Low (12 mm @ 10 m)" has a word to translate; "1/4", "3x" and "6 mm @ 10 m" have none.
@@ -74,6 +64,7 @@ class Checker {
     collectEvents();
     for (const auto& screen : d().screens) checkScreen(screen);
     for (const auto& key : d().keys) checkWidget(key, "/keys/" + key.id);
+    checkBody();
     checkTransitions();
     checkPhases();
     checkDialogs();
@@ -87,20 +78,14 @@ class Checker {
 
  private:
   const DeviceDefinition& d() const { return type_.definition; }
+  // With the place in the device's file, or the transition, which may be one of the code.
   void fault(const std::string& place, const std::string& message) {
-    faults_.push_back({ErrorKind::unusable, message, d().id + " " + place});
+    faults_.push_back({ErrorKind::unusable, message, d().id + (place.front() == '/' ? "/device.json " : " ") + place});
   }
 
   void collectEvents() {
-    for (const auto& t : type_.program.transitions) known_.insert(t.event);
-    for (const auto& screen : d().screens)
-      for (const auto& w : screen.widgets)
-        if (!w.event.empty()) sent_.insert(w.event);
-    for (const auto& w : d().keys)
-      if (!w.event.empty()) sent_.insert(w.event);
-    for (const auto& dialog : d().dialogs)
-      for (const auto& b : dialog.buttons)
-        if (!b.event.empty()) sent_.insert(b.event);
+    for (const auto& t : type_.program.transitions) known_.insert(t.event.name);
+    sent_ = eventsSent(d());
   }
 
   void checkCondition(const Condition& condition, const std::string& place) {
@@ -150,22 +135,34 @@ class Checker {
   void checkTransitions() {
     for (std::size_t i = 0; i < type_.program.transitions.size(); ++i) {
       const auto& t = type_.program.transitions[i];
-      const std::string place = fmt::format("transition {} of '{}'", t.event, t.from);
+      const auto place = fmt::format("transition {} of '{}'", t.event.name, listed(t.from));
       checkCondition(type_.guards[i], place);
-      for (const auto& from : split(t.from))
-        if (from != "*" && findPhase(d(), from) == nullptr) fault(place, fmt::format("unknown phase '{}'", from));
-      if (*t.to != '\0' && findPhase(d(), t.to) == nullptr) fault(place, fmt::format("unknown phase '{}'", t.to));
-      if (*t.show != '\0' && findScreen(d(), t.show) == nullptr)
+      for (const auto& from : t.from)
+        if (from != kAnyPhase) checkPhase(from, place);
+      if (!t.to.name.empty()) checkPhase(t.to, place);
+      if (!t.show.empty() && findScreen(d(), t.show) == nullptr)
         fault(place, fmt::format("unknown screen '{}'", t.show));
-      if (*t.ask != '\0' && findDialog(d(), t.ask) == nullptr) fault(place, fmt::format("unknown dialog '{}'", t.ask));
-      if (!sent_.contains(t.event) && !kOwnEvents.contains(t.event)) fault(place, "this event is never sent");
+      if (!t.ask.empty() && findDialog(d(), t.ask) == nullptr) fault(place, fmt::format("unknown dialog '{}'", t.ask));
+      if (!sent_.contains(t.event.name) && !t.event.isOfEngine()) fault(place, "this event is never sent");
     }
   }
+  void checkPhase(const PhaseId& phase, const std::string& place) {
+    if (findPhase(d(), phase.name) == nullptr) fault(place, fmt::format("unknown phase '{}'", phase.name));
+  }
 
-  // A number, a number of the file or of the scanner, or a fact in seconds, but not what depends on the phase's own
-  // time.
+  void checkBody() {
+    const auto& body = d().body;
+    if (!d().scan.levelled.empty()) checkCondition(d().scan.levelled, "/scan/levelled");
+    if (body.sleeps_by.empty()) return;
+    const auto* value = findValue(d(), body.sleeps_by);
+    if (value == nullptr) return fault("/body/sleeps/value", fmt::format("unknown value '{}'", body.sleeps_by));
+    for (const auto& [choice, minutes] : body.sleeps_after_min)
+      if (std::find(value->choices.begin(), value->choices.end(), choice) == value->choices.end())
+        fault("/body/sleeps/minutes", fmt::format("'{}' is not a choice of '{}'", choice, body.sleeps_by));
+  }
+
+  // A number of the file or of the scanner, or a fact in seconds, but not what depends on the phase's own time.
   bool isTime(const std::string& lasts) const {
-    if (numberIn(lasts)) return true;
     const auto domain = device_.domain(lasts);
     if (!domain || !domain->is_number) return false;
     for (const auto* rows : {&type_.program.facts, &sharedFacts()})
@@ -177,10 +174,10 @@ class Checker {
   void checkPhases() {
     Graph graph;
     for (const auto& t : type_.program.transitions) {
-      if (*t.to == '\0') continue;
-      for (const auto& from : split(t.from))
+      if (t.to.name.empty()) continue;
+      for (const auto& from : t.from)
         for (const auto& phase : d().phases)
-          if (from == phase.id || (from == "*" && phase.on)) graph[phase.id].insert(t.to);
+          if (from.name == phase.id || (from == kAnyPhase && phase.on)) graph[phase.id].insert(t.to.name);
     }
     const std::string first = d().phases.front().id;
     const auto forth = reached(graph, {first});
@@ -191,14 +188,14 @@ class Checker {
         fault("/phases/" + phase.id, fmt::format("'{}' cannot be reached from this phase", first));
       if (!phase.screen.empty() && findScreen(d(), phase.screen) == nullptr)
         fault("/phases/" + phase.id + "/screen", fmt::format("unknown screen '{}'", phase.screen));
-      if (!phase.lasts.empty() && !isTime(phase.lasts))
-        fault("/phases/" + phase.id + "/lasts", fmt::format("'{}' is not a duration in seconds", phase.lasts));
-      const bool ends =
+      if (!phase.lasts_fact.empty() && !isTime(phase.lasts_fact))
+        fault("/phases/" + phase.id + "/lasts", fmt::format("'{}' is not a duration in seconds", phase.lasts_fact));
+      const bool ended =
           std::any_of(type_.program.transitions.begin(), type_.program.transitions.end(), [&](const Transition& t) {
-            const auto froms = split(t.from);
-            return std::string(t.event) == "elapsed" && std::find(froms.begin(), froms.end(), phase.id) != froms.end();
+            return t.event == EngineEvent::elapsed &&
+                   std::find(t.from.begin(), t.from.end(), PhaseId{phase.id}) != t.from.end();
           });
-      if (!phase.lasts.empty() && !ends) fault("/phases/" + phase.id, "has a duration, but no transition when it ends");
+      if (phase.ends() && !ended) fault("/phases/" + phase.id, "has a duration, but no transition when it ends");
     }
   }
 
@@ -223,7 +220,7 @@ class Checker {
     for (const auto& phase : d().phases)
       if (!phase.screen.empty()) from.insert(phase.screen), of_phases.insert(phase.screen);
     for (const auto& t : type_.program.transitions)
-      if (*t.show != '\0') from.insert(t.show);
+      if (!t.show.empty()) from.insert(t.show);
     for (const auto& screen : d().screens) {
       bool can_leave = of_phases.contains(screen.id);
       for (const auto& w : screen.widgets) {

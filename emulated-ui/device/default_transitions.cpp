@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <sstream>
-#include <string_view>
 
 #include "emulated-ui/device/effects.h"
 
@@ -11,141 +10,173 @@ namespace standpoint {
 
 namespace {
 
-using Rows = std::vector<Transition>;
+using Event = EngineEvent;
+
+// A transition of which a part may be absent.
+struct SharedRow {
+  Phases from;
+  EventId event;
+  std::optional<std::string> guard = "";
+  std::optional<PhaseId> to = PhaseId{};
+  std::optional<std::string> show = "";
+  std::string ask = {};
+  DeviceEffect effect = nullptr;
+};
+using SharedRows = std::vector<SharedRow>;
 
 constexpr const char* kCanRun = "battery.state != critical or mains == yes";
 constexpr const char* kCannotRun = "battery.state == critical and mains == no";
 
-const char* absent(const DeviceRoles& r) { return r.card_needed == nullptr ? nullptr : "card == absent"; }
+const PhaseId kBooting{"booting"}, kShuttingDown{"shutting_down"}, kError{"error"}, kAdjusting{"adjusting"};
 
-Rows power(const DeviceRoles& r) {
-  if (r.off == nullptr) return {};
+std::optional<std::string> absent(const DeviceRoles& r) {
+  return r.card_needed ? std::optional<std::string>("card == absent") : std::nullopt;
+}
+
+SharedRows power(const DeviceRoles& r) {
+  if (!r.off) return {};
   return {
-      {r.off, "power_key", kCanRun, "booting"},
-      {"booting", "elapsed", "", r.ready},
-      {r.rest, "power_key", "", "", "", "shut_down"},
-      {r.rest, "shut_down", "", "shutting_down"},
-      {"shutting_down", "elapsed", "", r.off},
-      {"*", "battery_critical", "", "", "", "battery_critical"},
-      {"*", "battery_empty", "", r.off, "", "", dropScan},
+      {.from = {*r.off}, .event = "power_key", .guard = kCanRun, .to = kBooting},
+      {.from = {kBooting}, .event = Event::elapsed, .to = r.ready},
+      {.from = r.rest, .event = "power_key", .ask = "shut_down"},
+      {.from = r.rest, .event = "shut_down", .to = kShuttingDown},
+      {.from = {kShuttingDown}, .event = Event::elapsed, .to = r.off},
+      {.from = {kAnyPhase}, .event = Event::battery_critical, .ask = "battery_critical"},
+      {.from = {kAnyPhase}, .event = Event::battery_empty, .to = r.off, .effect = dropScan},
   };
 }
 
-Rows refusals(const DeviceRoles& r) {
+SharedRows refusals(const DeviceRoles& r) {
   return {
-      {r.idle, r.start, "project.open == no", "", "", "no_project"},
-      {r.idle, r.start, "standing == no", "", "", "no_station"},
-      {r.idle, r.start, absent(r), "", "", "card_absent"},
-      {r.idle, r.start, "card == locked", "", "", "card_locked"},
-      {r.idle, r.start, "card.free < @expected.bytes", "", "", "card_full"},
-      {r.idle, r.start, kCannotRun, "", "", "battery_critical"},
+      {.from = r.idle, .event = r.start, .guard = "project.open == no", .ask = "no_project"},
+      {.from = r.idle, .event = r.start, .guard = "standing == no", .ask = "no_station"},
+      {.from = r.idle, .event = r.start, .guard = absent(r), .ask = "card_absent"},
+      {.from = r.idle, .event = r.start, .guard = "card == locked", .ask = "card_locked"},
+      {.from = r.idle, .event = r.start, .guard = "card.free < @expected.bytes", .ask = "card_full"},
+      {.from = r.idle, .event = r.start, .guard = kCannotRun, .ask = "battery_critical"},
   };
 }
 
-Rows questions(const DeviceRoles& r) {
+SharedRows questions(const DeviceRoles& r) {
   return {
-      {r.idle, r.start, "temperature.state != good", "", "", "temperature_question"},
-      {r.idle, r.start, "warm == no", "", "", "not_warm_question"},
-      {r.idle, r.start, r.tilted, "", "", "tilt_question"},
-      {r.idle, r.start, r.near, "", "", "near_question"},
+      {.from = r.idle, .event = r.start, .guard = "temperature.state != good", .ask = "temperature_question"},
+      {.from = r.idle, .event = r.start, .guard = "warm == no", .ask = "not_warm_question"},
+      {.from = r.idle, .event = r.start, .guard = r.tilted, .ask = "tilt_question"},
+      {.from = r.idle, .event = r.start, .guard = r.near, .ask = "near_question"},
   };
 }
 
-Rows beginning(const DeviceRoles& r) {
+SharedRows beginning(const DeviceRoles& r) {
   return {
-      {r.idle, r.start, "", r.first, "", "", r.begin},
-      {r.idle, r.start_anyway, "", r.first, "", "", r.begin},
+      {.from = r.idle, .event = r.start, .to = r.first, .effect = r.begin},
+      {.from = r.idle, .event = r.start_anyway, .to = r.first, .effect = r.begin},
   };
 }
 
-Rows troubles(const DeviceRoles& r) {
+SharedRows troubles(const DeviceRoles& r) {
   return {
-      {r.working, "stop", "", "", "", "stop_question"},
-      {r.holding, "stop_confirmed", "", r.ready, r.home, "", dropScan},
-      {r.working, "tripod_moved", "", "error", "", "tripod_moved", markMoved},
-      {r.camera, "set_down", "", "error", "", "tripod_moved", markMoved},
-      {r.laser, "blocked", "", "error", "", "blocked"},
-      {"error", "keep", "", r.kept},
-      {r.holding, "card_removed", r.card_needed, r.ready, r.home, "card_lost", dropScan},
-      {r.holding, "failed", "", r.ready, r.home},
-      {r.measuring, "tilted", "", "", "", "tilt_warning"},
-      {"*", "temperature", "", "", "", "temperature_warning"},
-      {"*", "battery_low", "", "", "", "battery_low"},
+      {.from = r.working, .event = "stop", .ask = "stop_question"},
+      {.from = r.holding, .event = "stop_confirmed", .to = r.ready, .show = r.home, .effect = dropScan},
+      {.from = r.working, .event = Event::tripod_moved, .to = kError, .ask = "tripod_moved", .effect = markMoved},
+      {.from = r.camera, .event = Event::set_down, .to = kError, .ask = "tripod_moved", .effect = markMoved},
+      {.from = r.laser, .event = Event::blocked, .to = kError, .ask = "blocked"},
+      {.from = {kError}, .event = "keep", .to = r.kept},
+      {.from = r.holding,
+       .event = Event::card_removed,
+       .guard = r.card_needed,
+       .to = r.ready,
+       .show = r.home,
+       .ask = "card_lost",
+       .effect = dropScan},
+      {.from = r.holding, .event = Event::failed, .to = r.ready, .show = r.home},
+      {.from = r.measuring, .event = Event::tilted, .ask = "tilt_warning"},
+      {.from = {kAnyPhase}, .event = Event::temperature, .ask = "temperature_warning"},
+      {.from = {kAnyPhase}, .event = Event::battery_low, .ask = "battery_low"},
   };
 }
 
-Rows results(const DeviceRoles& r) {
-  const char* linked = r.links ? r.idle : nullptr;
+SharedRows results(const DeviceRoles& r) {
+  const auto linked = r.links ? r.idle : Phases{};
   return {
-      {linked, "linked", "link == joined", "", "", "link_joined"},
-      {linked, "linked", "", "", "", "link_failed"},
-      {r.rest, "targets_measured", "", "", r.targets},
-      {r.rest, "transferred", "", "", "", "transferred"},
+      {.from = linked, .event = Event::linked, .guard = "link == joined", .ask = "link_joined"},
+      {.from = linked, .event = Event::linked, .ask = "link_failed"},
+      {.from = r.rest, .event = Event::targets_measured, .show = r.targets},
+      {.from = r.rest, .event = Event::transferred, .ask = "transferred"},
   };
 }
 
-Rows card(const DeviceRoles& r) {
+SharedRows card(const DeviceRoles& r) {
   return {
-      {r.idle, "delete", "", "", "", "delete_question"},
-      {r.idle, "delete_confirmed", "", "", r.scans, "", deleteShownSetup},
-      {r.idle, "format", "", "", "", "format_question"},
-      {r.idle, "format_confirmed", "card == present", "", r.home, "", formatCard},
-      {r.idle, "format_confirmed", absent(r), "", "", "card_absent"},
-      {r.idle, "format_confirmed", "", "", "", "card_locked"},
+      {.from = r.idle, .event = "delete", .ask = "delete_question"},
+      {.from = r.idle, .event = "delete_confirmed", .show = r.scans, .effect = deleteShownSetup},
+      {.from = r.idle, .event = "format", .ask = "format_question"},
+      {.from = r.idle, .event = "format_confirmed", .guard = "card == present", .show = r.home, .effect = formatCard},
+      {.from = r.idle, .event = "format_confirmed", .guard = absent(r), .ask = "card_absent"},
+      {.from = r.idle, .event = "format_confirmed", .ask = "card_locked"},
   };
 }
 
-Rows adjusting(const DeviceRoles& r) {
-  if (r.tools == nullptr) return {};
+SharedRows adjusting(const DeviceRoles& r) {
+  if (!r.tools) return {};
   return {
-      {r.idle, "adjust", "level == good and warm == yes", "adjusting"},
-      {r.idle, "adjust", "", "", "", "adjust_refused"},
-      {"adjusting", "elapsed", "", r.ready, r.tools, "adjusted"},
-      {"adjusting", "tripod_moved", "", r.ready, r.tools, "adjust_refused"},
+      {.from = r.idle, .event = "adjust", .guard = "level == good and warm == yes", .to = kAdjusting},
+      {.from = r.idle, .event = "adjust", .ask = "adjust_refused"},
+      {.from = {kAdjusting}, .event = Event::elapsed, .to = r.ready, .show = r.tools, .ask = "adjusted"},
+      {.from = {kAdjusting}, .event = Event::tripod_moved, .to = r.ready, .show = r.tools, .ask = "adjust_refused"},
   };
 }
 
-bool whole(const Transition& t) {
-  const auto parts = {t.from, t.event, t.guard, t.to, t.show, t.ask};
-  return std::none_of(parts.begin(), parts.end(), [](const char* part) { return part == nullptr; });
-}
-
-bool hasWord(const char* text, const std::string& word) {
-  std::istringstream words(text);
-  for (std::string w; words >> w;)
-    if (w == word) return true;
-  return false;
+template <class T>
+bool has(const std::vector<T>& all, const T& one) {
+  return std::find(all.begin(), all.end(), one) != all.end();
 }
 
 // In all of its phases.
-bool isOverridden(const Transition& row, const Rows& own) {
-  std::istringstream phases(row.from);
-  for (std::string phase; phases >> phase;) {
-    const bool taken = std::any_of(own.begin(), own.end(), [&](const Transition& t) {
-      const std::string_view guard = t.guard;
-      return std::string_view(t.event) == row.event && (guard.empty() || guard == row.guard) && hasWord(t.from, phase);
+bool isOverridden(const Transition& row, const std::vector<Transition>& own) {
+  return std::all_of(row.from.begin(), row.from.end(), [&](const PhaseId& phase) {
+    return std::any_of(own.begin(), own.end(), [&](const Transition& t) {
+      return t.event == row.event && (t.guard.empty() || t.guard == row.guard) && has(t.from, phase);
     });
-    if (!taken) return false;
-  }
-  return true;
+  });
+}
+
+void append(std::vector<Transition>& rows, const SharedRows& shared) {
+  for (const auto& r : shared)
+    if (!r.from.empty() && r.guard && r.to && r.show)
+      rows.push_back({.from = r.from,
+                      .event = r.event,
+                      .guard = *r.guard,
+                      .to = *r.to,
+                      .show = *r.show,
+                      .ask = r.ask,
+                      .effect = r.effect});
 }
 
 }  // namespace
 
+std::vector<std::string> rowsOf(const char* names) {
+  std::istringstream in(names);
+  std::vector<std::string> rows;
+  for (std::string name; in >> name;) rows.push_back(name);
+  return rows;
+}
+
 std::string rowName(const Transition& row) {
-  const std::string event = row.event, ask = row.ask;
-  return ask.empty() || ask == event ? event : event + "/" + ask;
+  return row.ask.empty() || row.ask == row.event.name ? row.event.name : row.event.name + "/" + row.ask;
 }
 
 std::vector<Transition> withDefaults(std::vector<Transition> own, const DeviceRoles& roles) {
-  Rows shared;
-  for (const auto& rows : {power(roles), refusals(roles), roles.first_questions, questions(roles), roles.last_questions,
-                           beginning(roles), troubles(roles), results(roles), card(roles), adjusting(roles)})
-    shared.insert(shared.end(), rows.begin(), rows.end());
-  std::erase_if(shared, [&](const Transition& row) { return !whole(row) || isOverridden(row, own); });
+  std::vector<Transition> shared;
+  append(shared, power(roles));
+  append(shared, refusals(roles));
+  shared.insert(shared.end(), roles.first_questions.begin(), roles.first_questions.end());
+  append(shared, questions(roles));
+  shared.insert(shared.end(), roles.last_questions.begin(), roles.last_questions.end());
+  for (const auto& part : {beginning, troubles, results, card, adjusting}) append(shared, part(roles));
+  std::erase_if(shared, [&](const Transition& row) { return isOverridden(row, own); });
   for (auto& row : shared)
     for (const auto& mark : roles.marks)
-      if (hasWord(mark.rows, rowName(row))) row.source = mark.source;
+      if (has(mark.rows, rowName(row))) row.source = mark.source;
   own.insert(own.end(), shared.begin(), shared.end());
   return own;
 }

@@ -9,7 +9,7 @@
 
 #include "core/json_file.h"
 #include "emulated-ui/device/json_fields.h"
-#include "emulated-ui/device/numbers.h"
+#include "emulated-ui/device/nearest.h"
 
 namespace standpoint {
 
@@ -65,8 +65,12 @@ void readBody(JsonFields& root, BodyRow& body) {
   body.tilt_limit_deg = f.number("tilt_limit_deg", body.tilt_full_deg, 90);
   body.display_aspect = f.numberOr("display_aspect", 0.62, 0, 4);
   body.tablet = f.flagOr("tablet", false);
-  body.sleeps_after = f.textOr("sleeps_after", "");
-  body.skin = f.text("skin");
+  f.object("sleeps", [&](JsonFields& sleeps) {
+    body.sleeps_by = sleeps.text("value");
+    sleeps.object("minutes", [&](JsonFields& minutes) {
+      for (const auto& choice : minutes.keys()) body.sleeps_after_min[choice] = minutes.number(choice.c_str(), 0, 1440);
+    });
+  });
   f.skip("sources");
   f.close();
 }
@@ -75,11 +79,10 @@ PhaseRow phaseRow(JsonFields& f) {
   PhaseRow p;
   p.id = f.text("id");
   p.screen = f.textOr("screen", "");
-  const auto* lasts = f.raw("lasts");
-  if (lasts != nullptr && lasts->is_number())
-    p.lasts = fmt::format("{}", f.number("lasts", 0, 86400));
+  if (const auto* lasts = f.raw("lasts"); lasts != nullptr && lasts->is_number())
+    p.lasts_s = f.number("lasts", 0, 86400);
   else
-    p.lasts = f.textOr("lasts", "");
+    p.lasts_fact = f.textOr("lasts", "");
   p.lamp = f.textOr("lamp", "off");
   p.on = f.flagOr("on", true);
   p.laser = f.flagOr("laser", false);
@@ -93,7 +96,6 @@ ValueRow valueRow(JsonFields& f) {
   v.id = f.text("id");
   v.kind = kindOf(f);
   v.choices = f.texts("choices");
-  v.default_value = f.textOr("standard", "");
   v.unit = f.textOr("unit", "");
   v.source = f.text("source");
   v.kept = f.flagOr("kept", true);
@@ -101,15 +103,14 @@ ValueRow valueRow(JsonFields& f) {
   if (v.kind == WidgetKind::number) {
     v.minimum = f.number("minimum", -1e9, 1e9);
     v.maximum = f.number("maximum", v.minimum, 1e9);
-    const auto default_value = numberIn(v.default_value);
-    if (!default_value || *default_value < v.minimum || *default_value > v.maximum)
-      f.wrong("standard", fmt::format("must be a number from {} to {}, in quotes", v.minimum, v.maximum));
-  } else if (v.kind != WidgetKind::text &&
-             std::find(v.choices.begin(), v.choices.end(), v.default_value) == v.choices.end()) {
+    v.default_value = fmt::format("{}", f.number("standard", v.minimum, v.maximum));
+    return v;
+  }
+  v.default_value = f.textOr("standard", "");
+  if (v.kind != WidgetKind::text && std::find(v.choices.begin(), v.choices.end(), v.default_value) == v.choices.end()) {
     f.wrong("standard", fmt::format("'{}' is not one of the choices", v.default_value));
   }
-  if (v.kind != WidgetKind::choice && v.kind != WidgetKind::toggle && v.kind != WidgetKind::text &&
-      v.kind != WidgetKind::number)
+  if (v.kind != WidgetKind::choice && v.kind != WidgetKind::toggle && v.kind != WidgetKind::text)
     f.wrong("kind", "a value must be a choice, toggle, text or number");
   return v;
 }
@@ -121,6 +122,131 @@ SensorRow sensorRow(JsonFields& f) {
   s.sigma = f.number("sigma", 1e-3, 1000);
   s.source = f.text("source");
   return s;
+}
+
+SkinRow skinRow(JsonFields& f) {
+  SkinRow s;
+  const std::pair<const char*, std::uint32_t*> colours[] = {{"body", &s.body},
+                                                            {"body_edge", &s.body_edge},
+                                                            {"display", &s.display},
+                                                            {"title_bar", &s.title_bar},
+                                                            {"title_text", &s.title_text},
+                                                            {"tile", &s.tile},
+                                                            {"tile_hover", &s.tile_hover},
+                                                            {"tile_text", &s.tile_text},
+                                                            {"accent", &s.accent},
+                                                            {"accent_text", &s.accent_text},
+                                                            {"key", &s.key},
+                                                            {"text", &s.text},
+                                                            {"dim", &s.dim},
+                                                            {"line", &s.line},
+                                                            {"key_text", &s.key_text},
+                                                            {"warning", &s.warning},
+                                                            {"off", &s.off}};
+  for (const auto& [key, colour] : colours) *colour = f.colourOr(key, *colour);
+  s.rounding = f.numberOr("rounding", s.rounding, 0, 2);
+  return s;
+}
+
+// --- what all devices share, by the names of this one ---
+
+// The names of phases that the file has; what it does not have is a fault.
+class PhaseNames {
+ public:
+  explicit PhaseNames(const std::vector<PhaseRow>& phases) {
+    for (const auto& phase : phases) names_.push_back(phase.id);
+  }
+
+  PhaseId one(JsonFields& f, const char* key) const {
+    auto name = f.textOr(key, "");
+    if (!name.empty()) check(f, key, name);
+    return {std::move(name)};
+  }
+  Phases several(JsonFields& f, const char* key) const {
+    Phases phases;
+    for (auto& name : f.texts(key)) {
+      if (name != kAnyPhase.name) check(f, key, name);
+      phases.push_back({std::move(name)});
+    }
+    return phases;
+  }
+
+ private:
+  void check(JsonFields& f, const char* key, const std::string& name) const {
+    if (std::find(names_.begin(), names_.end(), name) == names_.end())
+      f.wrong(key, fmt::format("unknown phase '{}'; {}", name, knownInstead(name, names_)));
+  }
+
+  std::vector<std::string> names_;
+};
+
+DeviceEffect effectOf(JsonFields& f, const char* key) {
+  std::vector<std::string> names = {""};
+  for (const auto& row : namedEffects()) names.emplace_back(row.name);
+  const auto name = f.has(key) ? f.wordOf(key, names) : std::string();
+  for (const auto& row : namedEffects())
+    if (name == row.name) return row.effect;
+  return nullptr;
+}
+
+Transition transitionRow(JsonFields& f, const PhaseNames& phases) {
+  Transition t{.event = f.text("event")};
+  t.from = phases.several(f, "from");
+  t.guard = f.condition("guard").text();
+  t.to = phases.one(f, "to");
+  t.show = f.textOr("show", "");
+  t.ask = f.textOr("ask", "");
+  t.effect = effectOf(f, "effect");
+  t.source = f.text("source");
+  if (t.from.empty()) f.wrong("from", "must have at least one phase, or \"*\" for any with power");
+  return t;
+}
+
+// A part that a file does not name stays as it is; null: the device has nothing of that kind.
+void readRoles(JsonFields& f, const PhaseNames& names, DeviceRoles& r) {
+  const auto phases = [&](const char* key, Phases& into) {
+    if (f.has(key)) into = names.several(f, key);
+  };
+  const auto phase = [&](const char* key, PhaseId& into) {
+    if (f.has(key)) into = names.one(f, key);
+  };
+  const auto text = [&](const char* key, std::optional<std::string>& into) {
+    if (f.isNull(key))
+      into.reset();
+    else if (f.has(key))
+      into = f.text(key);
+  };
+  if (f.isNull("off"))
+    r.off.reset();
+  else if (f.has("off"))
+    r.off = names.one(f, "off");
+  if (f.has("kept")) r.kept = names.one(f, "kept");
+  phase("ready", r.ready);
+  phase("first", r.first);
+  phases("rest", r.rest);
+  phases("idle", r.idle);
+  phases("working", r.working);
+  phases("measuring", r.measuring);
+  phases("laser", r.laser);
+  phases("camera", r.camera);
+  phases("holding", r.holding);
+  std::optional<std::string> home = r.home;
+  text("home", home);
+  r.home = home.value_or("");
+  text("scans", r.scans);
+  text("targets", r.targets);
+  text("tools", r.tools);
+  r.start = f.textOr("start", r.start);
+  r.start_anyway = f.textOr("start_anyway", r.start_anyway);
+  f.list("first_questions", [&](JsonFields& t) { r.first_questions.push_back(transitionRow(t, names)); });
+  f.list("last_questions", [&](JsonFields& t) { r.last_questions.push_back(transitionRow(t, names)); });
+  if (f.has("tilted")) r.tilted = f.condition("tilted").text();
+  if (f.has("near")) r.near = f.condition("near").text();
+  text("card_needed", r.card_needed);
+  r.links = f.flagOr("links", r.links);
+  f.object("marks", [&](JsonFields& marks) {
+    for (const auto& source : marks.keys()) r.marks.push_back({source, marks.texts(source.c_str())});
+  });
 }
 
 template <class Row>
@@ -140,7 +266,7 @@ const Row* rowOf(const std::vector<Row>& rows, const std::string& id) {
 
 Result<DeviceDefinition> readDefinition(const std::filesystem::path& file) {
   TRY_ASSIGN(const auto json, readJsonFile(file));
-  JsonFault fault(file.filename().string());
+  JsonFault fault(nameWithFolder(file));
   JsonFields root(fault, json, "");
   DeviceDefinition d;
   d.id = root.text("id");
@@ -166,6 +292,18 @@ Result<DeviceDefinition> readDefinition(const std::filesystem::path& file) {
     if (dialog.buttons.empty()) dialog.buttons.push_back({"ok", ""});
     d.dialogs.push_back(std::move(dialog));
   });
+  root.object("skin", [&](JsonFields& f) { d.skin = skinRow(f); });
+  root.object("scan", [&](JsonFields& f) {
+    d.scan.name = f.textOr("name", d.scan.name);
+    d.scan.project_base = f.flagOr("project_base", false);
+    d.scan.levelled = f.condition("levelled");
+    const auto facts = d.scan.levelled.facts();
+    if (std::find(facts.begin(), facts.end(), "levelled") != facts.end())
+      f.wrong("levelled", "'levelled' is what this condition says: it cannot ask for itself");
+  });
+  const PhaseNames phases(d.phases);
+  root.list("transitions", [&](JsonFields& f) { d.transitions.push_back(transitionRow(f, phases)); });
+  root.object("roles", [&](JsonFields& f) { readRoles(f, phases, d.roles.emplace()); });
   root.close();
   if (d.phases.empty()) fault.say("/phases", "a device must have at least one phase");
   if (d.instruments.empty()) fault.say("/instruments", "a device must drive at least one scanner");
@@ -177,6 +315,17 @@ Result<DeviceDefinition> readDefinition(const std::filesystem::path& file) {
   refuseTwins(fault, d.sensors, "/sensors");
   if (fault.error()) return failure(*fault.error());
   return d;
+}
+
+std::set<std::string> eventsSent(const DeviceDefinition& d) {
+  std::set<std::string> sent;
+  for (const auto& screen : d.screens)
+    for (const auto& w : screen.widgets) sent.insert(w.event);
+  for (const auto& key : d.keys) sent.insert(key.event);
+  for (const auto& dialog : d.dialogs)
+    for (const auto& button : dialog.buttons) sent.insert(button.event);
+  sent.erase("");
+  return sent;
 }
 
 const ScreenRow* findScreen(const DeviceDefinition& d, const std::string& id) { return rowOf(d.screens, id); }

@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "core/result.h"
 #include "emulated-ui/device/condition.h"
+#include "emulated-ui/device/default_transitions.h"
 #include "emulated-ui/device/screen.h"
 
 namespace standpoint {
 
-// A device as its data file has it: what its screens hold, how long its phases last, what its body and card are. What
-// its widgets and phases do stands in code (program.h). The file is emulated-ui/<maker>/<device>.json; a label is a key
-// of the words. Each widget carries the mark of the source that says the real device has it.
+// A device as its data file has it: what its screens hold, how long its phases last, what its body and card are, how it
+// looks, and where its phases lead as far as that needs no code of its own (program.h). The file is
+// emulated-ui/devices/<id>/device.json; a label is a key of the words beside it. Each widget carries the mark of the
+// source that says the real device has it.
 
 struct WidgetRow {
   std::string id;
@@ -54,20 +60,23 @@ struct DialogRow {
 // A state of the state machine that takes a time of its own, or waits.
 struct PhaseRow {
   std::string id;
-  std::string screen;  // shown while it lasts; empty: the screen stays
-  std::string lasts;   // seconds, or the fact that tells them; empty: it waits
-  std::string lamp;    // "green", "red flashing", …
-  bool on = true;      // the device has power
-  bool laser = false;  // it turns: a bump spoils the scan
-  bool waits = false;  // for whoever uses it: its time is no work, only the end of its patience
+  std::string screen;             // shown while it lasts; empty: the screen stays
+  std::optional<double> lasts_s;  // neither this nor the fact: it waits
+  std::string lasts_fact;         // in seconds
+  std::string lamp;               // "green", "red flashing", …
+  bool on = true;                 // the device has power
+  bool laser = false;             // it turns: a bump spoils the scan
+  bool waits = false;             // for whoever uses it: its time is no work, only the end of its patience
   std::string source;
+
+  bool ends() const { return lasts_s.has_value() || !lasts_fact.empty(); }  // by itself
 };
 
 struct ValueRow {
   std::string id;
   WidgetKind kind = WidgetKind::toggle;  // choice, toggle, text or number
   std::vector<std::string> choices;
-  std::string default_value;
+  std::string default_value;  // as it is shown
   double minimum = 0, maximum = 0;
   std::string unit;
   std::string source;
@@ -95,8 +104,26 @@ struct BodyRow {
   double tilt_limit_deg = 0;     // beyond this it does not work
   double display_aspect = 0.62;  // width over height; 0 = no display
   bool tablet = false;           // the display is a tablet's
-  std::string sleeps_after;      // value of this file: minutes at rest, "never"; empty: its display does not sleep
-  std::string skin;
+  // A value of this file, and after how many minutes at rest its display goes dark at each choice; a choice that is not
+  // named: never.
+  std::string sleeps_by;
+  std::map<std::string, double> sleeps_after_min;
+};
+
+// How it looks: our own colours, 0xRRGGBB, and proportions. What a file leaves out is plain.
+struct SkinRow {
+  std::uint32_t body = 0x3A3A3A, body_edge = 0x545454, display = 0xF5F5F5, title_bar = 0x34495E, title_text = 0xFFFFFF,
+                tile = 0xFFFFFF, tile_hover = 0xE2E8F0, tile_text = 0x242424, accent = 0x3478BE, accent_text = 0xFFFFFF,
+                key = 0x3478BE, text = 0x242424, dim = 0x6A6A6A, line = 0xD0D5DB;
+  std::uint32_t key_text = 0xFFFFFF, warning = 0xB22214, off = 0x8C8C8C;  // on the key; of what is wrong; a switch's
+  double rounding = 0.3;                                                  // of tiles, in units
+};
+
+// What a scan of it is called and when it is levelled.
+struct ScanRow {
+  std::string name = "Setup ";  // before its number
+  bool project_base = false;    // the project's base of names, where it has one, takes the place of that
+  Condition levelled;           // empty: within the limits of its body
 };
 
 struct DeviceDefinition {
@@ -105,15 +132,24 @@ struct DeviceDefinition {
   std::vector<std::string> instruments;  // ids of the scanners that it drives; the first is the standard
   std::string about;                     // where its facts come from
   BodyRow body;
+  SkinRow skin;
+  ScanRow scan;
   std::vector<PhaseRow> phases;  // the first is where it starts
   std::vector<ValueRow> values;
   std::vector<ScreenRow> screens;
   std::vector<WidgetRow> keys;  // on the body
   std::vector<DialogRow> dialogs;
   std::vector<SensorRow> sensors;
+  // Transitions that need no code of the device's own; with roles, those that all devices share stand behind them.
+  std::vector<Transition> transitions;
+  std::optional<DeviceRoles> roles;
 };
 
+// An error names the file, as <folder>/<file>, and the place as a JSON pointer.
 Result<DeviceDefinition> readDefinition(const std::filesystem::path& file);
+
+// Events that its widgets, keys and buttons send.
+std::set<std::string> eventsSent(const DeviceDefinition& definition);
 
 const ScreenRow* findScreen(const DeviceDefinition& definition, const std::string& id);
 const PhaseRow* findPhase(const DeviceDefinition& definition, const std::string& id);

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <sstream>
+#include <iterator>
 
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "emulated-ui/device/numbers.h"
 
 namespace standpoint {
 
@@ -17,11 +17,26 @@ namespace {
 constexpr std::size_t kLongestLog = 20000;
 constexpr double kAsleepDrain = 0.5;  // [P] what a device uses while its display is dark
 
-bool namesPhase(const char* from, const std::string& phase, bool on) {
-  std::istringstream words(from);
-  for (std::string word; words >> word;)
-    if (word == phase || (word == "*" && on)) return true;
-  return false;
+using Event = EngineEvent;
+
+bool namesPhase(const Phases& from, const std::string& phase, bool on) {
+  return std::any_of(from.begin(), from.end(),
+                     [&](const PhaseId& id) { return id.name == phase || (on && id == kAnyPhase); });
+}
+
+// The file's own come first; behind them, if it says what they are called on this one, those that all devices share,
+// but for events that nothing on it sends; then the code's.
+std::vector<Transition> allTransitions(const DeviceDefinition& definition, const DeviceProgram& program) {
+  auto all = definition.transitions;
+  if (definition.roles) {
+    const auto sent = eventsSent(definition);
+    all = withDefaults(std::move(all), *definition.roles);
+    const auto shared = all.begin() + static_cast<std::ptrdiff_t>(definition.transitions.size());
+    const auto unsent = [&](const Transition& t) { return !t.event.isOfEngine() && !sent.contains(t.event.name); };
+    all.erase(std::remove_if(shared, all.end(), unsent), all.end());
+  }
+  all.insert(all.end(), program.transitions.begin(), program.transitions.end());
+  return all;
 }
 
 // A widget of the setting "*" stands for all settings of the scanner: what a device for any scanner has.
@@ -56,13 +71,14 @@ Result<std::shared_ptr<const DeviceType>> makeDeviceType(DeviceDefinition defini
   auto type = std::make_shared<DeviceType>();
   type->definition = std::move(definition);
   type->program = program;
+  type->program.transitions = allTransitions(type->definition, program);
   type->instrument = std::move(instrument);
   type->words = std::move(words);
   for (const auto& transition : type->program.transitions) {
     auto guard = Condition::parse(transition.guard);
     if (!guard)
       return failure(ErrorKind::internal, guard.error().message,
-                     type->definition.id + " transition " + transition.event);
+                     type->definition.id + " transition " + transition.event.name);
     type->guards.push_back(*std::move(guard));
   }
   return type;
@@ -85,18 +101,18 @@ bool Device::on() const {
 
 bool Device::busy() const {
   const auto* phase = findPhase(type_->definition, state_.phase);
-  return order_.has_value() || (phase != nullptr && !phase->lasts.empty() && !phase->waits);
+  return order_.has_value() || (phase != nullptr && phase->ends() && !phase->waits);
 }
 
 bool Device::idles() const {
   const auto* phase = findPhase(type_->definition, state_.phase);
-  return phase->waits || (phase->lasts.empty() ? !state_.running : leftOfPhase().value_or(0) < 1e-9);
+  return phase->waits || (phase->ends() ? leftOfPhase().value_or(0) < 1e-9 : !state_.running);
 }
 
 bool Device::asleep() const {
-  const auto& value_id = type_->definition.body.sleeps_after;
-  const double minutes = value_id.empty() ? 0 : std::strtod(value(value_id).c_str(), nullptr);
-  return on() && minutes > 0 && state_.untouched_s >= 60 * minutes;
+  const auto& body = type_->definition.body;
+  const auto found = body.sleeps_after_min.find(value(body.sleeps_by));
+  return on() && found != body.sleeps_after_min.end() && state_.untouched_s >= 60 * found->second;
 }
 
 std::string Device::value(const std::string& id) const {
@@ -146,6 +162,20 @@ double Device::expectedBytes() const {
   return static_cast<double>(expected_.columns) * expected_.rows * type_->definition.body.bytes_per_point;
 }
 
+double Device::entryNumber(const std::string& id) const { return numberIn(entry(id)).value_or(0); }
+
+bool Device::levelled() const {
+  const auto& definition = type_->definition;
+  return definition.scan.levelled.empty() ? tilt() <= definition.body.tilt_limit_deg
+                                          : definition.scan.levelled.holds(facts());
+}
+
+double Device::levelledRange() const {
+  const auto& compensator = type_->instrument.compensator;
+  const double range = compensator ? compensator->range_rad / kRadPerDeg : 0;
+  return range > 0 ? range : type_->definition.body.tilt_limit_deg;
+}
+
 double Device::tilt() const {
   return std::acos(std::clamp(
              std::cos(state_.around.tilt_x_deg * kRadPerDeg) * std::cos(state_.around.tilt_y_deg * kRadPerDeg), -1.0,
@@ -160,7 +190,15 @@ void Device::note(const std::string& what, const std::string& detail) {
 
 // --- the state machine ---
 
-bool Device::can(const std::string& event) const {
+bool EventId::isOfEngine() const {
+  return std::find(std::begin(kEngineEventNames), std::end(kEngineEventNames), name) != std::end(kEngineEventNames);
+}
+
+bool Device::in(const Phases& phases) const {
+  return std::any_of(phases.begin(), phases.end(), [&](const PhaseId& phase) { return in(phase); });
+}
+
+bool Device::can(const EventId& event) const {
   const auto& transitions = type_->program.transitions;
   for (std::size_t i = 0; i < transitions.size(); ++i)
     if (event == transitions[i].event && namesPhase(transitions[i].from, state_.phase, on()) &&
@@ -169,16 +207,16 @@ bool Device::can(const std::string& event) const {
   return false;
 }
 
-bool Device::fire(const std::string& event) {
+bool Device::fire(const EventId& event) {
   const auto& transitions = type_->program.transitions;
   for (std::size_t i = 0; i < transitions.size(); ++i) {
     const Transition& t = transitions[i];
     if (event != t.event || !namesPhase(t.from, state_.phase, on()) || !type_->guards[i].holds(facts())) continue;
-    if (event != "elapsed") note("event", event);
-    if (*t.to != '\0') enter(*findPhase(type_->definition, t.to));
+    if (event != Event::elapsed) note("event", event.name);
+    if (!t.to.name.empty()) enter(*findPhase(type_->definition, t.to.name));
     if (t.effect != nullptr) t.effect(*this);
-    if (*t.show != '\0') show(t.show);
-    if (*t.ask != '\0') ask(t.ask, state_.dialog_detail);
+    if (!t.show.empty()) show(t.show);
+    if (!t.ask.empty()) ask(t.ask, state_.dialog_detail);
     return true;
   }
   return false;
@@ -223,7 +261,7 @@ void Device::ask(const std::string& dialog, const std::string& detail) {
 // The time that the present phase still takes; nothing when it waits.
 std::optional<double> Device::leftOfPhase() const {
   const auto* phase = findPhase(type_->definition, state_.phase);
-  if (phase->lasts.empty()) return std::nullopt;
+  if (!phase->ends()) return std::nullopt;
   return std::max(0.0, number("phase.lasts") - state_.elapsed_s);
 }
 
@@ -236,7 +274,7 @@ void Device::pass(double seconds) {
   around.battery = std::max(0.0, around.battery - drain * seconds / type_->definition.body.battery_s);
   state_.untouched_s = busy() ? 0 : state_.untouched_s + seconds;
   state_.elapsed_s += seconds;
-  if (state_.running && !phase->lasts.empty()) state_.scanned_s += seconds;
+  if (state_.running && phase->ends()) state_.scanned_s += seconds;
   if (state_.running && phase->laser) state_.laser_s += seconds;
 }
 
@@ -250,7 +288,7 @@ void Device::run(double seconds) {
     pass(step);
     seconds -= step;
     if (!left || step < *left) return;
-    if (fire("elapsed")) continue;
+    if (fire(Event::elapsed)) continue;
     if (findPhase(type_->definition, state_.phase)->waits) pass(seconds);  // for people, whose time is real
     return;
   }
@@ -262,15 +300,15 @@ void Device::watchBattery(double before) {
   const auto crossed = [&](double limit) { return now < limit && before >= limit; };
   if (crossed(body.battery_warning)) {
     note("trouble", "battery_low");
-    fire("battery_low");
+    fire(Event::battery_low);
   }
   if (crossed(body.battery_critical)) {
     note("trouble", "battery_critical");
-    fire("battery_critical");
+    fire(Event::battery_critical);
   }
   if (now <= 0 && before > 0) {
     note("trouble", "battery_empty");
-    fire("battery_empty");
+    fire(Event::battery_empty);
   }
 }
 
@@ -315,7 +353,7 @@ void Device::scanDone(StoredSetup setup) {
     setup.lean_y_deg = state_.running->tilt_y_deg;
   }
   state_.data = std::move(setup);
-  fire("data");
+  fire(Event::data);
 }
 
 void Device::linkDone(const LinkResult& link) {
@@ -323,7 +361,7 @@ void Device::linkDone(const LinkResult& link) {
     for (auto& setup : p.setups)
       if (setup.file == state_.linking) setup.link = link;
   note("linked", link.joined ? "joined" : "refused");
-  fire("linked");
+  fire(Event::linked);
 }
 
 void Device::targetsDone(std::vector<FittedTarget> targets) {
@@ -332,7 +370,7 @@ void Device::targetsDone(std::vector<FittedTarget> targets) {
   const auto found = std::count_if(targets.begin(), targets.end(), [](const FittedTarget& t) { return t.found; });
   if (setup != nullptr) setup->targets = std::move(targets);
   note("targets", std::to_string(found));
-  fire("targets_measured");
+  fire(Event::targets_measured);
   if (found == 0 && !busy() && state_.dialog.empty())
     ask("refused", word("target_not_found"));  // else the press seems to have done nothing
 }
@@ -346,11 +384,10 @@ void Device::sightDone(FittedTarget target) {
     const auto id = typed.empty() ? target.name : typed;
     std::erase_if(all, [&](const SightedTarget& s) { return s.id == id; });
     const auto height = fact("entry.target_height");
-    all.push_back(
-        {id, target.levelled_m, std::strtod(height->text.c_str(), nullptr), target.residual_m, target.points, true});
+    all.push_back({id, target.levelled_m, numberIn(height->text).value_or(0), target.residual_m, target.points, true});
     state_.orientation.reset();
   }
-  fire(target.found ? "sighted" : "not_sighted");
+  fire(target.found ? Event::sighted : Event::not_sighted);
 }
 
 // Its targets are known from here on: by what this set-up makes of them.
@@ -382,14 +419,14 @@ void Device::transferDone(const std::vector<std::string>& files) {
     for (auto& setup : p.setups)
       if (std::find(files.begin(), files.end(), setup.file) != files.end()) setup.transferred = true;
   note("transferred", std::to_string(files.size()));
-  fire("transferred");
+  fire(Event::transferred);
 }
 
 void Device::orderFailed(const std::string& message) {
   state_.running.reset();
   state_.data.reset();
   note("failed", message);
-  fire("failed");
+  fire(Event::failed);
   ask("failed", message);
 }
 

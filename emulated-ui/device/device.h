@@ -19,7 +19,7 @@ namespace standpoint {
 // What all devices of a kind share: data, code, the scanner that is in it, words.
 struct DeviceType {
   DeviceDefinition definition;
-  DeviceProgram program;
+  DeviceProgram program;  // its transitions are those of the file and those of the code behind them
   Instrument instrument;
   std::shared_ptr<const Words> words;
   std::vector<Condition> guards;  // of the program's transitions
@@ -88,8 +88,10 @@ class Device {
 
   // For the code of devices, actions and hands.
   DeviceState& change() { return state_; }
-  bool can(const std::string& event) const;
-  bool fire(const std::string& event);   // false: the phase knows no such event now
+  bool in(const PhaseId& phase) const { return state_.phase == phase.name; }
+  bool in(const Phases& phases) const;
+  bool can(const EventId& event) const;
+  bool fire(const EventId& event);       // false: the phase knows no such event now
   void show(const std::string& screen);  // "back": where one came from
   void ask(const std::string& dialog, const std::string& detail = {});
   void note(const std::string& what, const std::string& detail = {});
@@ -97,8 +99,9 @@ class Device {
   const ScanSettings& expected() const { return expected_; }
   std::string value(const std::string& id) const;  // of the device's own values
   std::string setting(const std::string& key) const;
-  std::string entry(const std::string& id) const;  // what was typed into a field; empty: nothing
-  double number(const std::string& fact) const;    // 0 where it is none
+  std::string entry(const std::string& id) const;   // what was typed into a field; empty: nothing
+  double number(const std::string& fact) const;     // 0 where it is none; "value.azimuth", "setting.vertical_to"
+  double entryNumber(const std::string& id) const;  // the same of what was typed
   const DeviceProject* project() const;
   DeviceProject* project();
   StoredSetup* shownSetup();
@@ -111,7 +114,9 @@ class Device {
   void view(const StoredSetup& setup) { view_ = setup; }
   void acceptOrientation();
   double expectedBytes() const;
-  double tilt() const;  // degrees
+  double tilt() const;           // degrees
+  bool levelled() const;         // a scan that begins now is
+  double levelledRange() const;  // degrees: of the scanner's compensator, else of the body
   bool showsFeet() const { return value("units") == "feet"; }
   // At rest for so long that its display went dark: what is pressed next only wakes it.
   bool asleep() const;

@@ -105,9 +105,9 @@ void addArea(const Device& device, Widget& w) {
 }
 
 // An event that shows a screen in the same phase leads there.
-bool shows(const DeviceProgram& program, const std::string& event) {
+bool shows(const DeviceProgram& program, const EventId& event) {
   return std::any_of(program.transitions.begin(), program.transitions.end(),
-                     [&](const Transition& t) { return event == t.event && *t.to == '\0' && *t.show != '\0'; });
+                     [&](const Transition& t) { return t.event == event && t.to.name.empty() && !t.show.empty(); });
 }
 
 Leads leadsOf(const WidgetRow& row, const DeviceProgram& program, const DeviceState& state) {

@@ -2,9 +2,10 @@
 #include "emulated-ui/device/effects.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include <fmt/format.h>
+
+#include "emulated-ui/device/device.h"
 
 namespace standpoint {
 
@@ -28,6 +29,13 @@ std::vector<std::string> sensorsOn(const Device& device) {
   for (const auto& sensor : device.type().definition.sensors)
     if (sensor.value.empty() || device.value(sensor.value) == "on") on.push_back(sensor.id);
   return on;
+}
+
+std::string baseOfNames(const Device& device) {
+  const auto& scan = device.type().definition.scan;
+  const auto* project = device.project();
+  const bool has_base = scan.project_base && project != nullptr && !project->base.empty();
+  return has_base ? project->base : scan.name;
 }
 
 bool hasReading(const StoredSetup& setup, const char* sensor) {
@@ -55,11 +63,11 @@ void beginScan(Device& device) {
     order.folder = project->cluster;
   }
   order.number = static_cast<int>(device.fact("setup.next")->number.value_or(1));
-  order.name = fmt::format("Setup {:03d}", order.number);
+  order.name = fmt::format("{}{:03d}", baseOfNames(device), order.number);
   order.station = s.around.station;
   order.settings = s.settings;
   order.panorama = device.expected().imaging;
-  order.compensator = device.tilt() <= type.definition.body.tilt_limit_deg;
+  order.compensator = device.levelled();
   if (s.around.dust) order.noise_factor *= kDustNoise;
   if (s.around.acclimatised_s < type.definition.body.warm_up_s) order.noise_factor *= kColdNoise;
   order.tilt_x_deg = s.around.tilt_x_deg;
@@ -119,9 +127,7 @@ void keepPartial(Device& device) {
   device.give(order);
 }
 
-double falseStart(const Device& device) {
-  return device.value("false_start").empty() ? 0 : std::strtod(device.value("false_start").c_str(), nullptr);
-}
+double falseStart(const Device& device) { return device.number("value.false_start"); }
 
 void mislay(Device& device, LinkOrder& order) {
   constexpr double kNothingThere_m = 1000;
@@ -139,6 +145,11 @@ void orderLink(Device& device) {
   if (!hasReading(newer, "compass") || !hasReading(older, "compass")) order.turn_deg = falseStart(device);
   mislay(device, order);
   device.give(std::move(order));
+}
+
+void storeAndLink(Device& device) {
+  storeScan(device);
+  orderLink(device);
 }
 
 void loseTracking(Device& device) { device.change().around.tracking = false; }
@@ -177,6 +188,18 @@ void formatCard(Device& device) {
   s.project = s.shown = -1;
   s.around.card_used_bytes = 0;
   device.note("card_formatted", std::to_string(lost));
+}
+
+const std::vector<NamedEffect>& namedEffects() {
+  static const std::vector<NamedEffect> rows = {
+      {"begin_scan", beginScan},          {"store_scan", storeScan},
+      {"store_and_link", storeAndLink},   {"drop_scan", dropScan},
+      {"mark_moved", markMoved},          {"keep_partial", keepPartial},
+      {"lose_tracking", loseTracking},    {"reset_tracking", resetTracking},
+      {"delete_setup", deleteShownSetup}, {"delete_project", deleteOpenProject},
+      {"format_card", formatCard},
+  };
+  return rows;
 }
 
 }  // namespace standpoint

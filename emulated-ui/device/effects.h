@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "emulated-ui/device/device.h"
+#include <string>
+#include <vector>
+
+#include "core/result.h"
 
 namespace standpoint {
 
-// What transitions do, for the tables of the devices' code.
+class Device;
+struct LinkOrder;
+
+// What transitions do, for the tables of the devices.
 void beginScan(Device& device);    // gives the order and reserves the number
 void storeScan(Device& device);    // the data go onto the card, and the setup is listed and shown
 void dropScan(Device& device);     // the running scan is taken back
@@ -17,6 +23,7 @@ double falseStart(const Device& device);
 // The trouble of a registration that fails: it begins where there is nothing.
 void mislay(Device& device, LinkOrder& order);
 void orderLink(Device& device);  // of the newest setup to the one before, where there is one
+void storeAndLink(Device& device);
 void loseTracking(Device& device);
 void resetTracking(Device& device);  // it watches the way from here on
 
@@ -24,6 +31,13 @@ void deleteShownSetup(Device& device);
 void deleteOpenProject(Device& device);  // with its setups
 // Everything on the card is gone; what was not copied before is lost, as in the field.
 void formatCard(Device& device);
+
+// Those that a device's file may name.
+struct NamedEffect {
+  const char* name;  // "store_scan"
+  void (*effect)(Device&);
+};
+const std::vector<NamedEffect>& namedEffects();
 
 // Names that become folders and files: not empty, none of \ / : * ? " < > |, no leading or trailing dot or blank.
 Result<void> checkName(const Device& device, const std::string& name);

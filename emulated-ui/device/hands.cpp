@@ -10,13 +10,15 @@ namespace standpoint {
 
 namespace {
 
+using Event = EngineEvent;
+
 constexpr double kLevelled_deg = 0.01;  // what a careful hand reaches with the foot screws
 
 Result<void> insertCard(Device& d, const std::string&) {
   auto& a = d.change().around;
   if (a.card_present) return failure(ErrorKind::usage, d.word("card_is_in"));
   a.card_present = true;
-  d.fire("card_inserted");
+  d.fire(Event::card_inserted);
   return {};
 }
 
@@ -25,7 +27,7 @@ Result<void> removeCard(Device& d, const std::string&) {
   auto& a = d.change().around;
   if (!a.card_present) return failure(ErrorKind::usage, d.word("card_absent"));
   a.card_present = false;
-  d.fire("card_removed");
+  d.fire(Event::card_removed);
   return {};
 }
 
@@ -46,7 +48,7 @@ Result<void> changeCard(Device& d, const std::string&) {
   a.card_locked = false;
   a.card_used_bytes = 0;
   a.card_bytes = d.type().definition.body.card_bytes;
-  d.fire("card_inserted");
+  d.fire(Event::card_inserted);
   return {};
 }
 
@@ -63,7 +65,7 @@ Result<void> carryCard(Device& d, const std::string&) {
 
 Result<void> changeBattery(Device& d, const std::string&) {
   if (d.on() && !d.state().around.mains) {
-    d.fire("battery_empty");  // it goes out while the battery is out
+    d.fire(Event::battery_empty);  // it goes out while the battery is out
   }
   d.change().around.battery = 1;
   return {};
@@ -89,7 +91,7 @@ Result<void> turnScrews(Device& d, double x_deg, double y_deg) {
   auto& a = d.change().around;
   a.tilt_x_deg = x_deg;
   a.tilt_y_deg = y_deg;
-  if (laserTurns(d)) d.fire("tripod_moved");
+  if (laserTurns(d)) d.fire(Event::tripod_moved);
   return {};
 }
 
@@ -115,14 +117,14 @@ Result<void> standAt(Device& d, const std::string& station) {
   auto& a = d.change().around;
   if (a.station == station) return {};
   if (laserTurns(d)) {
-    d.fire("tripod_moved");
+    d.fire(Event::tripod_moved);
     return failure(ErrorKind::usage, d.word("moved_while_scanning"));
   }
   a.station = station;
   d.change().sighted.clear();
   d.change().orientation.reset();
   d.change().entries.erase("pointer");
-  d.fire("set_down");
+  d.fire(Event::set_down);
   return {};
 }
 
@@ -154,7 +156,7 @@ Result<void> closeCover(Device& d, const std::string&) {
 }
 
 Result<void> moveTripod(Device& d, const std::string&) {
-  d.fire("tripod_moved");
+  d.fire(Event::tripod_moved);
   return {};
 }
 
@@ -192,38 +194,38 @@ const std::vector<TroubleRow>& troubleRows() {
       {"battery_low",
        [](Device& d) {
          d.change().around.battery = d.type().definition.body.battery_warning * 0.9;
-         d.fire("battery_low");
+         d.fire(Event::battery_low);
        }},
       {"battery_critical",
        [](Device& d) {
          d.change().around.battery = d.type().definition.body.battery_critical * 0.9;
-         d.fire("battery_critical");
+         d.fire(Event::battery_critical);
        }},
       {"card_full", [](Device& d) { d.change().around.card_used_bytes = d.state().around.card_bytes - roomFor(d); }},
       {"card_missing",
        [](Device& d) {
          if (d.type().definition.body.card_inside) return;
          d.change().around.card_present = false;
-         d.fire("card_removed");
+         d.fire(Event::card_removed);
        }},
       {"card_locked", [](Device& d) { d.change().around.card_locked = true; }},
       {"dust", [](Device& d) { d.change().around.dust = true; }},
-      {"tripod_moved", [](Device& d) { d.fire("tripod_moved"); }},
-      {"blocked", [](Device& d) { d.fire("blocked"); }},
+      {"tripod_moved", [](Device& d) { d.fire(Event::tripod_moved); }},
+      {"blocked", [](Device& d) { d.fire(Event::blocked); }},
       {"too_hot",
        [](Device& d) {
          d.change().around.temperature_c = d.type().definition.body.hottest_c + 5;
-         d.fire("temperature");
+         d.fire(Event::temperature);
        }},
       {"too_cold",
        [](Device& d) {
          d.change().around.temperature_c = d.type().definition.body.coldest_c - 5;
-         d.fire("temperature");
+         d.fire(Event::temperature);
        }},
       {"overheated",
        [](Device& d) {
          d.change().around.temperature_c = d.type().definition.body.hottest_c + 15;
-         d.fire("temperature");
+         d.fire(Event::temperature);
        }},
       {"not_warm", [](Device& d) { d.change().around.acclimatised_s = 0; }},
       {"tilted",  // out of what is compensated in full; once more, out of what the instrument bears at all
@@ -231,17 +233,17 @@ const std::vector<TroubleRow>& troubleRows() {
          const auto& body = d.type().definition.body;
          const bool leans = d.tilt() > body.tilt_full_deg;
          d.change().around.tilt_x_deg = std::max(body.tilt_full_deg * 1.3, leans ? body.tilt_limit_deg * 1.05 : 0.0);
-         d.fire("tilted");
+         d.fire(Event::tilted);
        }},
       {"tracking_lost",
        [](Device& d) {
          d.change().around.tracking = false;
-         d.fire("tracking_lost");
+         d.fire(Event::tracking_lost);
        }},
       {"wlan_lost",
        [](Device& d) {
          d.change().around.wlan = false;
-         d.fire("wlan_lost");
+         d.fire(Event::wlan_lost);
        }},
       {"target_hidden", [](Device& d) { d.change().around.targets_visible = false; }},
       {"symmetrical_room", [](Device& d) { d.change().values["false_start"] = "180"; }},  // degrees

@@ -2,6 +2,7 @@
 #include "emulated-ui/device/json_fields.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -25,6 +26,10 @@ std::string shortened(std::string text) {
 
 }  // namespace
 
+std::string nameWithFolder(const std::filesystem::path& file) {
+  return (file.parent_path().filename() / file.filename()).generic_string();
+}
+
 std::string described(const nlohmann::json& value) {
   if (value.is_string()) return fmt::format("the text \"{}\"", shortened(value.get<std::string>()));
   if (value.is_number()) return fmt::format("the number {}", shortened(value.dump()));
@@ -43,6 +48,17 @@ JsonFields::JsonFields(JsonFault& fault, const nlohmann::json& object, std::stri
 }
 
 bool JsonFields::has(const char* key) const { return object_.contains(key); }
+
+bool JsonFields::isNull(const char* key) {
+  const auto* value = find(key, false);
+  return value != nullptr && value->is_null();
+}
+
+std::vector<std::string> JsonFields::keys() const {
+  std::vector<std::string> all;
+  for (const auto& [name, value] : object_.items()) all.push_back(name);
+  return all;
+}
 
 void JsonFields::wrong(const char* key, const std::string& message) {
   fault_.say(*key == '\0' ? pointer_ : (JsonPlace{{}, pointer_} / std::string_view(key)).pointer, message);
@@ -111,6 +127,17 @@ bool JsonFields::flagOr(const char* key, bool default_value) {
   return value->is_boolean() ? value->get<bool>() : default_value;
 }
 
+std::uint32_t JsonFields::colourOr(const char* key, std::uint32_t default_value) {
+  if (!has(key)) return default_value;
+  const auto written = text(key, "#2e3033");
+  std::uint32_t colour = 0;
+  const auto* end = written.data() + written.size();
+  const bool hexadecimal =
+      written.size() == 7 && written.front() == '#' && std::from_chars(written.data() + 1, end, colour, 16).ptr == end;
+  if (!hexadecimal && !written.empty()) wrong(key, fmt::format("'{}' is not a colour such as #2e3033", written));
+  return hexadecimal ? colour : default_value;
+}
+
 Condition JsonFields::condition(const char* key) {
   auto parsed = Condition::parse(textOr(key, "", "setups >= 1"));
   if (!parsed) {
@@ -145,6 +172,14 @@ void JsonFields::list(const char* key, const std::function<void(JsonFields&)>& o
     one(fields);
     fields.close();
   }
+}
+
+void JsonFields::object(const char* key, const std::function<void(JsonFields&)>& one) {
+  const auto* value = find(key, false);
+  if (value == nullptr) return;
+  JsonFields fields(fault_, *value, fmt::format("{}/{}", pointer_, key));
+  one(fields);
+  fields.close();
 }
 
 void JsonFields::each(const char* key,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <set>
@@ -13,6 +15,9 @@
 #include "emulated-ui/device/condition.h"
 
 namespace standpoint {
+
+// As errors name a file whose folder says what it is of: "leica-rtc360/device.json".
+std::string nameWithFolder(const std::filesystem::path& file);
 
 // The first thing that is wrong with a file: what is read after it is of no use.
 class JsonFault {
@@ -33,6 +38,8 @@ class JsonFields {
   JsonFields(JsonFault& fault, const nlohmann::json& object, std::string pointer);
 
   bool has(const char* key) const;
+  bool isNull(const char* key);  // it is there, as null
+  std::vector<std::string> keys() const;
   // `example`: what such a text looks like, for whoever wrote something else.
   std::string text(const char* key, const char* example = "");
   std::string textOr(const char* key, const std::string& default_value, const char* example = "");
@@ -40,10 +47,13 @@ class JsonFields {
   double number(const char* key, double minimum, double maximum);
   double numberOr(const char* key, double default_value, double minimum, double maximum);
   bool flagOr(const char* key, bool default_value);
-  Condition condition(const char* key);             // empty when it is missing
-  std::vector<std::string> texts(const char* key);  // empty when it is missing
+  std::uint32_t colourOr(const char* key, std::uint32_t default_value);  // "#2e3033" as 0x2e3033
+  Condition condition(const char* key);                                  // empty when it is missing
+  std::vector<std::string> texts(const char* key);                       // empty when it is missing
   // Objects of a list that may be missing, in their order.
   void list(const char* key, const std::function<void(JsonFields&)>& one);
+  // An object that may be missing.
+  void object(const char* key, const std::function<void(JsonFields&)>& one);
   // Values of an object that may be missing.
   void each(const char* key,
             const std::function<void(const std::string& name, const nlohmann::json&, const std::string& pointer)>& one);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,17 +12,67 @@ namespace standpoint {
 
 class Device;
 
-// What a device's phases and widgets do: the half of it that is code. The first transition of a phase and event whose
-// guard holds is taken.
+// The name of a phase. Code has a constant for each that it names; loading a device refuses a transition that names one
+// which the device's file does not have.
+struct PhaseId {
+  std::string name;  // empty: none
+  bool operator==(const PhaseId&) const = default;
+};
+using Phases = std::vector<PhaseId>;
+inline const PhaseId kAnyPhase{"*"};  // any that has power
+
+// What the clock, the engine, the host and the hands send by themselves.
+enum class EngineEvent {
+  elapsed,  // the phase's time is over
+  data,     // the simulation of the running scan is done
+  linked,
+  targets_measured,
+  transferred,
+  failed,
+  battery_low,
+  battery_critical,
+  battery_empty,
+  card_inserted,
+  card_removed,
+  tripod_moved,
+  blocked,
+  temperature,
+  tilted,
+  tracking_lost,
+  wlan_lost,
+  set_down,  // the tripod, at a station
+  sighted,
+  not_sighted
+};
+inline constexpr const char* kEngineEventNames[] = {
+    "elapsed",       "data",         "linked",           "targets_measured", "transferred",
+    "failed",        "battery_low",  "battery_critical", "battery_empty",    "card_inserted",
+    "card_removed",  "tripod_moved", "blocked",          "temperature",      "tilted",
+    "tracking_lost", "wlan_lost",    "set_down",         "sighted",          "not_sighted"};
+
+// One of these, or the name that a widget or a dialog's button of the device sends: loading a device refuses an event
+// that nothing sends or no phase handles.
+struct EventId {
+  std::string name;
+  EventId(EngineEvent event) : name(kEngineEventNames[static_cast<int>(event)]) {}  // NOLINT: so that tables are short
+  EventId(std::string sent) : name(std::move(sent)) {}                              // NOLINT
+  EventId(const char* sent) : name(sent) {}                                         // NOLINT
+  bool operator==(const EventId&) const = default;
+  bool isOfEngine() const;
+};
+
+using DeviceEffect = void (*)(Device&);
+
+// What a device's phases and widgets do. The first transition of a phase and event whose guard holds is taken.
 struct Transition {
-  const char* from;        // phases, separated by blanks; "*": any that has power
-  const char* event;       // of a widget, a dialogue's button, a trouble; "elapsed": the phase's time is over
-  const char* guard = "";  // a condition
-  const char* to = "";     // phase; empty: it stays
-  const char* show = "";   // screen; empty: that of the phase, or the same
-  const char* ask = "";    // dialogue
-  void (*effect)(Device&) = nullptr;
-  const char* source = "P";  // mark of the reference: "S9", "G1", "P" for a choice of this emulator
+  Phases from;
+  EventId event;
+  std::string guard;  // a condition
+  PhaseId to;         // empty: it stays
+  std::string show;   // screen; empty: that of the phase, or the same
+  std::string ask;    // dialog
+  DeviceEffect effect = nullptr;
+  std::string source = "P";  // mark of the reference: "S9", "G1", "P" for a choice of this emulator
 };
 
 // An action behind a widget's "does". What it refuses is shown in a dialogue with the message.
@@ -39,7 +88,7 @@ enum class FactUnit { none, fraction, seconds, bytes, points, metres, degrees, c
 struct FactRow {
   const char* name;
   FactUnit unit = FactUnit::none;
-  FactDomain domain;
+  FactDomain domain = {};
   Fact (*value)(const Device&);
   const char* about;  // for the list of facts in the documentation
 };
@@ -50,13 +99,20 @@ struct ListRow {
   std::vector<WidgetOption> (*rows)(const Device&);
 };
 
+// Something that only this device logs; its word is "never.NAME".
+struct OwnEvent {
+  const char* name;
+  const char* about;  // what its detail is
+};
+
+// The half of a device that is code, beside what all devices share; one without any has data only.
 struct DeviceProgram {
-  const char* definition;  // "leica/rtc360.json"
   std::vector<Transition> transitions;
-  std::vector<DeviceAction> actions;  // beside the shared ones
-  std::vector<FactRow> facts;         // beside the shared ones
+  std::vector<DeviceAction> actions;
+  std::vector<FactRow> facts;
   std::vector<ListRow> lists;
-  // What the device's own values change in a scan: sensors that are off, folders, pictures.
+  std::vector<OwnEvent> events;
+  // What the device's own values change in a scan: its name, filters, notes.
   void (*prepare)(const Device&, struct ScanOrder&) = nullptr;
 };
 

@@ -23,26 +23,30 @@ Result<Words> Words::read(const std::filesystem::path& folder) {
   if (error) return failure(ErrorKind::file_system, "cannot read the folder: " + error.message(), folder.string());
   std::sort(files.begin(), files.end());
   Words words;
-  for (const auto& file : files) {
-    const auto json = readJsonFile(file);
-    if (!json) return failure(json.error());
-    JsonFault fault(file.filename().string());
-    JsonFields root(fault, *json, "");
-    root.skip("about");
-    const std::string of = root.textOr("of", "");
-    root.each("words", [&](const std::string& key, const nlohmann::json& by_language, const std::string& at) {
-      JsonFields fields(fault, by_language, at);
-      fields.everyText([&](const std::string& language, const std::string& text) {
-        if (text.empty() || text.size() > kLongestWord)
-          fault.say(at + "/" + language, "must be a text of 1 to 2000 bytes");
-        if (!words.texts_[of.empty() ? key : of + "/" + key].emplace(language, text).second)
-          fault.say(at + "/" + language, "already defined in another file");
-      });
-    });
-    root.close();
-    if (fault.error()) return failure(*fault.error());
-  }
+  for (const auto& file : files) TRY(words.take(file, {}));
   return words;
+}
+
+Result<void> Words::add(const std::filesystem::path& file, const std::string& device) { return take(file, device); }
+
+Result<void> Words::take(const std::filesystem::path& file, std::string device) {
+  TRY_ASSIGN(const auto json, readJsonFile(file));
+  JsonFault fault(nameWithFolder(file));
+  JsonFields root(fault, json, "");
+  root.skip("about");
+  if (device.empty()) device = root.textOr("of", "");
+  root.each("words", [&](const std::string& key, const nlohmann::json& by_language, const std::string& at) {
+    JsonFields fields(fault, by_language, at);
+    fields.everyText([&](const std::string& language, const std::string& text) {
+      if (text.empty() || text.size() > kLongestWord)
+        fault.say(at + "/" + language, "must be a text of 1 to 2000 bytes");
+      if (!texts_[device.empty() ? key : device + "/" + key].emplace(language, text).second)
+        fault.say(at + "/" + language, "already defined in another file");
+    });
+  });
+  root.close();
+  if (fault.error()) return failure(*fault.error());
+  return {};
 }
 
 const std::string* Words::find(const std::string& device, const std::string& key, const std::string& language) const {

@@ -223,7 +223,7 @@ float deviceWidth(const Device& device, float height) {
 std::optional<Press> drawDevice(const Device& device, DeviceView& view, float width, float height) {
   const Screen screen = device.screen();
   const auto& definition = device.type().definition;
-  const Skin& skin = skinOf(definition.body.skin);
+  const Skin skin = skinOf(definition.skin);
   const auto [unit, bezel, keys, display_width, display_height] = proportionsOf(definition.body, width, height);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const ImVec2 at{corner.x + std::max(0.0F, (width - display_width - 2 * bezel) / 2), corner.y};

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "emulated-ui/device/nearest.h"
+#include "emulated-ui/menus.h"
 
 namespace standpoint {
 
@@ -61,62 +62,56 @@ std::optional<std::vector<std::string>> details(Detail detail, const Device& dev
   return std::nullopt;
 }
 
+// Those of one device only are in its program.
+std::vector<EventRow> sharedEvents() {
+  return {
+      {.name = "pressed", .detail = Detail::press, .about = "control or key: screen/widget"},
+      {.name = "answered", .detail = Detail::answer, .about = "dialog: dialog/button"},
+      {.name = "refused", .detail = Detail::text, .about = "rejected input: the control"},
+      {.name = "setting", .detail = Detail::text, .about = "setting changed: its key"},
+      {.name = "value", .detail = Detail::text, .about = "device value changed: its id"},
+      {.name = "hand", .detail = Detail::hand, .about = "hand action"},
+      {.name = "trouble", .detail = Detail::trouble, .about = "trouble occurred"},
+      {.name = "phase", .detail = Detail::phase, .about = "phase entered"},
+      {.name = "screen", .detail = Detail::screen, .about = "screen opened"},
+      {.name = "dialog", .detail = Detail::dialog, .about = "dialog opened"},
+      {.name = "event", .detail = Detail::text, .about = "of the device's state machine"},
+      {.name = "woken", .about = "dark display touched"},
+      {.name = "project_created", .detail = Detail::text, .about = "its name"},
+      {.name = "project_opened", .detail = Detail::text, .about = "its name"},
+      {.name = "project_renamed", .detail = Detail::text, .about = "its new name"},
+      {.name = "project_deleted", .detail = Detail::text, .about = "its name"},
+      {.name = "cluster", .detail = Detail::text, .about = "folder for the next scans selected: its name"},
+      {.name = "scan_started", .detail = Detail::text, .about = "the setup's name"},
+      {.name = "scan_stored", .detail = Detail::text, .about = "the setup's name"},
+      {.name = "scan_dropped", .detail = Detail::text, .about = "the setup's name"},
+      {.name = "failed", .detail = Detail::text, .about = "request failed: the reason"},
+      {.name = "looked_at", .detail = Detail::text, .about = "preview opened: the setup's name"},
+      {.name = "measured", .detail = Detail::text, .about = "distance measured in the preview"},
+      {.name = "setup_deleted", .detail = Detail::text, .about = "its name"},
+      {.name = "targets", .detail = Detail::text, .about = "targets searched: number found"},
+      {.name = "sighted", .detail = Detail::text, .about = "target measured: its name (P-series)"},
+      {.name = "oriented", .detail = Detail::text, .about = "station set-up accepted: the method (P-series)"},
+      {.name = "linked", .detail = Detail::text, .about = "link attempted: joined or refused"},
+      {.name = "registration", .detail = Detail::text, .about = "link state (X7, VZ-i)"},
+      {.name = "transferred", .detail = Detail::text, .about = "files copied to the office: number"},
+      {.name = "card_formatted", .detail = Detail::text, .about = "number of setups lost without a copy"},
+      {.name = "field", .detail = Detail::field_verb, .about = "action in the environment", .logged = false},
+      {.name = "targets_moved", .about = "targets that moved since an earlier scan", .logged = false},
+  };
+}
+
 }  // namespace
 
 const std::vector<EventRow>& eventRows() {
-  static const std::vector<EventRow> rows = {
-      {"pressed", Detail::press, "control or key: screen/widget"},
-      {"answered", Detail::answer, "dialog: dialog/button"},
-      {"refused", Detail::text, "rejected input: the control"},
-      {"setting", Detail::text, "setting changed: its key"},
-      {"value", Detail::text, "device value changed: its id"},
-      {"hand", Detail::hand, "hand action"},
-      {"trouble", Detail::trouble, "trouble occurred"},
-      {"phase", Detail::phase, "phase entered"},
-      {"screen", Detail::screen, "screen opened"},
-      {"dialog", Detail::dialog, "dialog opened"},
-      {"event", Detail::text, "of the device's state machine"},
-      {"woken", Detail::none, "dark display touched"},
-      {"project_created", Detail::text, "its name"},
-      {"project_opened", Detail::text, "its name"},
-      {"project_renamed", Detail::text, "its new name"},
-      {"project_deleted", Detail::text, "its name"},
-      {"cluster", Detail::text, "folder for the next scans selected: its name"},
-      {"position_base", Detail::text, "base name of positions set (VZ-i)"},
-      {"profile_saved", Detail::text, "its name (Focus)"},
-      {"profile_deleted", Detail::text, "its name (Focus)"},
-      {"scan_started", Detail::text, "the setup's name"},
-      {"scan_stored", Detail::text, "the setup's name"},
-      {"scan_dropped", Detail::text, "the setup's name"},
-      {"unlevelled", Detail::text, "scan started without compensator: the setup's name (P-series)"},
-      {"failed", Detail::text, "request failed: the reason"},
-      {"error", Detail::text, "device stopped with an error (BLK360)"},
-      {"looked_at", Detail::text, "preview opened: the setup's name"},
-      {"measured", Detail::text, "distance measured in the preview"},
-      {"setup_deleted", Detail::text, "its name"},
-      {"targets", Detail::text, "targets searched: number found"},
-      {"sighted", Detail::text, "target measured: its name (P-series)"},
-      {"target_used", Detail::text, "target included in or excluded from the set-up: its id (P-series)"},
-      {"station_solved", Detail::text, "the method (P-series)"},
-      {"station_id", Detail::text, "entered name (P-series)"},
-      {"oriented", Detail::text, "station set-up accepted: the method (P-series)"},
-      {"import", Detail::text, "how unlevelled setups were imported (P-series)"},
-      {"linked", Detail::text, "link attempted: joined or refused"},
-      {"registration", Detail::text, "link state (X7, VZ-i)"},
-      {"optimised", Detail::text, "links optimised: number of setups (BLK360)"},
-      {"georeferenced", Detail::text, "number of control points found (VZ-i)"},
-      {"control_point", Detail::text, "control point entered: its name (VZ-i)"},
-      {"annotation", Detail::text, "its text (X7)"},
-      {"pointed", Detail::text, "laser pointer aimed (X7)"},
-      {"tagged", Detail::text, "its text (BLK360)"},
-      {"button_stored", Detail::text, "device button configured (BLK360)"},
-      {"standalone", Detail::text, "scan without the tablet (BLK360)"},
-      {"transferred", Detail::text, "files copied to the office: number"},
-      {"card_formatted", Detail::text, "number of setups lost without a copy"},
-      {"field", Detail::field_verb, "action in the environment", false},
-      {"targets_moved", Detail::none, "targets that moved since an earlier scan", false},
-  };
-  return rows;
+  static const auto all = [] {
+    auto rows = sharedEvents();
+    for (const auto& device : emulatedDevices())
+      for (const auto& own : device.program().events)
+        rows.push_back({.name = own.name, .detail = Detail::text, .about = own.about});
+    return rows;
+  }();
+  return all;
 }
 
 std::optional<std::string> wrongCounter(const std::string& name, const Device& device) {

@@ -21,7 +21,7 @@ std::vector<std::string> idsOf(const Rows& rows) {
 enum class EventDetail { none, text, screen, phase, dialog, answer, press, hand, trouble, field_verb };
 
 // Something that devices log, or that a rehearsal counts itself. Its word is "never.NAME": what did not happen where it
-// never came.
+// never came. First those that devices share, then those that are a device's own.
 struct EventRow {
   const char* name;  // "scan_started"
   EventDetail detail = EventDetail::none;

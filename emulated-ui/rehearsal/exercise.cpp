@@ -10,6 +10,7 @@
 #include "core/data_folder.h"
 #include "core/json_file.h"
 #include "emulated-ui/device/json_fields.h"
+#include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/events.h"
 #include "project/verb.h"
 
@@ -263,15 +264,31 @@ Result<Exercise> readExercise(const fs::path& file) {
   return e;
 }
 
+namespace {
+
+std::vector<fs::path> filesIn(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<fs::path> tutorials() {
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (const auto& device : emulatedDevices())
+    if (const auto file = device.folder() / "tutorial.json"; fs::exists(file, error)) files.push_back(file);
+  return files;
+}
+
+}  // namespace
+
 KnownExercises knownExercises() {
   KnownExercises known;
   auto& found = known.readable;
-  for (const auto& folder : {dataFolder() / "emulated-ui" / "exercises", ownExercisesFolder()}) {
-    std::error_code error;
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(folder, error))
-      if (entry.path().extension() == ".json") files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
+  const auto take = [&](const std::vector<fs::path>& files) {
     for (const auto& file : files) {
       auto exercise = readExercise(file);
       if (!exercise) {
@@ -288,8 +305,12 @@ KnownExercises knownExercises() {
              fmt::format("id '{}' is also used by {}: choose another id", exercise->id, other->file.string()),
              file.string() + " /id"});
     }
-  }
-  // Whoever is new begins with them.
+  };
+  take(tutorials());
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.exercise.id < b.exercise.id; });
+  take(filesIn(dataFolder() / "emulated-ui" / "exercises"));
+  take(filesIn(ownExercisesFolder()));
+  // Students who are new begin with them.
   std::stable_partition(found.begin(), found.end(), [](const KnownExercise& one) { return one.exercise.tutorial; });
   return known;
 }

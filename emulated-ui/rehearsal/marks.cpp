@@ -143,8 +143,12 @@ std::string today() {
 
 // A demand that nothing asked is not met, but it says nothing of the data either.
 std::string neverAsked(const Rehearsal& rehearsal, const ExerciseRule& rule, const std::string& language) {
-  const auto& words = *rehearsal.device().type().words;
-  return words.text({}, "never_asked", language) + ": " + words.text({}, "never." + rule.event, language);
+  const auto& type = rehearsal.device().type();
+  const auto& words = *type.words;
+  const auto never = "never." + rule.event;
+  const bool known = words.has(type.definition.id, never, "en");  // else only another device logs it
+  return words.text({}, "never_asked", language) + ": " +
+         words.text(type.definition.id, known ? never : "never.event", language);
 }
 
 json answersOf(const Rehearsal& rehearsal, const std::string& language) {

@@ -84,7 +84,7 @@ Result<json> deviceNames() {
   for (const auto& device : emulatedDevices()) {
     TRY_ASSIGN(const auto type, loadDevice(device));
     rows.push_back({{"id", device.id},
-                    {"title", device.title},
+                    {"title", device.title()},
                     {"start", startOf(*type, type)},
                     {"instruments", type->definition.instruments}});
   }
@@ -127,7 +127,7 @@ Result<json> namesOf(const std::string& id) {
   for (const auto& event : eventRows())
     if (event.logged) events[event.name] = event.about;
   return json{{"device", id},
-              {"title", found->title},
+              {"title", found->title()},
               {"start", startOf(*type, type)},
               {"settings", settings},
               {"values", values},

@@ -20,8 +20,7 @@ using testing::HasSubstr;
 const json& shippedDevice(const std::string& device) {
   static std::map<std::string, json> files;
   auto& file = files[device];
-  if (file.is_null())
-    file = readJsonFile(dataFolder() / "emulated-ui" / findDevice(device)->program().definition).value();
+  if (file.is_null()) file = readJsonFile(findDevice(device)->folder() / "device.json").value();
   return file;
 }
 
@@ -82,25 +81,67 @@ TEST_F(BadDevice, EachMistakeIsNamedWithItsPlace) {
       {"x.json /screens", [](json& j) { j["screens"].push_back(j["screens"][0]); }},
       {"x.json /screens/0/widgets/0/kind", [](json& j) { j["screens"][0]["widgets"][0]["kind"] = "lever"; }},
       {"x.json /values/4/standard", [](json& j) { named(j["values"], "brightness")["standard"] = "bright"; }},
-      {"x.json /values/4/standard", [](json& j) { named(j["values"], "brightness")["standard"] = "101"; }},
+      {"x.json /values/4/standard", [](json& j) { named(j["values"], "brightness")["standard"] = 101; }},
       {"leica-rtc360 transition start of 'idle vis_tracking': unknown phase 'scanning_pass_1'",
        [](json& j) { named(j["phases"], "scanning_pass_1")["id"] = "first_pass"; }},
       {"unknown dialog 'card_full'", [](json& j) { remove(j["dialogs"], "card_full"); }},
       {"unknown screen 'setup'", [](json& j) { remove(j["screens"], "setup"); }},
-      {"leica-rtc360 /phases/storing/lasts: 'a while' is not a duration in seconds",
+      {"leica-rtc360/device.json /phases/storing/lasts: 'a while' is not a duration in seconds",
        [](json& j) { named(j["phases"], "storing")["lasts"] = "a while"; }},
-      {"leica-rtc360 /phases/storing/lasts: 'tilt' is not a duration in seconds",
+      {"leica-rtc360/device.json /phases/storing/lasts: 'tilt' is not a duration in seconds",
        [](json& j) { named(j["phases"], "storing")["lasts"] = "tilt"; }},
-      {"leica-rtc360 /phases/storing/lasts: 'phase.lasts' is not a duration in seconds",
+      {"leica-rtc360/device.json /phases/storing/lasts: 'phase.lasts' is not a duration in seconds",
        [](json& j) { named(j["phases"], "storing")["lasts"] = "phase.lasts"; }},
-      {"leica-rtc360 /screens/home/job/go: unknown screen 'attic'",
+      {"leica-rtc360/device.json /screens/home/job/go: unknown screen 'attic'",
        [](json& j) { named(named(j["screens"], "home")["widgets"], "job")["go"] = "attic"; }},
-      {"leica-rtc360 /screens/home/scan/event: no phase handles the event 'scann'",
+      {"leica-rtc360/device.json /screens/home/scan/event: no phase handles the event 'scann'",
        [](json& j) { named(named(j["screens"], "home")["widgets"], "scan")["event"] = "scann"; }},
-      {"leica-rtc360 /screens/home/battery/warns: unknown fact 'batery'",
+      {"leica-rtc360/device.json /screens/home/battery/warns: unknown fact 'batery'",
        [](json& j) { named(named(j["screens"], "home")["widgets"], "battery")["warns"] = "batery < 1"; }},
   };
   for (const auto& wrong : kWrong) EXPECT_THAT(saysOf("leica-rtc360", wrong.edit), HasSubstr(wrong.message));
+}
+
+TEST_F(BadDevice, WithoutCodeOfItsOwnIsRefusedByThePlaceInItsFile) {
+  struct Wrong {
+    const char* message;
+    Edit edit;
+  };
+  const Wrong kWrong[] = {
+      {"x.json /transitions/0/from: unknown phase 'scaning'",
+       [](json& j) { j["transitions"][0]["from"] = {"scaning"}; }},
+      {"x.json /transitions/0/to: unknown phase 'pictures'", [](json& j) { j["transitions"][0]["to"] = "pictures"; }},
+      {"x.json /transitions/0/guard", [](json& j) { j["transitions"][0]["guard"] = "imaging =="; }},
+      {"x.json /transitions/3/effect", [](json& j) { j["transitions"][3]["effect"] = "store"; }},
+      {"x.json /roles/working: unknown phase 'scaning'", [](json& j) { j["roles"]["working"] = {"scaning"}; }},
+      {"x.json /roles/kept: unknown phase 'attic'", [](json& j) { j["roles"]["kept"] = "attic"; }},
+      {"x.json /roles/wroking", [](json& j) { j["roles"]["wroking"] = {"scanning"}; }},
+      {"x.json /skin/accent: '#12' is not a colour", [](json& j) { j["skin"]["accent"] = "#12"; }},
+      {"x.json /scan/levelled", [](json& j) { j["scan"]["levelled"] = "levelled == yes"; }},
+      {"x.json /values/3/standard", [](json& j) { j["values"][3]["standard"] = "80"; }},
+      {"generic/device.json /body/sleeps/value: unknown value 'nap'",
+       [](json& j) {
+         j["body"]["sleeps"] = {{"value", "nap"}, {"minutes", {{"5min", 5}}}};
+       }},
+      {"generic/device.json /body/sleeps/minutes: 'long' is not a choice of 'language'",
+       [](json& j) {
+         j["body"]["sleeps"] = {{"value", "language"}, {"minutes", {{"long", 5}}}};
+       }},
+      {"this event is never sent", [](json& j) { j["transitions"][0]["event"] = "nobody"; }},
+  };
+  for (const auto& wrong : kWrong) EXPECT_THAT(saysOf("generic", wrong.edit), HasSubstr(wrong.message));
+}
+
+TEST_F(BadDevice, ASharedTransitionThatNothingOnTheDeviceSendsIsLeftOut) {
+  const auto type = edited("generic", [](json& j) {
+    remove(named(j["screens"], "tools")["widgets"], "format");
+    j["roles"]["off"] = nullptr;
+  });
+  ASSERT_TRUE(type) << describe(type.error());
+  for (const auto& t : (*type)->program.transitions) {
+    EXPECT_NE(t.event, "format");
+    EXPECT_NE(t.event, EngineEvent::battery_empty) << "'off' is null: it ends in its own way";
+  }
 }
 
 // A value that only the code asks for is not missed by any name in the file.

@@ -41,13 +41,23 @@ TEST(Events, TheTableHasAllThatDevicesNoteAndNothingElse) {
 }
 
 TEST(Events, EachSaysInEveryLanguageThatItNeverCame) {
+  std::set<std::string> own;
+  for (const auto& device : emulatedDevices()) {
+    const auto type = *loadDevice(device);
+    for (const auto& language : type->words->languages())
+      for (const auto& event : device.program().events)
+        EXPECT_TRUE(type->words->has(device.id, std::string("never.") + event.name, language))
+            << device.id << " " << event.name << " " << language;
+    for (const auto& event : device.program().events) own.insert(event.name);
+  }
   TestDevice focus("faro-focus");
   const auto& words = *focus->type().words;
   for (const auto& language : words.languages()) {
     EXPECT_TRUE(words.has({}, "never_asked", language)) << language;
     for (const auto& row : eventRows())
-      if (row.logged)
+      if (row.logged && !own.contains(row.name)) {
         EXPECT_TRUE(words.has({}, std::string("never.") + row.name, language)) << row.name << " " << language;
+      }
   }
 }
 

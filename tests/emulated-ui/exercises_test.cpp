@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -10,6 +12,7 @@
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/marks.h"
 #include "emulated-ui/rehearsal/rehearsal.h"
+#include "project/verb.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
@@ -167,6 +170,17 @@ TEST(ShippedExercises, HaveTheTutorialsBeforeAllOthersAndOneForEachDevice) {
     EXPECT_TRUE(std::any_of(all.begin(), first_other, [&](const KnownExercise& k) {
       return isFor(k.exercise, device.id);
     })) << device.id;
+}
+
+// "E03-X7" is E03 for another device.
+TEST(ShippedExercises, AreEachInATopicOfTheGuideForLecturers) {
+  std::ifstream in(dataFolder() / "docs" / "guide" / "lecturer.md");
+  const std::string guide{std::istreambuf_iterator<char>(in), {}};
+  for (const auto& [e, file] : shipped()) {
+    const std::regex listed("\\| [^\n]*\\b" + e.id.substr(0, e.id.find('-')) + "\\b[^\n]*\\|\n");
+    EXPECT_TRUE(e.tutorial || std::regex_search(guide, listed))
+        << "missing: " << e.id << " in the table of topics of docs/guide/lecturer.md";
+  }
 }
 
 std::vector<std::string> ids() {

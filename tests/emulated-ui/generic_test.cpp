@@ -77,9 +77,10 @@ TEST(GenericDevice, DrivesAScannerOfTheUsersOwn) {
     instrument.model = "Breadboard";
     instrument.settings.push_back(
         {"back", "Lamp", "", {{"dim", "Dim", {}}, {"bright", "Bright", {{"noise_factor", 0.5}}}}, 0, 0, "dim"});
-    auto definition = readDefinition(dataFolder() / "emulated-ui" / "generic" / "generic.json");
+    auto definition = readDefinition(findDevice("generic")->folder() / "device.json");
     auto words = Words::read(dataFolder() / "emulated-ui" / "words");
     ASSERT_TRUE(definition && words);
+    ASSERT_TRUE(words->add(findDevice("generic")->folder() / "words.json", "generic"));
     const auto type = makeDeviceType(*definition, findDevice("generic")->program(), instrument,
                                      std::make_shared<const Words>(*words));
     ASSERT_TRUE(type) << describe(type.error());

@@ -146,8 +146,8 @@ bool isLinking(Device& d) {
 }
 bool linksNothing(Device& d) { return !d.takeOrder(); }
 bool spinsUpForEightToTenSeconds(Device& d) {
-  const auto lasts = findPhase(d.type().definition, "spin_up")->lasts;
-  return lasts == "8" || lasts == "9" || lasts == "10";
+  const auto seconds = findPhase(d.type().definition, "spin_up")->lasts_s.value_or(0);
+  return seconds >= 8 && seconds <= 10;
 }
 bool shootsForAMinute(Device& d) { return d.expected().imaging_seconds == 60; }
 

@@ -83,7 +83,7 @@ TEST(RehearseCheck, OfSoundFilesOnlyIsNoLoss) {
 }
 
 TEST(RehearseCheck, GoesOnAfterAFileThatIsNotThere) {
-  const auto good = (dataFolder() / "emulated-ui" / "exercises" / "t-rtc360.json").string();
+  const auto good = (findDevice("leica-rtc360")->folder() / "tutorial.json").string();
   const auto checked = rehearseVerb({{"check", {"/nonexistent/x.json", good}}});
   ASSERT_TRUE(checked) << describe(checked.error());
   EXPECT_EQ(checked->report.losses(), 1U);

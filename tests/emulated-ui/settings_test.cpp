@@ -197,7 +197,7 @@ bool changesTheDevice(const std::shared_ptr<const DeviceType>& type, const Value
   const auto pressed = [&](const Variant& situation) {
     for (const auto& phase : type->definition.phases)
       for (const auto& screen : type->definition.screens) {
-        const bool rests = phase.lasts.empty() || phase.waits;
+        const bool rests = !phase.ends() || phase.waits;
         if (!phase.on || (!rests && screen.id != phase.screen)) continue;
         const auto twins = in(situation, phase, screen.id);
         if (endDifferently(twins, value.id, presses(twins.front()))) return true;
@@ -214,15 +214,6 @@ bool changesTheDevice(const std::shared_ptr<const DeviceType>& type, const Value
   return pressed(situations.front()) || std::any_of(situations.begin(), situations.end(), befallen) ||
          std::any_of(situations.begin() + 1, situations.end(), pressed);
 }
-
-// What only the office, the host or a picture shows; the tests that hold it.
-const std::map<std::string, std::string> kShownElsewhere = {
-    {"trimble-x7/colouring", "Preview.IsColouredAsTheUserChose"},
-    {"trimble-x7/view_filter", "X7.ShowsAllTheLatestOrTheNearestStations"},  // more than five stations
-    {"leica-p-series/air_temperature",
-     "PSeries.TheTypedAirScalesTheRangesToTargets"},  // some ppm: less than a screen shows
-    {"leica-p-series/air_pressure", "PSeries.TheTypedAirScalesTheRangesToTargets"},
-};
 
 std::string helpOf(const DeviceType& type, const WidgetRow& w) {
   return type.words->text(type.definition.id, w.words + "?", "en");
@@ -252,10 +243,11 @@ TEST_P(EverySetting, OfTheDeviceChangesWhatItDoesOrItsHelpSaysThatItDoesNot) {
   const auto loaded = loadDevice(*GetParam());
   ASSERT_TRUE(loaded) << describe(loaded.error());
   const auto& type = *loaded;
+  const auto elsewhere = testedBy(*GetParam(), "values");
   std::set<std::string> asked;
   for (const auto& screen : type->definition.screens)
     for (const auto& w : screen.widgets) {
-      if (w.value.empty() || kShownElsewhere.contains(type->definition.id + "/" + w.value)) continue;
+      if (w.value.empty() || elsewhere.contains(w.value)) continue;
       const bool excused = helpOf(*type, w).find(kExcuse) != std::string::npos;
       if (!asked.insert(w.value).second) continue;
       auto situations = situationsOf(*type);
@@ -266,22 +258,12 @@ TEST_P(EverySetting, OfTheDeviceChangesWhatItDoesOrItsHelpSaysThatItDoesNot) {
   for (const auto& value : type->definition.values) {
     const bool read_by_code = value.id == "connection" || value.id == "address" ||
                               value.id == "self_timer";  // shown, and set by the device itself
-    EXPECT_TRUE(asked.contains(value.id) || kShownElsewhere.contains(type->definition.id + "/" + value.id) ||
-                read_by_code)
+    EXPECT_TRUE(asked.contains(value.id) || elsewhere.contains(value.id) || read_by_code)
         << "no widget sets " << value.id;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Devices, EverySetting, testing::ValuesIn([] {
-                           std::vector<const EmulatedDevice*> all;
-                           for (const auto& device : emulatedDevices()) all.push_back(&device);
-                           return all;
-                         }()),
-                         [](const auto& info) {
-                           std::string name = info.param->id;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Devices, EverySetting, testing::ValuesIn(everyDevice()), deviceName);
 
 }  // namespace
 }  // namespace standpoint

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <algorithm>
+#include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "core/json_file.h"
 #include "emulated-ui/menus.h"
 
 namespace standpoint {
@@ -22,6 +25,16 @@ inline std::string deviceName(const testing::TestParamInfo<const EmulatedDevice*
   std::string name = info.param->id;
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
+}
+
+// What the tests of all devices do not reach, as the device's tested_by.json says: widgets ("screen/id") or values
+// (id), with the test that has the longer story.
+inline std::map<std::string, std::string> testedBy(const EmulatedDevice& device, const char* what) {
+  const auto file = device.folder() / "tested_by.json";
+  if (!std::filesystem::exists(file)) return {};
+  const auto json = readJsonFile(file);
+  EXPECT_TRUE(json) << describe(json.error());
+  return json ? json->value(what, std::map<std::string, std::string>()) : std::map<std::string, std::string>();
 }
 
 // A sphere that was found and fits to a millimetre.

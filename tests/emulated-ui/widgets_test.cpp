@@ -40,15 +40,6 @@ std::size_t choicesOf(const DeviceType& type, const std::string& key) {
   return 0;
 }
 
-// What takes a longer story to become of use; the tests that tell it.
-const std::map<std::string, std::string> kTheirOwn = {
-    {"trimble-x7/registration/link_list", "X7.MakesAStationAmberBetween73And91"},
-    {"trimble-x7/registration/apply", "X7.MakesAStationAmberBetween73And91"},
-    {"trimble-x7/registration/reject", "X7.MakesAStationAmberBetween73And91"},
-    {"riegl-vz-i/control_points/georeference", "VzI.NeedsFourControlPointsWithANameAndThreeCoordinates"},
-    {"riegl-vz-i/control_points/clear_points", "VzI.NeedsFourControlPointsWithANameAndThreeCoordinates"},
-};
-
 class Widgets : public testing::TestWithParam<const EmulatedDevice*> {};
 
 TEST_P(Widgets, PressedOnEveryScreen) {
@@ -62,6 +53,7 @@ TEST_P(Widgets, PressedOnEveryScreen) {
     return std::any_of(types.begin(), types.end(),
                        [&](const auto& type) { return isPressedSomewhere(type, screen, id, on_body); });
   };
+  const auto elsewhere = testedBy(*GetParam(), "widgets");
   const std::set<WidgetKind> kShown = {WidgetKind::status, WidgetKind::readout, WidgetKind::note, WidgetKind::progress,
                                        WidgetKind::lamp,   WidgetKind::level,   WidgetKind::plan};
   for (const auto& key : (*first)->definition.keys)
@@ -71,7 +63,7 @@ TEST_P(Widgets, PressedOnEveryScreen) {
     for (const auto& w : screen.widgets) {
       const bool one_choice = w.kind == WidgetKind::choice && !w.setting.empty() &&
                               choicesOf(**first, w.setting) == 1;  // nothing else can be chosen
-      if (one_choice || kTheirOwn.contains(std::string(GetParam()->id) + "/" + screen.id + "/" + w.id)) continue;
+      if (one_choice || elsewhere.contains(screen.id + "/" + w.id)) continue;
       const bool only_a_list = w.kind == WidgetKind::list && w.does.empty() && w.go.empty();
       if (!kShown.contains(w.kind) && !only_a_list)
         EXPECT_TRUE(pressed(screen.id, w.id, false))

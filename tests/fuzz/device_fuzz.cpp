@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 
 struct Shipped {
-  const DeviceProgram* program;
+  const EmulatedDevice* device;
   json definition, shared_words, own_words;
   Instrument instrument;
 };
@@ -33,10 +33,9 @@ const std::vector<Shipped>& shipped() {
     std::vector<Shipped> devices;
     const auto folder = dataFolder() / "emulated-ui";
     for (const auto& device : emulatedDevices())
-      devices.push_back({&device.program(), needed(readJsonFile(folder / device.program().definition)),
+      devices.push_back({&device, needed(readJsonFile(device.folder() / "device.json")),
                          needed(readJsonFile(folder / "words" / "common.json")),
-                         needed(readJsonFile(folder / "words" / (std::string(device.id) + ".json"))),
-                         needed(loadDevice(device))->instrument});
+                         needed(readJsonFile(device.folder() / "words.json")), needed(loadDevice(device))->instrument});
     return devices;
   }();
   return all;
@@ -82,12 +81,11 @@ void edit(json& root, FuzzedDataProvider& data) {
 
 std::string textOf(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
 
-std::filesystem::path wordsFolder(const json& shared, const json& own) {
+std::filesystem::path wordsFolder(const json& shared) {
   const auto folder =
       std::filesystem::temp_directory_path() / ("standpoint-fuzz-" + std::to_string(getpid()) + "-words");
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "common.json", std::ios::binary) << textOf(shared);
-  std::ofstream(folder / "own.json", std::ios::binary) << textOf(own);
   return folder;
 }
 
@@ -145,9 +143,12 @@ void run(FuzzedDataProvider& data) {
   const auto text = textOf(edited.definition);
   auto definition = readDefinition(fileOf(reinterpret_cast<const std::uint8_t*>(text.data()), text.size(), ".json"));
   if (!definition) return refused(definition.error());
-  auto words = Words::read(wordsFolder(edited.shared_words, edited.own_words));
+  auto words = Words::read(wordsFolder(edited.shared_words));
   if (!words) return refused(words.error());
-  auto type = makeDeviceType(*std::move(definition), *edited.program, edited.instrument,
+  const auto own = textOf(edited.own_words);
+  const auto own_file = fileOf(reinterpret_cast<const std::uint8_t*>(own.data()), own.size(), ".json");
+  if (const auto added = words->add(own_file, edited.device->id); !added) return refused(added.error());
+  auto type = makeDeviceType(*std::move(definition), edited.device->program(), edited.instrument,
                              std::make_shared<const Words>(*std::move(words)));
   if (!type) return refused(type.error());
   const auto faults = checkDevice(**type);
