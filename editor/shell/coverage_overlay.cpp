@@ -7,6 +7,7 @@
 
 #include "core/units.h"
 #include "editor/shell/editor.h"
+#include "editor/shell/expected_overlay.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
@@ -94,22 +95,10 @@ void drawCoverage(Editor& editor, ImVec2 origin, ImVec2 size) {
   const auto* scans = scansOf(editor, why);
   if (scans == nullptr) return;
   ExpectedRequest request;
-  request.scene = editor.picker.scene();
-  request.view.camera = editor.view.camera;
-  request.view.hidden = editor.visibility.shared();
-  request.view.cut_height_m = editor.visibility.cut_height_m;
-  request.view.edges = editor.view.edges;
   request.coverage = quantity;
   request.scans = *scans;
   request.wanted = wishesOf(editor);
-  request.width = static_cast<int>(size.x);
-  request.height = static_cast<int>(size.y);
-  editor.expected.want(request);
-  const auto picture = editor.expected.picture(editor.view.camera);
-  const std::uint64_t texture = editor.scene != nullptr && picture ? editor.scene->texture(picture) : 0;
-  if (texture != 0)
-    ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)), origin,
-                                         {origin.x + size.x, origin.y + size.y});
+  drawRequested(editor, std::move(request), origin, size);
 }
 
 void drawCoverageLegend(Editor& editor, ImVec2 origin, ImVec2 size) {

@@ -156,17 +156,12 @@ bool dragProbe(Editor& editor, ImVec2 origin, bool hovered) {
   return near || probe.dragged;
 }
 
-void drawExpected(Editor& editor, ImVec2 origin, ImVec2 size) {
-  const auto quantity = expectedQuantity(editor.view.colour);
-  const auto expectation = quantity && !editor.cloud() ? editor.expectation() : nullptr;
-  if (!expectation) return;
-  if (!editor.view.probe.position) placeProbe(editor);
-  ViewState view;  // what rays depend on, no more
-  view.camera = editor.view.camera;
-  view.hidden = editor.visibility.shared();
-  view.cut_height_m = editor.visibility.cut_height_m;
-  view.edges = editor.view.edges;
-  ExpectedRequest request{expectation, editor.picker.scene(), std::move(view), *editor.view.probe.position, *quantity};
+void drawRequested(Editor& editor, ExpectedRequest request, ImVec2 origin, ImVec2 size) {
+  request.scene = editor.picker.scene();
+  request.view.camera = editor.view.camera;  // what rays depend on, no more
+  request.view.hidden = editor.visibility.shared();
+  request.view.cut_height_m = editor.visibility.cut_height_m;
+  request.view.edges = editor.view.edges;
   request.width = static_cast<int>(size.x);
   request.height = static_cast<int>(size.y);
   editor.expected.want(request);
@@ -175,6 +170,18 @@ void drawExpected(Editor& editor, ImVec2 origin, ImVec2 size) {
   if (texture != 0)
     ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)), origin,
                                          {origin.x + size.x, origin.y + size.y});
+}
+
+void drawExpected(Editor& editor, ImVec2 origin, ImVec2 size) {
+  const auto quantity = expectedQuantity(editor.view.colour);
+  const auto expectation = quantity && !editor.cloud() ? editor.expectation() : nullptr;
+  if (!expectation) return;
+  if (!editor.view.probe.position) placeProbe(editor);
+  ExpectedRequest request;
+  request.expectation = expectation;
+  request.station = *editor.view.probe.position;
+  request.quantity = *quantity;
+  drawRequested(editor, std::move(request), origin, size);
 }
 
 void drawExpectedLegend(Editor& editor, ImVec2 origin, ImVec2 size) {

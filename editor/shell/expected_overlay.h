@@ -11,6 +11,9 @@ namespace standpoint {
 
 struct Editor;
 
+// Wants the picture of what the request says, through the camera and at this size, and draws the best that there is.
+void drawRequested(Editor& editor, ExpectedRequest request, ImVec2 origin, ImVec2 size);
+
 // The views of what a station is expected to get (ColourMode::expected_*), over the picture of the scene.
 void drawExpected(Editor& editor, ImVec2 origin, ImVec2 size);
 void drawExpectedLegend(Editor& editor, ImVec2 origin, ImVec2 size);  // with what the pointer is on

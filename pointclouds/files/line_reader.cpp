@@ -19,7 +19,7 @@ Result<bool> LineReader::more() {
   TRY_ASSIGN(const auto n, file_.read(at_, {reinterpret_cast<std::uint8_t*>(text_.data()) + kept, kPiece}));
   text_.resize(kept + n);
   at_ += n;
-  return *n > 0;
+  return n > 0;
 }
 
 Result<std::optional<std::string_view>> LineReader::next() {

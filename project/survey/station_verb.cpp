@@ -118,14 +118,8 @@ Result<Eigen::Vector3d> centreFrom(const RayScene& scene, const Georeference& g,
                    fmt::format("no floor at ({}, {}) with {:.2f} m of free height for the tripod; choose another "
                                "place, or specify the instrument centre with --at X,Y,Z",
                                on.x_m, on.y_m, height + kRoomAbove_m));
-  if (!on.z_m) return Eigen::Vector3d(x, y, floors.front() + height);
-  const double z = *on.z_m - g.shift_m.z();
-  const auto nearest = *std::min_element(floors.begin(), floors.end(),
-                                         [z](double a, double b) { return std::abs(a - z) < std::abs(b - z); });
-  if (std::abs(nearest - z) > kFloorSearch_m)
-    return failure(ErrorKind::unusable, fmt::format("no floor within {} m of height {}; the nearest floor is at {:.3f}",
-                                                    kFloorSearch_m, *on.z_m, nearest + g.shift_m.z()));
-  return Eigen::Vector3d(x, y, nearest + height);
+  TRY_ASSIGN(const auto floor, chosenFloor(floors, on.z_m, g.shift_m.z()));
+  return Eigen::Vector3d(x, y, floor + height);
 }
 
 tl::unexpected<Error> refused(const std::string& name, const Refusal& why) {

@@ -9,7 +9,7 @@
 
 #include "core/units.h"
 #include "optimizer/surface/triangle_tree.h"
-#include "survey/scene/body_winding.h"
+#include "survey/scene/bodies.h"
 
 namespace standpoint {
 
@@ -40,12 +40,6 @@ const Eigen::Vector3d kUp(0, 0, 1);
 
 }  // namespace
 
-std::string productText(const Environment& environment, std::uint32_t product) {
-  const auto& p = environment.products[product];
-  std::string text = fmt::format("{} {}", p.ifc_class.empty() ? "object" : p.ifc_class, p.id);
-  return p.name.empty() || p.name == p.id ? text : text + fmt::format(" '{}'", p.name);
-}
-
 double slopeOf(const RayHit& hit) { return std::acos(std::clamp(std::abs(hit.normal.z()), 0.0, 1.0)); }
 
 StationPlacement::StationPlacement(const RayScene& scene, const TripodStand& stand, double trunnion_m)
@@ -70,7 +64,7 @@ std::optional<Refusal> StationPlacement::tooNear(const Eigen::Vector3d& centre) 
       nearest = environment.instances[i].product;
   if (!nearest) return std::nullopt;
   return Refusal{fmt::format("the instrument centre would be {:.0f} mm from {}; it needs {:.0f} mm of clearance",
-                             reach * 1000, productText(environment, *nearest), stand_.clearance_m * 1000),
+                             reach * 1000, productText(environment.products[*nearest]), stand_.clearance_m * 1000),
                  fmt::format("move it {:.0f} mm away", std::ceil((stand_.clearance_m - reach) * 1000 - 0.01))};
 }
 
@@ -88,15 +82,16 @@ bool StationPlacement::worthTrying(const Eigen::Vector3d& centre) const {
 std::optional<Refusal> StationPlacement::noHeadroom(const Eigen::Vector3d& centre) const {
   const auto above = scene_.intersect(centre, kUp, stand_.headroom_m);
   if (!above) return std::nullopt;
-  return Refusal{fmt::format("{} is {:.2f} m above the instrument centre; it needs {:.2f} m of headroom",
-                             productText(scene_.environment(), above->product), above->range_m, stand_.headroom_m),
-                 fmt::format("lower it by {:.2f} m, or choose another place", stand_.headroom_m - above->range_m)};
+  return Refusal{
+      fmt::format("{} is {:.2f} m above the instrument centre; it needs {:.2f} m of headroom",
+                  productText(scene_.environment().products[above->product]), above->range_m, stand_.headroom_m),
+      fmt::format("lower it by {:.2f} m, or choose another place", stand_.headroom_m - above->range_m)};
 }
 
 std::optional<Ground> StationPlacement::groundBelow(const Eigen::Vector3d& centre) const {
   if (all_.empty()) return std::nullopt;
   if (const auto hit = scene_.intersect(centre, kDown, centre.z() - all_.min.z() + 1))
-    return Ground{hit->position.z(), slopeOf(*hit), productText(scene_.environment(), hit->product)};
+    return Ground{hit->position.z(), slopeOf(*hit), productText(scene_.environment().products[hit->product])};
   if (all_.min.z() > centre.z()) return std::nullopt;
   return Ground{all_.min.z(), 0, {}};
 }
@@ -147,10 +142,11 @@ std::optional<Refusal> StationPlacement::noFooting(const Eigen::Vector3d& centre
 std::optional<Refusal> StationPlacement::whyNotOn(const RayHit& hit, double height_m) const {
   const double slope = slopeOf(hit);
   if (slope > stand_.steepest_rad)
-    return Refusal{fmt::format("this is {} of {:.0f} degrees, {}; the limit for a tripod is {:.0f} degrees",
-                               slope > stand_.wall_rad ? "a wall" : "a slope", slope / kRadPerDeg,
-                               productText(scene_.environment(), hit.product), stand_.steepest_rad / kRadPerDeg),
-                   "choose a point on a floor"};
+    return Refusal{
+        fmt::format("this is {} of {:.0f} degrees, {}; the limit for a tripod is {:.0f} degrees",
+                    slope > stand_.wall_rad ? "a wall" : "a slope", slope / kRadPerDeg,
+                    productText(scene_.environment().products[hit.product]), stand_.steepest_rad / kRadPerDeg),
+        "choose a point on a floor"};
   return whyNot(hit.position + Eigen::Vector3d(0, 0, height_m));
 }
 
@@ -163,7 +159,7 @@ std::optional<Refusal> StationPlacement::whyNot(const Eigen::Vector3d& centre) c
   auto why = solid ? std::nullopt : noHeadroom(centre);
   if (!why && !solid) why = badGround(centre);
   if (!solid && !(body && why)) return why;
-  return Refusal{fmt::format("the position is inside {}, a closed body", productText(environment, *body)),
+  return Refusal{fmt::format("the position is inside {}, a closed body", productText(environment.products[*body])),
                  "move it out of the body; if the body models a room, use --stand free"};
 }
 
@@ -171,7 +167,7 @@ std::optional<std::string> StationPlacement::remark(const Eigen::Vector3d& centr
   const auto body = bodyRound(scene_.environment(), instances_, centre);
   if (!body) return std::nullopt;
   return fmt::format("inside {}, a closed body, treated as a room modelled as a single shell",
-                     productText(scene_.environment(), *body));
+                     productText(scene_.environment().products[*body]));
 }
 
 }  // namespace standpoint

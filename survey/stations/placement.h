@@ -61,8 +61,6 @@ class StationPlacement {
   std::vector<Bounds> instances_;  // empty of what is not in the scene
 };
 
-// "IfcWall #12 'name'", "object /nodes/7".
-std::string productText(const Environment& environment, std::uint32_t product);
 // Of a hit's triangle against the horizontal, 0 to π/2.
 double slopeOf(const RayHit& hit);
 

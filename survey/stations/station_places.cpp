@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "core/units.h"
 
 namespace standpoint {
@@ -46,6 +48,17 @@ std::vector<double> floorsAt(const RayScene& scene, double x_m, double y_m, doub
     if (!scene.intersect({x_m, y_m, *h + 1e-3}, Eigen::Vector3d::UnitZ(), instrument_height_m + kRoomAbove_m))
       floors.push_back(*h);
   return floors;
+}
+
+Result<double> chosenFloor(const std::vector<double>& floors, std::optional<double> z_file_m, double shift_z_m) {
+  constexpr double kSearch_m = 0.5;  // how far a stated height may be off
+  if (!z_file_m) return floors.front();
+  const double z = *z_file_m - shift_z_m;
+  const double nearest = *std::min_element(floors.begin(), floors.end(),
+                                           [z](double a, double b) { return std::abs(a - z) < std::abs(b - z); });
+  if (std::abs(nearest - z) <= kSearch_m) return nearest;
+  return failure(ErrorKind::unusable, fmt::format("no floor within {} m of height {}; the nearest floor is at {:.3f}",
+                                                  kSearch_m, *z_file_m, nearest + shift_z_m));
 }
 
 std::vector<Eigen::Vector3d> floorsToTry(const Mesh* walkable, const RayScene& scene, double height_m) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/progress.h"
+#include "core/result.h"
 #include "survey/stations/placement.h"
 
 namespace standpoint {
@@ -13,13 +14,14 @@ namespace standpoint {
 constexpr double kUsualHeight_m = 1.6;    // of the instrument's centre, where no instrument says its own
 constexpr double kUsualTrunnion_m = 0.2;  // above the tripod's plate, likewise
 
-constexpr double kFloorSearch_m = 0.5;  // how far a stated floor height may be off
-
 constexpr double kRoomAbove_m = 0.3;  // of the tilting axis, for a height to count as a floor
 
 // Where a tripod of that height can stand at (x, y): upward faces below which the beam from above ends, with room for
 // the instrument. Heights of the floor in the local frame, ascending.
 std::vector<double> floorsAt(const RayScene& scene, double x_m, double y_m, double instrument_height_m);
+// Of these floors the lowest, or the one at a stated height of the file's frame. Refused where it is farther than 0.5
+// m.
+Result<double> chosenFloor(const std::vector<double>& floors, std::optional<double> z_file_m, double shift_z_m);
 
 // Ground to try for another station, in the local frame: `walkable` where there is such a surface, else a grid over the
 // model's floors.

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "survey/scene/body_winding.h"
+#include "survey/scene/bodies.h"
 #include "survey/scene/model_surface.h"
 #include "survey/stations/station_places.h"
 
@@ -72,28 +72,21 @@ Result<void> fits(const Job& job, const RayScene& scene, const Target& t) {
       solid && !stationSees(job, scene, t.centre))
     return failure(ErrorKind::unusable,
                    fmt::format("cannot place target {}: the position is inside {}; choose a free position", t.name,
-                               nameOf(products[*solid])));
+                               productText(products[*solid])));
   if (const auto hit = whatCuts(scene, t))
     return failure(ErrorKind::unusable,
                    fmt::format("cannot place target {}: {} is {:.0f} mm from its centre, {:.0f} mm required; choose a "
                                "position farther away, or attach it with --on-surface",
-                               t.name, nameOf(products[hit->product]), hit->range_m * 1000, t.size_m * 500));
+                               t.name, productText(products[hit->product]), hit->range_m * 1000, t.size_m * 500));
   return {};
 }
 
 Result<double> floorFor(const RayScene& scene, const FloorPlace& on, const Vector3d& shift, double height) {
   const auto floors = floorsAt(scene, on.x_m - shift.x(), on.y_m - shift.y(), height);
-  if (floors.empty())
-    return failure(ErrorKind::unusable, fmt::format("no floor at ({}, {}) with {:.2f} m of free height for the target "
-                                                    "tripod; choose another place or a smaller --height",
-                                                    on.x_m, on.y_m, height));
-  if (!on.z_m) return floors.front();
-  const double z = *on.z_m - shift.z();
-  const double nearest = *std::min_element(floors.begin(), floors.end(),
-                                           [z](double a, double b) { return std::abs(a - z) < std::abs(b - z); });
-  if (std::abs(nearest - z) <= kFloorSearch_m) return nearest;
-  return failure(ErrorKind::unusable, fmt::format("no floor within {} m of height {}; the nearest floor is at {:.3f}",
-                                                  kFloorSearch_m, *on.z_m, nearest + shift.z()));
+  if (!floors.empty()) return chosenFloor(floors, on.z_m, shift.z());
+  return failure(ErrorKind::unusable, fmt::format("no floor at ({}, {}) with {:.2f} m of free height for the target "
+                                                  "tripod; choose another place or a smaller --height",
+                                                  on.x_m, on.y_m, height));
 }
 
 // A plate on a tripod is turned and tilted to the nearest station.
@@ -119,7 +112,7 @@ Result<void> stick(const Job& job, const RayScene& scene, const Vector3d& place,
   t.normal = out;
   t.centre = touch.position + out * (stand_off_m + (t.kind == TargetKind::sphere ? t.size_m / 2 : kPlate_m));
   const auto behind = scene.intersect(t.centre, -out, t.size_m + stand_off_m);
-  stands = behind ? nameOf(scene.environment().products[behind->product]) : "a surface";
+  stands = behind ? productText(scene.environment().products[behind->product]) : "a surface";
   if (t.kind == TargetKind::sphere) return {};
   const Vector3d u = t.normal.unitOrthogonal(), v = t.normal.cross(u);
   const double deep = stand_off_m + kPlate_m + 0.005;
@@ -142,10 +135,6 @@ bool isHeld(const RayScene& scene, const Target& t) {
 }
 
 }  // namespace
-
-std::string nameOf(const Product& p) {
-  return fmt::format("{} {} '{}'", p.ifc_class.empty() ? "object" : p.ifc_class, p.id, p.name);
-}
 
 Result<Target> placedTarget(const Job& job, const Vector3d& shift, const RayScene& scene, Target t,
                             const TargetPlace& asked, std::string& stands, Report& report) {

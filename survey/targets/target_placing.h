@@ -25,7 +25,4 @@ struct TargetPlace {
 Result<Target> placedTarget(const Job& job, const Eigen::Vector3d& shift_m, const RayScene& scene, Target target,
                             const TargetPlace& place, std::string& stands, Report& report);
 
-// "IfcWall #12 'west'"
-std::string nameOf(const Product& product);
-
 }  // namespace standpoint

@@ -9,7 +9,7 @@
 
 #include "core/units.h"
 #include "survey/instruments.h"
-#include "survey/targets/target_placing.h"
+#include "survey/scene/bodies.h"
 
 namespace standpoint {
 
@@ -24,7 +24,7 @@ Result<std::optional<ScanSettings>> settingsAt(const Station& station, const Sig
   const bool asked = !request.instrument.empty();
   TRY_ASSIGN(const auto instrument, instrumentById(asked ? request.instrument : station.scans.back().instrument));
   TRY_ASSIGN(auto settings, resolveSettings(instrument, asked ? request.settings : station.scans.back().settings));
-  return std::move(settings);
+  return settings;
 }
 
 // Places on the face that looks at the station: rings over the visible cap, or over the plate.
@@ -52,7 +52,7 @@ void look(const RayScene& scene, const Target& t, const Vector3d& from, TargetSi
     if (!hit)
       sight.seen_fraction += 1.0 / static_cast<double>(places.size());
     else if (sight.hidden_by.empty())
-      sight.hidden_by = nameOf(scene.environment().products[hit->product]);
+      sight.hidden_by = productText(scene.environment().products[hit->product]);
   }
 }
 

@@ -152,7 +152,8 @@ TEST(ClassMaps, NameWhatIsWrongWithThem) {
       {"{\"name\":\"a\",\"unknown\":\"x\",\"noise\":\"x\",\"classes\":{\"x\":70000},\"ifc\":{}}", "/classes/x"},
       {"{\"name\":\"a\",\"unknown\":\"x\",\"noise\":\"x\",\"classes\":{\"x\":1},\"ifc\":{\"IfcWall\":\"y\"}}",
        "'y' is not one of the classes"},
-      {"{\"name\":", "parse error"}};
+      {"{\"name\": \"a\", \"name\": \"b\"}", "more than once"},
+      {"{\"name\":", "map.json line 1: is not JSON"}};
   for (const auto& [text, says] : faults) {
     testing::putBytes(folder / "map.json", text);
     const auto map = readClassMap(folder / "map.json");

@@ -44,6 +44,10 @@ TEST(Job, ThatIsNotAListOfVerbsIsRefused) {
   for (const char* text :
        {"", "{", "{}", "[1]", "[{}]", R"([{"verb": 3}])", R"([{"verb": "fly"}])", R"([{"verb": "run", "job": "x"}])"})
     EXPECT_FALSE(runJobText(folder.path(), text)) << text;
+  EXPECT_EQ(runJobText(folder.path(), R"([{"verb": "fly"}])").error().source, "job.json /0/verb");
+  EXPECT_NE(describe(runJobText(folder.path(), R"([{"verb": "info", "file": "a", "file": "b"}])").error())
+                .find("'file' more than once"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -97,6 +97,7 @@ TEST(Stand, IsReadWithItsSourcesAndRefusedWithItsPlace) {
   EXPECT_THAT(changed("\"steepest_deg\"", "\"steep_deg\""), HasSubstr("/steep"));
   EXPECT_THAT(changed("\"radius_m\": 0.4", "\"radius_m\": -1"), HasSubstr("/feet/radius_m"));
   EXPECT_THAT(changed("{", "["), HasSubstr("is not JSON"));
+  EXPECT_THAT(changed("\"lowest_m\": 0.6", "\"lowest_m\": 0.6, \"lowest_m\": 0.7"), HasSubstr("more than once"));
 }
 
 }  // namespace

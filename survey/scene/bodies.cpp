@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "survey/scene/body_winding.h"
+#include "survey/scene/bodies.h"
 
 #include <cmath>
 
@@ -56,6 +56,11 @@ std::optional<std::uint32_t> bodyRound(const Environment& environment, const std
     if ((environment.products[product].ifc_class.empty() ? winding : std::abs(winding)) >= kInside) return product;
   }
   return std::nullopt;
+}
+
+std::string productText(const Product& p) {
+  const std::string text = (p.ifc_class.empty() ? "object" : p.ifc_class) + " " + p.id;
+  return p.name.empty() || p.name == p.id ? text : text + " '" + p.name + "'";
 }
 
 }  // namespace standpoint

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/environment.h"
@@ -16,5 +17,8 @@ std::vector<Bounds> instanceBounds(const Environment& environment);
 // faces look; of a mesh that only draws a room from inside, the faces look inwards, and its inside is open.
 std::optional<std::uint32_t> bodyRound(const Environment& environment, const std::vector<Bounds>& instances,
                                        const Eigen::Vector3d& place);
+
+// How a message calls a product: "IfcWall #12 'name'", "object /nodes/7".
+std::string productText(const Product& product);
 
 }  // namespace standpoint
