@@ -115,7 +115,7 @@ void putInto(Device& device, const std::string& screen, const std::vector<Stored
   for (const auto& row : device.type().definition.screens)  // as one comes there
     if (row.entry && row.id != screen && phase.screen != screen) s.came_from = {row.id};
   s.elapsed_s = 0.4 * device.fact("phase.lasts")->number.value_or(0);
-  if (phase.screen == screen && !phase.lasts.empty() && !phase.waits) {
+  if (phase.screen == screen && phase.ends() && !phase.waits) {
     s.running = ScanOrder{};
     s.data = StoredSetup{};
     s.scanned_s = 0.4 * (device.expected().scan_seconds + device.expected().imaging_seconds);

@@ -24,18 +24,17 @@ bool namesPhase(const Phases& from, const std::string& phase, bool on) {
                      [&](const PhaseId& id) { return id.name == phase || (on && id == kAnyPhase); });
 }
 
-// The file's own come first; behind them, if it says what they are called on this one, those that all devices share,
-// but for events that nothing on it sends; then the code's.
+// The file's own come first, then the code's; behind them, if the file says what they are called on this device, those
+// that all devices share, but for events that nothing on it sends.
 std::vector<Transition> allTransitions(const DeviceDefinition& definition, const DeviceProgram& program) {
   auto all = definition.transitions;
-  if (definition.roles) {
-    const auto sent = eventsSent(definition);
-    all = withDefaults(std::move(all), *definition.roles);
-    const auto shared = all.begin() + static_cast<std::ptrdiff_t>(definition.transitions.size());
-    const auto unsent = [&](const Transition& t) { return !t.event.isOfEngine() && !sent.contains(t.event.name); };
-    all.erase(std::remove_if(shared, all.end(), unsent), all.end());
-  }
   all.insert(all.end(), program.transitions.begin(), program.transitions.end());
+  if (!definition.roles) return all;
+  const auto own = static_cast<std::ptrdiff_t>(all.size());
+  const auto sent = eventsSent(definition);
+  all = withDefaults(std::move(all), *definition.roles);
+  const auto unsent = [&](const Transition& t) { return !t.event.isOfEngine() && !sent.contains(t.event.name); };
+  all.erase(std::remove_if(all.begin() + own, all.end(), unsent), all.end());
   return all;
 }
 
