@@ -155,13 +155,13 @@ void coverageSpacing(Editor& editor) {
   editor.view.colour = ColourMode::coverage_spacing;
 }
 
-// What the last scan measured, cut open.
+// What the first station measured last, cut open.
 void scan(Editor& editor) {
   survey(editor);
   const auto& job = editor.session.document().job;
-  if (!job || job->scans.empty()) return;
+  if (!job || job->stations.empty() || job->stations.front().scans.empty()) return;
   *editor.visibility.cut_height_m += 0.6;
-  editor.showCloud(job->scans.back().file);
+  editor.showCloud(job->stations.front().scans.back().file);
   while (editor.readingCloud()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     editor.update();
