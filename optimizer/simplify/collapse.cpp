@@ -91,7 +91,7 @@ const Shape& LogPlayer::at(std::size_t steps) {
   for (auto k = steps; k-- > done_;)
     joined_[log_[k].removed] = joined_[log_[k].kept];  // the last first: that one's end is known
   done_ = steps;
-  const bool nothing_left = log_[steps - 1].kept == log_[steps - 1].removed;
+  const bool nothing_left = log_[steps - 1].endsAll();
   const auto count = nothing_left ? 0 : form_.triangles.size();
   std::vector<std::size_t> kept((count + kChunk - 1) / kChunk, 0);
   const auto move = [&](std::size_t from, std::size_t to, const Triangle& t) {

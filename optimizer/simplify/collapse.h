@@ -13,12 +13,14 @@
 namespace standpoint {
 
 // One step of a simplification: vertex `removed` joins `kept`, which moves to `position`. Where both are the same
-// vertex, it is the last step, with which all that is left vanishes.
+// vertex, it only moves, or, if triangles vanish, this is the last step, with which all that is left goes.
 struct Collapse {
   std::uint32_t kept = 0, removed = 0;
   std::uint32_t triangles = 0;  // that vanish with it, of one copy of the shape
   bool flat = false;            // it moves the surface by no more than rounding does
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
+
+  bool endsAll() const { return kept == removed && triangles > 0; }
 };
 
 struct CollapseOptions {
