@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "core/solid_angle.h"
-#include "optimizer/simplify/collapse.h"
+#include "optimizer/simplify/collapses/collapse.h"
 #include "optimizer/surface/deviation.h"
 #include "optimizer/surface/triangle_tree.h"
 

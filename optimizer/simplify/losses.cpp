@@ -155,7 +155,8 @@ void reportEngines(const Environment& before, const std::vector<MeshJob>& jobs, 
   for (const auto& engine : engines().subspan(options.engine == kAutoEngine ? 1 : 0)) {
     const auto& [shapes, products] = made[engine.id];
     if (!shapes.empty())
-      result.report.note("engine", fmt::format("{}: {} shapes of {}", engine.title, shapes.size(), listed(products)));
+      result.report.note("engine", fmt::format("{}: {} {} of {}", engine.title, shapes.size(),
+                                               shapes.size() == 1 ? "shape" : "shapes", listed(products)));
   }
   for (const auto& [reason, products] : refused)
     result.report.warn("engine", fmt::format("simplified by our own engine, as {} refused ({}): {}", options.engine,

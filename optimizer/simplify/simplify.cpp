@@ -115,10 +115,12 @@ void makeForm(MeshJob& work, const DeviationMeter& meter, std::uint32_t mesh, co
       work.refusal = form.error().message;
     }
   if (!refine(work, meter, progress)) measure(work, meter, work.taken);
-  work.engine = work.steps.empty() ? std::string_view() : engines()[0].id;
+  work.engine = work.steps.empty() || work.dropped() ? std::string_view() : engines()[0].id;
   if (ours || triangles == 0 || work.deviation.max_m > work.cap_m) return;
-  if (engine == kBestEngine || (engine == kAutoEngine && isOwnKnownToLose(work.shape, triangles)))
-    take(bestForm(request, {work.steps, work.lighter, work.deviation, work.engine}, progress));
+  const bool thorough = engine == kBestEngine;
+  if (!thorough && (engine != kAutoEngine || !isOwnKnownToLose(work.shape, triangles))) return;
+  EngineForm own{work.steps, replay(work.shape, work.steps, work.steps.size()), work.deviation, work.engine};
+  take(bestForm(request, std::move(own), thorough, progress));
 }
 
 // The simplest level whose measured deviation stays within the limit. The log was made with a bound on each step's

@@ -17,6 +17,7 @@ using Vertex = HalfEdges::VertexHandle;
 
 // Where the shape is not manifold, its vertices are repeated, so that half-edges can be made of it.
 HalfEdges halfEdgesOf(const ManifoldShape& manifold) {
+  [[maybe_unused]] static const bool silent = (omerr().disable(), true);
   HalfEdges mesh;
   mesh.reserve(manifold.positions.size(), manifold.triangles.size() * 3 / 2, manifold.triangles.size());
   for (std::size_t i = 0; i < manifold.positions.size(); ++i) mesh.add_vertex({0, 0, 0});
@@ -50,6 +51,8 @@ std::uint64_t countHoles(const ManifoldShape& manifold, const HalfEdges& mesh) {
   return holes;
 }
 
+}  // namespace
+
 std::uint64_t countParts(const Shape& shape) {
   std::vector<std::uint32_t> part(shape.positions.size());
   for (std::uint32_t v = 0; v < part.size(); ++v) part[v] = v;
@@ -67,8 +70,6 @@ std::uint64_t countParts(const Shape& shape) {
     }
   return parts;
 }
-
-}  // namespace
 
 MeshStatistics& MeshStatistics::operator+=(const MeshStatistics& other) {
   triangles += other.triangles;
@@ -94,8 +95,16 @@ MeshStatistics statisticsOf(const Mesh& mesh) {
   std::vector<std::uint32_t> fans(shape.positions.size(), 0);
   for (const auto name : manifold.names) ++fans[name];
   for (const auto& [a, b] : manifold.odd_edges) fans[a] = fans[b] = 0;
-  result.odd_vertices = static_cast<std::uint64_t>(std::count_if(fans.begin(), fans.end(), [](auto n) { return n > 1; }));
+  result.odd_vertices =
+      static_cast<std::uint64_t>(std::count_if(fans.begin(), fans.end(), [](auto n) { return n > 1; }));
   return result;
+}
+
+MeshStatistics statisticsOfProduct(const Environment& environment, std::uint32_t product) {
+  MeshStatistics sum;
+  for (const auto& instance : environment.instances)
+    if (instance.product == product) sum += statisticsOf(*environment.meshes[instance.mesh]);
+  return sum;
 }
 
 }  // namespace standpoint

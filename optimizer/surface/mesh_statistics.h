@@ -3,7 +3,8 @@
 
 #include <cstdint>
 
-#include "core/mesh.h"
+#include "core/environment.h"
+#include "optimizer/surface/shape.h"
 
 namespace standpoint {
 
@@ -21,5 +22,7 @@ struct MeshStatistics {
 };
 
 MeshStatistics statisticsOf(const Mesh& mesh);
+MeshStatistics statisticsOfProduct(const Environment& environment, std::uint32_t product);  // of all its instances
+std::uint64_t countParts(const Shape& shape);
 
 }  // namespace standpoint

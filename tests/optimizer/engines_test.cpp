@@ -230,12 +230,14 @@ TEST_P(EngineOf, GoesOnFromAForm) {
   EXPECT_LT(DeviationMeter(shape, tree, 5000, 1).of(after).mean_m, 0.02);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, EngineOf, testing::ValuesIn(engines().begin(), engines().end()), [](const auto& info) {
+std::string nameOf(const testing::TestParamInfo<Engine>& one) {
   std::string name;
-  for (const char c : info.param.id)
+  for (const char c : one.param.id)
     if (c != '-') name += c;
   return name;
-});
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EngineOf, testing::ValuesIn(engines().begin(), engines().end()), nameOf);
 
 }  // namespace
 }  // namespace standpoint

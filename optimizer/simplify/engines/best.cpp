@@ -11,15 +11,17 @@
 #include <tbb/parallel_for.h>
 
 #include "optimizer/simplify/engines/fitting.h"
+#include "optimizer/surface/mesh_statistics.h"
 
 namespace standpoint {
 
 namespace {
 
-constexpr std::size_t kMostForOthers = 400'000;  // triangles that an engine other than ours begins with
-constexpr std::size_t kLastSteps = 6;            // times the triangles that are left: where only the last steps differ
-constexpr double kAllowedMaximum = 1.05;         // of the least maximum of all engines
-constexpr std::size_t kFittedByMean = 2;         // forms of least mean that are fitted
+constexpr std::string_view kSmoothEngine = "cgal-lt";  // of least mean deviation on most smooth shapes
+constexpr std::size_t kMostForOthers = 400'000;        // triangles that an engine other than ours begins with
+constexpr std::size_t kLastSteps = 6;     // times the triangles that are left: where only the last steps differ
+constexpr double kAllowedMaximum = 1.03;  // of the least maximum of all engines: below 1.05 by any measure
+constexpr std::size_t kFittedByMean = 2;  // forms of least mean that are fitted
 constexpr int kRepairs = 6;
 constexpr std::size_t kRepairFrom = 6;  // times the triangles that are left
 constexpr double kFarSpot = 0.95;       // of the least maximum: points do not find all of it
@@ -30,6 +32,7 @@ constexpr std::size_t kManyTriangles = 500'000, kManyParts = 64, kManyLeft = 5'0
 struct Attempt {
   const Engine* engine = nullptr;
   std::size_t from = 0;  // triangles
+  bool whole = false;    // as the engine does it by itself
   std::optional<EngineForm> made;
 };
 
@@ -57,12 +60,15 @@ Result<EngineForm> formFrom(const Engine& engine, std::size_t from, const FormRe
   return measured(request, std::move(steps), engine.id);
 }
 
-std::vector<Attempt> attemptsFor(const FormRequest& request) {
+// First those of whole shapes.
+std::vector<Attempt> attemptsFor(const FormRequest& request, bool thorough) {
   std::vector<Attempt> attempts;
   const auto all = std::min(request.shape.triangles.size(), kMostForOthers);
-  for (const auto& engine : engines().subspan(1)) attempts.push_back({&engine, all, {}});
-  if (all > 2 * kLastSteps * request.triangles)
-    for (const auto& engine : engines().subspan(1)) attempts.push_back({&engine, kLastSteps * request.triangles, {}});
+  for (const auto& engine : engines().subspan(1))
+    if (thorough || engine.id == kSmoothEngine) attempts.push_back({&engine, all, true, {}});
+  const auto last = kLastSteps * request.triangles;
+  if (thorough && all > 2 * last)
+    for (const auto& engine : engines().subspan(1)) attempts.push_back({&engine, last, false, {}});
   return attempts;
 }
 
@@ -76,9 +82,9 @@ class Choice {
       least_max_m_ = std::min(least_max_m_, forms_[i].deviation.max_m);
     }
   }
-  void fitNearest(const Progress& progress);
-  // Where no form is near enough both in the mean and at most: the last steps of the form of least mean again, without
-  // those around the spots that are too far, until there are none.
+  void fitNearest(bool thorough, const Progress& progress);
+  // Where no form is near enough both in the mean and at most: the last steps of the engine's form of least mean again,
+  // without those around the spots that are too far, until there are none.
   void repair(const Engine& engine, const Progress& progress);
   EngineForm take() { return std::move(forms_[best()]); }
 
@@ -165,16 +171,22 @@ void Choice::repair(const Engine& engine, const Progress& progress) {
   }
 }
 
-void Choice::fitNearest(const Progress& progress) {
+void Choice::fitNearest(bool thorough, const Progress& progress) {
   std::vector<std::size_t> order(forms_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto sortBy = [&](auto value, auto first) {
-    std::stable_sort(first, order.end(), [&](auto a, auto b) { return value(forms_[a]) < value(forms_[b]); });
+  const auto sortFrom = [&](std::size_t first, auto value) {
+    std::stable_sort(order.begin() + static_cast<std::ptrdiff_t>(first), order.end(),
+                     [&](auto a, auto b) { return value(forms_[a]) < value(forms_[b]); });
   };
-  sortBy([](const EngineForm& f) { return f.deviation.mean_m; }, order.begin());
-  auto count = std::min(kFittedByMean, order.size());
-  sortBy([](const EngineForm& f) { return f.deviation.max_m; }, order.begin() + static_cast<std::ptrdiff_t>(count));
-  count = std::min(count + 1, order.size());
+  std::size_t count = 1;
+  if (thorough) {  // those of least mean, and the one of least maximum
+    sortFrom(0, [](const EngineForm& f) { return f.deviation.mean_m; });
+    count = std::min(kFittedByMean, order.size());
+    sortFrom(count, [](const EngineForm& f) { return f.deviation.max_m; });
+    count = std::min(count + 1, order.size());
+  } else {
+    sortFrom(0, [&](const EngineForm& f) { return rank(f); });
+  }
   for (std::size_t i = 0; i < count && !progress.cancelled(); ++i) fit(order[i], progress);
 }
 
@@ -184,8 +196,8 @@ Result<EngineForm> formBy(const Engine& engine, const FormRequest& request, cons
   return formFrom(engine, request.shape.triangles.size(), request, progress);
 }
 
-EngineForm bestForm(const FormRequest& request, EngineForm own, const Progress& progress) {
-  auto attempts = attemptsFor(request);
+EngineForm bestForm(const FormRequest& request, EngineForm own, bool thorough, const Progress& progress) {
+  auto attempts = attemptsFor(request, thorough);
   tbb::parallel_for(std::size_t{0}, attempts.size(), [&](std::size_t i) {  // each its own
     if (auto form = formFrom(*attempts[i].engine, attempts[i].from, request, progress))
       attempts[i].made = std::move(*form);
@@ -193,34 +205,21 @@ EngineForm bestForm(const FormRequest& request, EngineForm own, const Progress& 
   std::vector<EngineForm> forms;
   forms.push_back(std::move(own));
   std::size_t whole = 1;
-  for (std::size_t i = 0; i < attempts.size(); ++i) {
-    if (!attempts[i].made) continue;
-    forms.push_back(std::move(*attempts[i].made));
-    if (i < engines().size() - 1) whole = forms.size();
+  for (auto& attempt : attempts) {
+    if (!attempt.made) continue;
+    forms.push_back(std::move(*attempt.made));
+    if (attempt.whole) whole = forms.size();
   }
   Choice choice(request, std::move(forms), whole);
-  choice.fitNearest(progress);
-  choice.repair(engines()[1], progress);
+  choice.fitNearest(thorough, progress);
+  if (thorough)
+    for (const auto& engine : engines())
+      if (engine.id == engines()[0].id || engine.id == kSmoothEngine) choice.repair(engine, progress);
   return choice.take();
 }
 
 bool isOwnKnownToLose(const Shape& shape, std::size_t triangles) {
-  if (shape.triangles.size() < kManyTriangles || triangles < kManyLeft) return false;
-  std::vector<std::uint32_t> part(shape.positions.size());
-  std::iota(part.begin(), part.end(), 0U);
-  const auto root = [&](std::uint32_t v) {
-    while (part[v] != v) v = part[v] = part[part[v]];
-    return v;
-  };
-  auto parts = part.size();
-  for (const auto& t : shape.triangles)
-    for (const auto v : {t[1], t[2]}) {
-      const auto a = root(t[0]), b = root(v);
-      if (a == b) continue;
-      part[std::max(a, b)] = std::min(a, b);
-      --parts;
-    }
-  return parts >= kManyParts;
+  return shape.triangles.size() >= kManyTriangles && triangles >= kManyLeft && countParts(shape) >= kManyParts;
 }
 
 }  // namespace standpoint

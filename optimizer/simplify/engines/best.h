@@ -34,10 +34,11 @@ struct EngineForm {
 Result<EngineForm> formBy(const Engine& engine, const FormRequest& request, const Progress& progress);
 
 // Of all engines' forms, and what fitting makes of the nearest of them, the one of least mean deviation among those
-// whose maximum is at most 1.05 times the least of all engines. The other engines start from what our log leaves where
-// a shape has more than 400 000 triangles; that limit is on work and not on time, so that the same is chosen on any
-// machine. `own` is ours.
-EngineForm bestForm(const FormRequest& request, EngineForm own, const Progress& progress);
+// whose maximum is hardly more than the least of all engines. The other engines start from what our log leaves where a
+// shape has more than 400 000 triangles; that limit is on work and not on time, so that the same is chosen on any
+// machine. Not thorough: only CGAL's Lindstrom and Turk beside ours, one form fitted. `own` is ours, with the shape's
+// vertices.
+EngineForm bestForm(const FormRequest& request, EngineForm own, bool thorough, const Progress& progress);
 
 // Whether ours is known to lose: large shapes of many parts, of which few triangles are left to each.
 bool isOwnKnownToLose(const Shape& shape, std::size_t triangles);

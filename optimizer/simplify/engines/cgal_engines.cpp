@@ -16,7 +16,7 @@
 #include <fmt/format.h>
 
 #include "optimizer/simplify/engines/engine.h"
-#include "optimizer/simplify/engines/manifold.h"
+#include "optimizer/simplify/engines/held_shape.h"
 
 namespace standpoint {
 
@@ -38,10 +38,10 @@ Point pointOf(const Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
 struct Simplification {  // what policies share
   Surface surface;
-  ManifoldShape manifold;
+  HeldShape held;
   Vector3d half_size = Vector3d::Zero();
   std::size_t target = 0;
-  CollapseRecorder recorder{manifold};
+  CollapseRecorder recorder{held};
   boost::optional<Point> placement;
   const Progress* progress = nullptr;
   std::size_t looks = 0;
@@ -51,10 +51,10 @@ struct Simplification {  // what policies share
     return profile.left_face_exists() && profile.right_face_exists() &&
            chartOf(profile.v0_v1()) != chartOf(profile.v1_v0());
   }
-  std::uint32_t chartOf(Surface::Halfedge_index h) const { return manifold.charts[surface.face(h).idx()]; }
+  std::uint32_t chartOf(Surface::Halfedge_index h) const { return held.charts[surface.face(h).idx()]; }
   Quadric linesOf(Vertex a, Vertex b) const {
-    Quadric sum = manifold.lines[a.idx()];
-    sum += manifold.lines[b.idx()];
+    Quadric sum = held.lines[a.idx()];
+    sum += held.lines[b.idx()];
     return sum;
   }
 };
@@ -68,7 +68,7 @@ class HeldPlacement {
 
   template <class Profile>
   boost::optional<Point> operator()(const Profile& profile) const {
-    const auto one = here_->manifold.holds[profile.v0().idx()], other = here_->manifold.holds[profile.v1().idx()];
+    const auto one = here_->held.holds[profile.v0().idx()], other = here_->held.holds[profile.v1().idx()];
     if (one == Hold::free && other == Hold::free) return guarded(profile);
     if (one == Hold::free) return profile.p1();
     if (other == Hold::free) return profile.p0();
@@ -169,12 +169,12 @@ struct Recording : sms::internal::Dummy_visitor {
 
 // Error where CGAL cannot take a triangle.
 Result<void> build(Simplification& here) {
-  const auto& manifold = here.manifold;
-  here.surface.reserve(static_cast<std::uint32_t>(manifold.positions.size()),
-                       static_cast<std::uint32_t>(manifold.triangles.size() * 3 / 2),
-                       static_cast<std::uint32_t>(manifold.triangles.size()));
-  for (const auto& p : manifold.positions) here.surface.add_vertex(pointOf(p));
-  for (const auto& t : manifold.triangles)
+  const auto& held = here.held;
+  here.surface.reserve(static_cast<std::uint32_t>(held.positions.size()),
+                       static_cast<std::uint32_t>(held.triangles.size() * 3 / 2),
+                       static_cast<std::uint32_t>(held.triangles.size()));
+  for (const auto& p : held.positions) here.surface.add_vertex(pointOf(p));
+  for (const auto& t : held.triangles)
     if (here.surface.add_face(Vertex(t[0]), Vertex(t[1]), Vertex(t[2])) == Surface::null_face())
       return failure(ErrorKind::unusable, "CGAL cannot connect its triangles");
   return {};
@@ -201,9 +201,9 @@ template <class Run>
 Result<std::vector<Collapse>> simplified(const Shape& shape, const EngineTarget& target, const Progress& progress,
                                          Run run) {
   Simplification here;
-  here.manifold = manifoldOf(shape, target.stays);
-  TRY(checkReachable(here.manifold, target.triangles));
-  here.recorder = CollapseRecorder(here.manifold);
+  here.held = heldShapeOf(shape, target.stays);
+  TRY(checkReachable(here.held, target.triangles));
+  here.recorder = CollapseRecorder(here.held);
   here.half_size = shape.half_size;
   here.target = target.triangles;
   here.progress = &progress;

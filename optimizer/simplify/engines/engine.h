@@ -9,7 +9,7 @@
 
 #include "core/progress.h"
 #include "core/result.h"
-#include "optimizer/simplify/collapse.h"
+#include "optimizer/simplify/collapses/collapse.h"
 #include "optimizer/surface/shape.h"
 
 namespace standpoint {
@@ -20,7 +20,8 @@ inline constexpr std::string_view kAutoEngine = "auto", kBestEngine = "best";
 struct EngineTarget {
   std::size_t triangles = 0;                                         // that are left in the end, or one or two less
   double max_deviation_m = std::numeric_limits<double>::infinity();  // of the shape; a hint: what counts is measured
-  const std::vector<bool>* stays = nullptr;  // vertices of the shape that no step may move or remove; ours ignores it
+  const std::vector<bool>* stays =
+      nullptr;  // vertices of the shape that no step may move or remove; ours heeds it where it refines
 };
 
 // An algorithm that simplifies one shape. What it gives is a log of collapses of that shape, so that levels, replay,

@@ -10,8 +10,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "optimizer/simplify/engines/manifold.h"
 #include "optimizer/surface/deviation.h"
+#include "optimizer/surface/manifold.h"
 
 namespace standpoint {
 
@@ -20,8 +20,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr int kRounds = 8;
-constexpr std::size_t kPointsPerTriangle = 12, kFewestPoints = 20'000, kMostPoints = 400'000;
+constexpr int kRounds = 6;
+constexpr std::size_t kPointsPerTriangle = 8, kFewestPoints = 20'000, kMostPoints = 200'000;
 constexpr std::size_t kMostVertices = 400'000;  // of the shape, that are looked at beside the points
 constexpr int kSolverSteps = 40;
 constexpr double kAlong = 0.1;        // of a distance along the surface, what one across it weighs is 1
@@ -93,7 +93,9 @@ Fitter::Fitter(const Shape& shape, const TriangleTree& tree, const Shape& form, 
     : shape_(shape), tree_(tree), form_(form), target_(target), held_(form.positions.size(), false) {
   const auto manifold = manifoldOf(form);
   for (std::size_t i = 0; i < manifold.names.size(); ++i)
-    if (manifold.holds[i] != Hold::free || manifold.borders[i].weight > 0) held_[manifold.names[i]] = true;
+    if (manifold.holds[i] != Hold::free) held_[manifold.names[i]] = true;
+  for (const auto corner : manifold.border_edges)
+    for (const auto c : {corner, nextCorner(corner)}) held_[form.triangles[c / 3][c % 3]] = true;
   const auto count =
       static_cast<std::uint32_t>(std::clamp(kPointsPerTriangle * form.triangles.size(), kFewestPoints, kMostPoints));
   points_ = pointsByArea(shape.positions, shape.triangles, count, {target.seed, 7});

@@ -16,7 +16,7 @@
 #include <fmt/format.h>
 
 #include "optimizer/simplify/engines/engine.h"
-#include "optimizer/simplify/engines/manifold.h"
+#include "optimizer/simplify/engines/held_shape.h"
 
 namespace standpoint {
 
@@ -43,19 +43,19 @@ class HeldQuadricModule : public decimater::ModQuadricT<HalfEdges> {
  public:
   using Handle = decimater::ModHandleT<HeldQuadricModule>;
   explicit HeldQuadricModule(HalfEdges& mesh) : ModQuadricT(mesh) {}
-  void hold(ManifoldShape& manifold, CollapseRecorder& recorder) {
-    manifold_ = &manifold;
+  void hold(HeldShape& held, CollapseRecorder& recorder) {
+    held_ = &held;
     recorder_ = &recorder;
   }
 
   float collapse_priority(const Info& info) override {
     const auto from = indexOf(info.v0), to = indexOf(info.v1);
-    const auto hold = manifold_->holds[from];
+    const auto hold = held_->holds[from];
     if (hold == Hold::fixed || (hold == Hold::line && !alongLine(info))) return ILLEGAL_COLLAPSE;
-    Quadric held = manifold_->lines[from];
-    held += manifold_->lines[to];
-    held += manifold_->borders[from];
-    held += manifold_->borders[to];
+    Quadric held = held_->lines[from];
+    held += held_->lines[to];
+    held += held_->borders[from];
+    held += held_->borders[to];
     const float value = ModQuadricT::collapse_priority(info);
     return value < 0 ? value : value + static_cast<float>(kAreaOfQuadrics * held({info.p1[0], info.p1[1], info.p1[2]}));
   }
@@ -70,11 +70,11 @@ class HeldQuadricModule : public decimater::ModQuadricT<HalfEdges> {
  private:
   bool alongLine(const Info& info) const {
     return info.fl.is_valid() && info.fr.is_valid() &&
-           manifold_->charts[static_cast<std::size_t>(info.fl.idx())] !=
-               manifold_->charts[static_cast<std::size_t>(info.fr.idx())];
+           held_->charts[static_cast<std::size_t>(info.fl.idx())] !=
+               held_->charts[static_cast<std::size_t>(info.fr.idx())];
   }
 
-  ManifoldShape* manifold_ = nullptr;
+  HeldShape* held_ = nullptr;
   CollapseRecorder* recorder_ = nullptr;
 };
 
@@ -88,11 +88,11 @@ class Watcher : public decimater::Observer {
   const Progress& progress_;
 };
 
-Result<void> build(const ManifoldShape& manifold, HalfEdges& mesh) {
+Result<void> build(const HeldShape& held, HalfEdges& mesh) {
   [[maybe_unused]] static const bool silent = (omerr().disable(), true);  // what it refuses is an error here
-  mesh.reserve(manifold.positions.size(), manifold.triangles.size() * 3 / 2, manifold.triangles.size());
-  for (const auto& p : manifold.positions) mesh.add_vertex({p.x(), p.y(), p.z()});
-  for (const auto& t : manifold.triangles) {
+  mesh.reserve(held.positions.size(), held.triangles.size() * 3 / 2, held.triangles.size());
+  for (const auto& p : held.positions) mesh.add_vertex({p.x(), p.y(), p.z()});
+  for (const auto& t : held.triangles) {
     const auto face =
         mesh.add_face(HalfEdges::VertexHandle(static_cast<int>(t[0])), HalfEdges::VertexHandle(static_cast<int>(t[1])),
                       HalfEdges::VertexHandle(static_cast<int>(t[2])));
@@ -106,16 +106,16 @@ Result<void> build(const ManifoldShape& manifold, HalfEdges& mesh) {
 
 Result<std::vector<Collapse>> simplifyByOpenMesh(const Shape& shape, const EngineTarget& target,
                                                  const Progress& progress) {
-  auto manifold = manifoldOf(shape, target.stays);
-  TRY(checkReachable(manifold, target.triangles));
-  CollapseRecorder recorder(manifold);
+  auto held = heldShapeOf(shape, target.stays);
+  TRY(checkReachable(held, target.triangles));
+  CollapseRecorder recorder(held);
   try {
     HalfEdges mesh;
-    TRY(build(manifold, mesh));
+    TRY(build(held, mesh));
     decimater::DecimaterT<HalfEdges> decimation(mesh);
     HeldQuadricModule::Handle quadrics;
     decimation.add(quadrics);
-    decimation.module(quadrics).hold(manifold, recorder);
+    decimation.module(quadrics).hold(held, recorder);
     decimater::ModNormalFlippingT<HalfEdges>::Handle turning;
     decimation.add(turning);
     decimation.module(turning).set_max_normal_deviation(kLargestTurnDeg);

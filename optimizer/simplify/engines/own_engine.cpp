@@ -27,7 +27,7 @@ Result<std::vector<Collapse>> simplifyByOwn(const Shape& shape, const EngineTarg
     return failure(ErrorKind::unusable, "the allowed deviation ends the simplification before the target");
   static constexpr Engine kRefining{
       "", "", [](const Shape& form, const EngineTarget& end, const Progress& p) -> Result<std::vector<Collapse>> {
-        return refined(form, end.triangles, p);
+        return refined(form, end.triangles, p, end.stays);
       }};
   TRY_ASSIGN(auto finer, simplifyFurther(kRefining, shape, log, stepsDownTo(shape, log, kRefineAt * target.triangles),
                                          target, progress));
