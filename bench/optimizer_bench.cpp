@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Our simplification beside CGAL's Lindstrom–Turk and meshoptimizer on the same meshes, in one run: seconds, their
-// ratio to ours, the error by a tree that is not ours, peak memory. What counts are the ratios; rates differ threefold
-// between machines.
-//   build/release/bin/bench_optimizer [--only NAME] [PROJECT[:BUDGET] | MESH.obj[:BUDGET] …]
+// Our simplification with each of its engines, and CGAL's Lindstrom–Turk and meshoptimizer by themselves, on the same
+// meshes, in one run: seconds, their ratio to ours, the error by a tree that is not ours and its ratio, peak memory.
+// What counts are the ratios; rates differ threefold between machines. `%` instead of a budget is of the triangles.
+//   build/release/bin/bench_optimizer [--only NAME] [PROJECT[:BUDGET[%]] | MESH.obj[:BUDGET[%]] …]
 // Each step runs in a process of its own, so that its memory is its own. Ours is optimize() as a whole, measuring
 // included.
 #include <algorithm>
@@ -32,6 +32,7 @@ struct Case {
   std::string name;
   std::function<Environment()> make;
   std::size_t budget = 30'000;
+  double percent = 0;          // of the triangles, instead of a budget
   bool lindstrom_turk = true;  // it needs a mesh, and hours for the large soup
 };
 
@@ -142,13 +143,19 @@ Figures run(const Case& c, const std::function<Simplified(const Environment&)>& 
   return figures;
 }
 
-Simplified ours(const Environment& environment, std::size_t budget, std::size_t threads) {
+Simplified ours(const Environment& environment, std::size_t budget, std::size_t threads, const char* engine) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
   Progress progress;
   const Stopwatch watch;
-  const auto result = optimize(environment, {budget, 1e6, {}, {}}, progress);
+  OptimizeOptions options;
+  options.budget = budget;
+  options.max_deviation_m = 1e6;
+  options.engine = engine;
+  const auto result = optimize(environment, options, progress);
   auto simplified = watch.stop({});
   if (!result) return {};
+  for (const auto& issue : result->report.issues)
+    if (issue.source == "engine") std::printf("    (%s)\n", issue.message.c_str());
   std::printf("    (states a mean of %.3f mm and a maximum of %.2f mm)\n", 1000 * result->all.mean_deviation_m,
               1000 * result->all.max_deviation_m);
   std::fflush(stdout);
@@ -157,30 +164,43 @@ Simplified ours(const Environment& environment, std::size_t budget, std::size_t 
 }
 
 void print(const char* who, const Figures& f, const Figures& ours) {
-  std::printf("  %-22s %9zu triangles %7.2f s (x%6.2f) %7.2f s of CPU (x%6.2f)  mean %.4f %%  max %.3f %%  %6.0f MB\n",
-              who, f.triangles, f.seconds, f.seconds / ours.seconds, f.cpu_seconds, f.cpu_seconds / ours.cpu_seconds,
-              f.error.mean, f.error.max, f.megabytes);
+  std::printf(
+      "  %-22s %9zu triangles %7.2f s (x%6.2f) %7.2f s of CPU (x%6.2f)  mean %.4f %% (x%5.3f)  max %.4f %% (x%5.3f)  "
+      "%6.0f MB\n",
+      who, f.triangles, f.seconds, f.seconds / ours.seconds, f.cpu_seconds, f.cpu_seconds / ours.cpu_seconds,
+      f.error.mean, f.error.mean / ours.error.mean, f.error.max, f.error.max / ours.error.max, f.megabytes);
   std::fflush(stdout);
 }
 
-void compare(const Case& c) {
+void compare(Case c) {
+  if (c.percent > 0)
+    c.budget = static_cast<std::size_t>(c.percent / 100 * static_cast<double>(triangleCount(c.make())));
   std::printf("%s -> %zu\n", c.name.c_str(), c.budget);
-  const auto two = run(c, [&](const Environment& e) { return ours(e, c.budget, 2); });
-  print("ours, two threads", two, two);
-  print("ours, one thread", run(c, [&](const Environment& e) { return ours(e, c.budget, 1); }), two);
-  print("meshoptimizer", run(c, [&](const Environment& e) { return meshoptimizer(flattened(e), c.budget); }), two);
+  const auto by = [&](const char* engine, std::size_t threads) {
+    return run(c, [&](const Environment& e) { return ours(e, c.budget, threads, engine); });
+  };
+  const auto two = by("own", 2);
+  print("own, two threads", two, two);
+  print("own, one thread", by("own", 1), two);
+  for (const char* engine : engineChoices())
+    if (std::strcmp(engine, "own") != 0) print(engine, by(engine, 2), two);
+  print("meshoptimizer alone", run(c, [&](const Environment& e) { return meshoptimizer(flattened(e), c.budget); }),
+        two);
   if (c.lindstrom_turk)
-    print("CGAL Lindstrom-Turk", run(c, [&](const Environment& e) { return lindstromTurk(flattened(e), c.budget); }),
-          two);
+    print("CGAL alone", run(c, [&](const Environment& e) { return lindstromTurk(flattened(e), c.budget); }), two);
 }
 
 Case caseOf(const std::string& argument) {
   const auto colon = argument.rfind(':');
   const std::filesystem::path path = argument.substr(0, colon);
-  Case c{path.filename().string(),
-         {},
-         colon == std::string::npos ? 30'000 : std::strtoull(argument.c_str() + colon + 1, nullptr, 10),
-         true};
+  Case c{path.filename().string(), {}};
+  if (colon != std::string::npos) {
+    const std::string budget = argument.substr(colon + 1);
+    if (budget.ends_with('%'))
+      c.percent = std::strtod(budget.c_str(), nullptr);
+    else
+      c.budget = std::strtoull(budget.c_str(), nullptr, 10);
+  }
   c.lindstrom_turk = path.extension() == ".obj";
   c.make = [path] {
     Progress progress;
@@ -205,7 +225,7 @@ int main(int count, char** arguments) {
   }
   cases.push_back({"scan", [] { return only(scanLike()); }});
   cases.push_back({"facade", [] { return only(facade()); }});
-  cases.push_back({"restaurant", restaurant, 30'000, false});
+  cases.push_back({"restaurant", restaurant, 30'000, 0, false});
   for (const auto& c : cases)
     if (only_one.empty() || c.name == only_one) compare(c);
   return 0;

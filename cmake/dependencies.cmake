@@ -25,6 +25,7 @@ target_compile_definitions(tinygltf INTERFACE TINYGLTF_NO_STB_IMAGE TINYGLTF_NO_
   TINYGLTF_NO_EXTERNAL_IMAGE TINYGLTF_NO_FS TINYGLTF_NO_INCLUDE_JSON)
 find_package(CLI11 REQUIRED)
 find_package(CGAL REQUIRED)
+find_package(OpenMesh REQUIRED CONFIG)  # CGAL puts a module of its own in the way
 find_library(CARVE NAMES carve REQUIRED)
 pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
 target_link_libraries(PkgConfig::IMGUI INTERFACE Freetype::Freetype)  # imgui.pc forgets it

@@ -32,7 +32,12 @@ struct OptimizeOptions {
   std::vector<std::uint64_t> further_budgets;    // of the shares 1, 2, …
   bool hidden_faces =
       false;  // take away triangles that cannot be seen from anywhere (visibility.h); listed in the report
+  std::string engine = "auto";  // which makes the simpler shapes: one of engineChoices()
 };
+
+// An engine's id; `best`, for each shape the one whose measured deviation is least; `auto`, ours, and `best` for shapes
+// for which ours is known to lose.
+std::vector<const char*> engineChoices();
 
 struct ProductLoss {
   std::uint64_t triangles_before = 0, triangles_after = 0;
@@ -45,6 +50,7 @@ struct ProductLoss {
 struct OptimizeResult {
   Environment environment;  // same products, surfaces and spatial structure; lighter meshes
   std::vector<ProductLoss> products;
+  std::vector<std::string> engines;  // of each product: what made its shapes, by id; empty where none became simpler
   ProductLoss all;  // the whole against the whole: what is gone counts with its distance from what is left
   bool budget_reached = true;
   std::uint64_t smallest_budget = 0;  // that keeps max_deviation_m, when the budget was not reached

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <map>
+#include <memory>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -12,6 +13,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "optimizer/surface/mesh_statistics.h"
 
 namespace standpoint {
 
@@ -20,7 +22,13 @@ namespace {
 struct InspectorState {
   std::string material_filter;
   std::string property_filter;
+  // The product that was counted last; of a larger one it would take longer than a frame may.
+  std::shared_ptr<const Environment> counted_in;
+  std::uint32_t counted = 0;
+  MeshStatistics statistics;
 };
+
+constexpr std::uint64_t kMostCounted = 200'000;  // triangles
 
 const std::string& nodeLabel(const SpatialNode& node) { return node.name.empty() ? node.ifc_class : node.name; }
 
@@ -71,12 +79,35 @@ std::uint64_t trianglesOf(const Environment& environment, std::uint32_t product)
   return count;
 }
 
-void drawGeometry(const Model& model, std::uint32_t index) {
+std::string counted(std::uint64_t count, const char* one, const char* many) {
+  return fmt::format("{} {}", groupedDigits(count), count == 1 ? one : many);
+}
+
+// How its triangles hang together.
+void drawConnections(const Model& model, InspectorState& state, std::uint32_t index) {
+  if (state.counted_in != model.environment() || state.counted != index) {
+    state.statistics = statisticsOfProduct(*model.environment(), index);
+    state.counted_in = model.environment();
+    state.counted = index;
+  }
+  const auto& s = state.statistics;
+  if (s.triangles == 0) return;
+  ui::property("Surface", fmt::format("{}, {}", s.isClosed() ? "closed" : "open", counted(s.parts, "part", "parts")));
+  if (s.border_edges > 0)
+    ui::property("Holes", fmt::format("{}, {}", s.holes, counted(s.border_edges, "border edge", "border edges")));
+  if (s.odd_edges + s.odd_vertices > 0)
+    ui::property("Not manifold", fmt::format("{}, {}", counted(s.odd_edges, "edge", "edges"),
+                                             counted(s.odd_vertices, "vertex", "vertices")));
+}
+
+void drawGeometry(const Model& model, InspectorState& state, std::uint32_t index) {
   ui::heading(model, "Geometry");
   const auto& environment = *model.environment();
   const auto& bounds_of = model.boundsOfProducts()[index];
   if (!ui::beginProperties("geometry", 0.25F)) return;
-  ui::property("Triangles", groupedDigits(trianglesOf(environment, index)));
+  const auto triangles = trianglesOf(environment, index);
+  ui::property("Triangles", groupedDigits(triangles));
+  if (triangles <= kMostCounted) drawConnections(model, state, index);
   if (!bounds_of.empty()) {
     ui::property("Size", coordinates(bounds_of.max - bounds_of.min) + " m");
     ui::property("From", coordinates(bounds_of.min + model.shift_m()));
@@ -302,7 +333,7 @@ void draw(const Model& model, InspectorState& state, Actions& actions) {
   if (model.fonts.bold != nullptr) ImGui::PopFont();
   drawIdentity(model, product);
   drawPhysicalMaterial(model, state, actions, index);
-  drawGeometry(model, index);
+  drawGeometry(model, state, index);
   drawLayers(model, product);
   drawSurfaces(model, index);
   drawProperties(model, state, product);

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "core/winding_number.h"
-#include "optimizer/simplify/collapse.h"
+#include "optimizer/simplify/collapses/collapse.h"
 #include "optimizer/surface/deviation.h"
 #include "optimizer/surface/triangle_tree.h"
 

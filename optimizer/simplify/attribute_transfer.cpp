@@ -151,6 +151,7 @@ void Painter::take(const Collapse& step) {
       if (t[k] == a || t[k] == b) t[k] = a, wedges_[i][k] = wedge_of_group[groupOf(wedges_[i][k])];
   }
   positions_[a] = step.position;
+  if (a == b) return;
   std::uint32_t* end = &first_corner_[a];
   while (*end != kNoPaint) end = &next_corner_[*end];
   *end = std::exchange(first_corner_[b], kNoPaint);
@@ -190,7 +191,7 @@ Mesh Painter::result(const Mesh& before, const Shape& shape) const {
 Mesh transferAttributes(const Mesh& before, const Shape& shape, const std::vector<Collapse>& steps) {
   Painter painter(before, shape);
   for (const auto& step : steps) {
-    if (step.kept == step.removed) return {};
+    if (step.endsAll()) return {};
     painter.take(step);
   }
   return painter.result(before, shape);

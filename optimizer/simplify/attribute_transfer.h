@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/mesh.h"
-#include "optimizer/simplify/collapse.h"
+#include "optimizer/simplify/collapses/collapse.h"
 #include "optimizer/surface/shape.h"
 
 namespace standpoint {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "optimizer/simplify/collapse.h"
+#include "optimizer/simplify/collapses/collapse.h"
 #include "optimizer/surface/deviation.h"
 #include "optimizer/surface/shape.h"
 

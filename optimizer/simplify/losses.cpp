@@ -2,9 +2,15 @@
 #include "optimizer/simplify/losses.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "optimizer/simplify/engines/engine.h"
 
 namespace standpoint {
 
@@ -19,6 +25,15 @@ void addLoss(ProductLoss& sum, double& area_sum, const MeshJob& work, const Inst
   sum.mean_deviation_m += area_m2 * work.deviation.mean_m * stretch;  // divided by the area at the end, as the angle
   sum.mean_turn_rad += area_m2 * work.deviation.turn_rad;
   area_sum += area_m2;
+}
+
+// The first few, and how many more.
+std::string listed(const std::vector<std::string>& ids) {
+  constexpr std::size_t kListed = 8;
+  const auto first =
+      std::vector<std::string>(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(std::min(kListed, ids.size())));
+  const auto text = fmt::format("{}", fmt::join(first, ", "));
+  return ids.size() > kListed ? fmt::format("{} and {} more", text, ids.size() - kListed) : text;
 }
 
 ProductLoss lossOfDropped(const Environment& environment, const std::vector<const Instance*>& instances) {
@@ -117,6 +132,35 @@ void reportLossless(const Environment& before, const std::vector<MeshJob>& jobs,
   if (degenerate + again > 0)
     report.note("lossless", fmt::format("{} zero-area and {} duplicate triangles removed", degenerate, again));
   if (flat > 0) report.note("lossless", fmt::format("{} triangles removed by merging planar regions", flat));
+}
+
+void reportEngines(const Environment& before, const std::vector<MeshJob>& jobs, const OptimizeOptions& options,
+                   OptimizeResult& result) {
+  std::map<std::string_view, std::pair<std::set<std::uint32_t>, std::vector<std::string>>> made;  // shapes, products
+  std::map<std::string, std::vector<std::string>> refused;                                        // products by reason
+  result.engines.assign(before.products.size(), {});
+  for (const auto& instance : before.instances) {
+    const auto& work = jobs[instance.mesh];
+    auto& of_product = result.engines[instance.product];
+    const auto& id = before.products[instance.product].id;
+    if (!work.refusal.empty() && (refused[work.refusal].empty() || refused[work.refusal].back() != id))
+      refused[work.refusal].push_back(id);
+    if (work.engine.empty()) continue;
+    if (of_product.find(work.engine) == std::string::npos)
+      of_product += (of_product.empty() ? "" : ", ") + std::string(work.engine);
+    auto& [shapes, products] = made[work.engine];
+    shapes.insert(instance.mesh);
+    if (products.empty() || products.back() != id) products.push_back(id);
+  }
+  for (const auto& engine : engines().subspan(options.engine == kAutoEngine ? 1 : 0)) {
+    const auto& [shapes, products] = made[engine.id];
+    if (!shapes.empty())
+      result.report.note("engine", fmt::format("{}: {} {} of {}", engine.title, shapes.size(),
+                                               shapes.size() == 1 ? "shape" : "shapes", listed(products)));
+  }
+  for (const auto& [reason, products] : refused)
+    result.report.warn("engine", fmt::format("simplified by our own engine, as {} refused ({}): {}", options.engine,
+                                             reason, listed(products)));
 }
 
 void checkBudgets(const std::vector<MeshJob>& jobs, const OptimizeOptions& options, OptimizeResult& result) {

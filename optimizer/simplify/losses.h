@@ -20,6 +20,11 @@ void addDropped(const Environment& environment, const OptimizeOptions& options, 
 void reportDropped(const Environment& before, const std::vector<MeshJob>& jobs, Report& report);
 void reportLossless(const Environment& before, const std::vector<MeshJob>& jobs, Report& report);
 
+// Which engine made which shape: for each product, and a note for each engine but ours; a warning where the one that
+// was asked for refused.
+void reportEngines(const Environment& before, const std::vector<MeshJob>& jobs, const OptimizeOptions& options,
+                   OptimizeResult& result);
+
 // A warning for each share whose caps do not allow its budget; the least that they allow is what is left of it.
 void checkBudgets(const std::vector<MeshJob>& jobs, const OptimizeOptions& options, OptimizeResult& result);
 

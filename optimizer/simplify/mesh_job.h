@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/environment.h"
@@ -35,6 +37,8 @@ struct MeshJob {
   std::uint32_t samples = 0;
   Deviation deviation;  // in the mesh's own frame
   bool measured = false;
+  std::string_view engine;  // that made the lighter shape: its id; empty where it stayed or became a stand-in
+  std::string refusal;      // why the one that was asked for did not
 
   bool dropped() const { return lighter.triangles.empty() && !shape.triangles.empty(); }
 };

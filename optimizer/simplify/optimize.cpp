@@ -5,11 +5,13 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/parallel_for.h>
 
 #include "core/unused_meshes.h"
 #include "optimizer/optimizer.h"
 #include "optimizer/simplify/attribute_transfer.h"
+#include "optimizer/simplify/engines/engine.h"
 #include "optimizer/simplify/losses.h"
 #include "optimizer/simplify/simplify.h"
 #include "optimizer/simplify/visibility.h"
@@ -102,6 +104,13 @@ std::vector<double> mostOf(const Environment& environment, const std::vector<Mes
 
 }  // namespace
 
+std::vector<const char*> engineChoices() {
+  std::vector<const char*> choices{kAutoEngine.data()};  // all are literals
+  for (const auto& engine : engines()) choices.push_back(engine.id.data());
+  choices.push_back(kBestEngine.data());
+  return choices;
+}
+
 Environment withoutDropped(const Environment& environment, const OptimizeOptions& options) {
   Environment rest = environment;
   std::erase_if(rest.instances, [&](const Instance& instance) { return allowanceOf(options, instance.product).drop; });
@@ -112,6 +121,10 @@ Result<void> checkOptions(const Environment& environment, const OptimizeOptions&
   const auto wrong = [](double deviation_m) { return !std::isfinite(deviation_m) || deviation_m < 0; };
   if (wrong(options.max_deviation_m))
     return failure(ErrorKind::usage, "the maximum deviation must be zero or more metres", "max_deviation_m");
+  const auto choices = engineChoices();
+  if (std::find(choices.begin(), choices.end(), options.engine) == choices.end())
+    return failure(ErrorKind::usage,
+                   fmt::format("no engine \"{}\"; there are {}", options.engine, fmt::join(choices, ", ")), "engine");
   if (auto invalid = validate(environment); !invalid.empty())
     return failure(ErrorKind::unusable, invalid, "environment");
   if (!options.products.empty() && options.products.size() != environment.products.size())
@@ -140,6 +153,7 @@ Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOp
   countTriangles(tangible, result);
   reportLossless(rest, jobs, result.report);
   reportDropped(shared, jobs, result.report);
+  reportEngines(shared, jobs, options, result);
   progress.stage("Measure the whole model", 0.9, 1);
   // Of an empty one the products' own figures, to their centres, are all there is; of one mesh they are those of the
   // whole.

@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "optimizer/simplify/budget.h"
+#include "optimizer/simplify/engines/best.h"
 
 namespace standpoint {
 
@@ -93,6 +94,35 @@ bool refine(MeshJob& work, const DeviationMeter& meter, const Progress& progress
   return true;
 }
 
+// Of what is simplified by steps, and not without loss, as the options say; ours where the engine refuses.
+void makeForm(MeshJob& work, const DeviationMeter& meter, std::uint32_t mesh, const std::string& engine,
+              const Progress& progress) {
+  const bool ours = work.lossless || stepsTaken(work, work.taken) == 0;
+  const std::size_t triangles = ours ? 0 : work.levels.levels[work.taken - 1].triangles;
+  const FormRequest request{work.shape, *work.tree, meter, work.levels.log, triangles, work.cap_m, mesh};
+  const auto take = [&](EngineForm form) {
+    work.steps = std::move(form.steps);
+    work.lighter = std::move(form.form);
+    work.deviation = form.deviation;
+    work.engine = form.engine;
+  };
+  work.refusal.clear();
+  if (!ours && triangles > 0)
+    for (const auto& row : engines().subspan(1)) {
+      if (row.id != engine) continue;
+      auto form = formBy(row, request, progress);
+      if (form) return take(std::move(*form));
+      work.refusal = form.error().message;
+    }
+  if (!refine(work, meter, progress)) measure(work, meter, work.taken);
+  work.engine = work.steps.empty() || work.dropped() ? std::string_view() : engines()[0].id;
+  if (ours || triangles == 0 || work.deviation.max_m > work.cap_m) return;
+  const bool thorough = engine == kBestEngine;
+  if (!thorough && (engine != kAutoEngine || !isOwnKnownToLose(work.shape, triangles))) return;
+  EngineForm own{work.steps, replay(work.shape, work.steps, work.steps.size()), work.deviation, work.engine};
+  take(bestForm(request, std::move(own), thorough, progress));
+}
+
 // The simplest level whose measured deviation stays within the limit. The log was made with a bound on each step's
 // effect, so that this is rarely needed; what counts is the measurement.
 void shrinkToDeviation(MeshJob& work, const DeviationMeter& meter) {
@@ -171,7 +201,7 @@ Result<void> simplify(std::vector<MeshJob>& jobs, const OptimizeOptions& options
       if (work.measured) return;
       if (!work.tree) work.tree = std::make_unique<TriangleTree>(work.shape.positions, work.shape.triangles);
       const DeviationMeter meter(work.shape, *work.tree, work.samples, mesh);
-      if (!refine(work, meter, progress)) measure(work, meter, work.taken);
+      makeForm(work, meter, mesh, options.engine, progress);
       work.measured = true;
       if (!work.lossless && work.taken > 0 && work.deviation.max_m > work.cap_m) shrinkToDeviation(work, meter);
     });

@@ -10,7 +10,7 @@
 
 #include "optimizer/collision/pieces.h"
 #include "optimizer/optimizer.h"
-#include "optimizer/simplify/collapse.h"
+#include "optimizer/simplify/collapses/collapse.h"
 #include "optimizer/surface/shape.h"
 #include "optimizer/walk/door_connectivity.h"
 #include "optimizer/walk/doors.h"

@@ -106,7 +106,12 @@ const Fields<SimplificationRequest>& optimizeFields() {
       {"by-view", &O::by_view, "weigh errors by what is visible from the walkable surface; needs `collide` first"},
       {"lod", &O::lod_rules, "file of level-of-detail rules, or `default` for LoD 300 with surroundings of LoD 200"},
       {"surroundings", &O::surroundings,
-       "selectors of the surroundings of the main model: #id, class:…, name:…, storey:…"}};
+       "selectors of the surroundings of the main model: #id, class:…, name:…, storey:…"},
+      {"engine",
+       &O::engine,
+       "simplification engine; `best`: for each shape the one that deviates least; `auto`: `own`, and `best` for large "
+       "shapes of many parts",
+       {.choices = engineChoices()}}};
   return fields;
 }
 
@@ -115,6 +120,7 @@ Result<Outcome> runOptimize(const Document& document, const SimplificationReques
     return failure(ErrorKind::usage, "requires --lod", "surroundings");
   progress.stage("Optimise");
   TRY_ASSIGN(auto plan, planLightening(document, request, progress));
+  plan.options.engine = request.engine;
   const auto& options = plan.options;
   TRY_ASSIGN(auto result, optimize(*document.imported, options, progress));
   Outcome outcome{document, json::object(), {}, {}};
@@ -132,6 +138,7 @@ Result<Outcome> runOptimize(const Document& document, const SimplificationReques
     if (result.products[i].triangles_before == 0) continue;
     json row = identity(document.imported->products[i]);
     row.update(lossJson(result.products[i], lod(i)));
+    if (!result.engines[i].empty()) row["engine"] = result.engines[i];
     if (!options.products.empty()) row["rule"] = options.products[i].reason;
     rows.push_back(std::move(row));
   }

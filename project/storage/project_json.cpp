@@ -127,6 +127,7 @@ json simplificationToJson(const SimplifiedModel& l) {
                {"products", losses},
                {"levels", l.levels}};
   if (l.request.by_view) part["by_view"] = true;
+  if (l.request.engine != SimplificationRequest().engine) part["engine"] = l.request.engine;
   if (l.request.budget) part["budget"] = *l.request.budget;
   return part;
 }
@@ -267,6 +268,7 @@ std::shared_ptr<const SimplifiedModel> simplificationFrom(const json& part,
   if (part.contains("budget")) l.request.budget = part.at("budget").get<std::uint64_t>();
   l.request.max_deviation_m = part.at("max_deviation_m");
   l.request.by_view = part.value("by_view", false);
+  l.request.engine = part.value("engine", SimplificationRequest().engine);
   l.request.lod_rules = part.value("lod_rules", "");
   l.request.surroundings = part.value("surroundings", std::vector<std::string>{});
   l.levels = part.value("levels", std::vector<std::string>{});  // not in the projects of the first version

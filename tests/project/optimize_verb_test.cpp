@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -42,6 +44,22 @@ Document furnished() {
   }
   document.imported = e;
   return document;
+}
+
+TEST(OptimizeVerb, SaysWhichEngineMadeEachProduct) {
+  const json options = {{"budget", 600}, {"max-deviation", 1}, {"engine", "cgal-lt"}};
+  const auto outcome = run("optimize", furnished(), options);
+  ASSERT_TRUE(outcome) << describe(outcome.error());
+  int made = 0;
+  for (const auto& row : outcome->answer.at("products")) made += row.value("engine", "") == "cgal-lt" ? 1 : 0;
+  EXPECT_GE(made, 2);
+  EXPECT_EQ(outcome->document.simplified->request.engine, "cgal-lt");
+  EXPECT_TRUE(std::any_of(outcome->report.issues.begin(), outcome->report.issues.end(), [](const Issue& issue) {
+    return issue.source == "engine" && issue.message.find("CGAL, Lindstrom and Turk") == 0;
+  }));
+  auto unknown = options;
+  unknown["engine"] = "magic";
+  EXPECT_FALSE(run("optimize", furnished(), unknown));
 }
 
 TEST(OptimizeVerb, GivesMoreToWhatWalkersSee) {

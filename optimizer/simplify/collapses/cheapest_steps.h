@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "optimizer/simplify/collapser.h"
+#include "optimizer/simplify/collapses/collapser.h"
 
 namespace standpoint {
 

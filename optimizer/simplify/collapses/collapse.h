@@ -13,12 +13,14 @@
 namespace standpoint {
 
 // One step of a simplification: vertex `removed` joins `kept`, which moves to `position`. Where both are the same
-// vertex, it is the last step, with which all that is left vanishes.
+// vertex, it only moves, or, if triangles vanish, this is the last step, with which all that is left goes.
 struct Collapse {
   std::uint32_t kept = 0, removed = 0;
   std::uint32_t triangles = 0;  // that vanish with it, of one copy of the shape
   bool flat = false;            // it moves the surface by no more than rounding does
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
+
+  bool endsAll() const { return kept == removed && triangles > 0; }
 };
 
 struct CollapseOptions {
@@ -37,8 +39,10 @@ std::vector<Collapse> recordCollapses(const Shape& shape, const CollapseOptions&
 
 // Down to `triangles`, or one or two less, by Lindstrom and Turk's cost and placement (1998: volume kept, squared
 // volume between old and new least), which look at the surface as it is. As the last steps of a simplification, a third
-// less mean error on smooth surfaces. Borders, creases and seams are held as before; cells as before.
-std::vector<Collapse> refined(const Shape& shape, std::size_t triangles, const Progress& progress);
+// less mean error on smooth surfaces. Borders, creases and seams are held as before; cells as before. `stays` says of
+// each vertex whether it stays where it is; shapes that are cut into cells ignore it.
+std::vector<Collapse> refined(const Shape& shape, std::size_t triangles, const Progress& progress,
+                              const std::vector<bool>* stays = nullptr);
 
 // Plays a log: the shape after its first steps, which may only become more. Vertices that did not move keep their exact
 // position. Keeps references to both. Going on costs what is left, so that looking at many stages of a long log is

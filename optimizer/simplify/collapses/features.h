@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "optimizer/simplify/collapser.h"
+#include "optimizer/simplify/collapses/collapser.h"
 
 namespace standpoint {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "optimizer/simplify/rounds.h"
+#include "optimizer/simplify/collapses/rounds.h"
 
 #include <algorithm>
 #include <limits>
@@ -8,14 +8,14 @@
 
 #include <tbb/parallel_for.h>
 
-#include "optimizer/simplify/cheapest_steps.h"
+#include "optimizer/simplify/collapses/cheapest_steps.h"
 #include "optimizer/surface/partition.h"
 
 namespace standpoint {
 
 namespace {
 
-constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr auto kNoVertex = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t kCell = 8'000;  // triangles; what a core's own cache holds
 constexpr double kDeeper = 0.72;      // of what all leave together, a cell leaves
 
@@ -42,7 +42,7 @@ Region cut(const Patch& whole, const std::vector<std::uint32_t>& triangles, cons
         continue;
       }
       auto& known = local[v];
-      if (known == kNone) {
+      if (known == kNoVertex) {
         known = static_cast<std::uint32_t>(cell.names.size());
         cell.names.push_back(v);
       }
@@ -66,7 +66,7 @@ Region cut(const Patch& whole, const std::vector<std::uint32_t>& triangles, cons
 std::vector<Log> runCells(const Patch& whole, const Partition& parts, double deeper, const CollapseOptions& options,
                           const Shape& shape, const Progress& progress) {
   std::vector<Log> logs(parts.cells.size());
-  std::vector<std::uint32_t> local(whole.positions.size(), kNone);  // each entry is of one cell only
+  std::vector<std::uint32_t> local(whole.positions.size(), kNoVertex);  // each entry is of one cell only
   tbb::parallel_for(std::size_t{0}, logs.size(), [&](std::size_t i) {
     if (progress.cancelled()) return;
     auto cell = cut(whole, parts.cells[i], parts.shared, local);
@@ -133,10 +133,10 @@ std::vector<Value> picked(const std::vector<Value>& values, const std::vector<st
 // Without the vertices that no triangle has, in the order in which triangles name them: what is left of a large shape
 // lies close together again.
 void compact(Region& region) {
-  std::vector<std::uint32_t> index(region.patch.positions.size(), kNone), used;
+  std::vector<std::uint32_t> index(region.patch.positions.size(), kNoVertex), used;
   for (auto& t : region.patch.triangles)
     for (auto& v : t) {
-      if (index[v] == kNone) {
+      if (index[v] == kNoVertex) {
         index[v] = static_cast<std::uint32_t>(used.size());
         used.push_back(v);
       }

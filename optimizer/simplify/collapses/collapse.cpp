@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "optimizer/simplify/collapse.h"
+#include "optimizer/simplify/collapses/collapse.h"
 
 #include <algorithm>
 #include <limits>
@@ -8,9 +8,9 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "optimizer/simplify/collapser.h"
-#include "optimizer/simplify/features.h"
-#include "optimizer/simplify/rounds.h"
+#include "optimizer/simplify/collapses/collapser.h"
+#include "optimizer/simplify/collapses/features.h"
+#include "optimizer/simplify/collapses/rounds.h"
 
 namespace standpoint {
 
@@ -66,13 +66,15 @@ std::vector<Collapse> recordCollapses(const Shape& shape, const CollapseOptions&
   return log;
 }
 
-std::vector<Collapse> refined(const Shape& shape, std::size_t triangles, const Progress& progress) {
+std::vector<Collapse> refined(const Shape& shape, std::size_t triangles, const Progress& progress,
+                              const std::vector<bool>* stays) {
   CollapseOptions options;
   options.memoryless = true;
   options.max_deviation_m = std::numeric_limits<double>::max();
   Region region = wholeRegion(patchOf(shape, options));
   std::vector<Collapse> log;
   runRounds(region, triangles, kFractionOfRefining, options, shape, log, progress);
+  if (stays != nullptr && log.empty()) region.patch.fixed.assign(stays->begin(), stays->end());
   if (region.patch.triangles.size() > triangles)
     appendNamed(Collapser(std::move(region.patch), options, shape).run(triangles, progress), region.names, log);
   return log;
@@ -91,7 +93,7 @@ const Shape& LogPlayer::at(std::size_t steps) {
   for (auto k = steps; k-- > done_;)
     joined_[log_[k].removed] = joined_[log_[k].kept];  // the last first: that one's end is known
   done_ = steps;
-  const bool nothing_left = log_[steps - 1].kept == log_[steps - 1].removed;
+  const bool nothing_left = log_[steps - 1].endsAll();
   const auto count = nothing_left ? 0 : form_.triangles.size();
   std::vector<std::size_t> kept((count + kChunk - 1) / kChunk, 0);
   const auto move = [&](std::size_t from, std::size_t to, const Triangle& t) {

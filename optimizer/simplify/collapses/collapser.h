@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/progress.h"
-#include "optimizer/simplify/collapse.h"
-#include "optimizer/simplify/collapse_queue.h"
-#include "optimizer/simplify/quadric.h"
+#include "optimizer/simplify/collapses/collapse.h"
+#include "optimizer/simplify/collapses/collapse_queue.h"
+#include "optimizer/simplify/collapses/quadric.h"
 
 namespace standpoint {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "optimizer/simplify/cheapest_steps.h"
+#include "optimizer/simplify/collapses/cheapest_steps.h"
 
 #include <algorithm>
 #include <cstdint>

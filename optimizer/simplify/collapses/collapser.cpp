@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "optimizer/simplify/collapser.h"
+#include "optimizer/simplify/collapses/collapser.h"
 
 #include <algorithm>
 #include <cmath>

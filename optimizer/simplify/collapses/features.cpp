@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "optimizer/simplify/features.h"
+#include "optimizer/simplify/collapses/features.h"
 
 #include <algorithm>
 #include <utility>

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/progress.h"
-#include "optimizer/simplify/collapser.h"
+#include "optimizer/simplify/collapses/collapser.h"
 
 namespace standpoint {
 
