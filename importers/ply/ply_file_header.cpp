@@ -65,7 +65,8 @@ Result<PlyFileHeader> readPlyHeader(const FileBytes& bytes, const std::string& n
   PlyHeaderLines header;
   PlyFileHeader result;
   const auto fault = [&](const std::string& message) {
-    return failure(ErrorKind::unusable, message, name + " line " + std::to_string(std::max<std::size_t>(1, lines.count())));
+    return failure(ErrorKind::unusable, message,
+                   name + " line " + std::to_string(std::max<std::size_t>(1, lines.count())));
   };
   for (bool more = true; more;) {
     const auto line = lines.next();

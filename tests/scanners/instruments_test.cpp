@@ -427,11 +427,12 @@ TEST_F(ChangedInstrument, WithAValueFarOutOrNestedDeeplyIsRefusedAndNoMore) {
             "leica-rtc360.json /correlated_noise/wobble_order");
   EXPECT_EQ(errorOf("\"near_range_power\": 2", "\"near_range_power\": -1e300").source,
             "leica-rtc360.json /signal/near_range_power");
-  EXPECT_EQ(
-      errorOf("\"wobble_order\": 2", "\"wobble_order\": " + std::string(500000, '[') + std::string(500000, ']')).source,
-      "leica-rtc360.json /correlated_noise/wobble_order");
-  EXPECT_EQ(errorOf("\"wobble_order\": 2", "\"wobble_order\": " + std::string(500000, '[')).source,
-            "leica-rtc360.json");
+  const std::string open(500000, '['), close(500000, ']');
+  EXPECT_EQ(describe(errorOf("\"wobble_order\": 2", "\"wobble_order\": " + open + close)),
+            "leica-rtc360.json: is nested deeper than 32 levels");
+  EXPECT_EQ(errorOf("\"wobble_order\": 2", "\"wobble_order\": " + open).source, "leica-rtc360.json line 51");
+  EXPECT_NE(errorOf("\"wobble_order\": 2", "\"wobble_order\": 2, \"wobble_order\": 3").message.find("more than once"),
+            std::string::npos);
 }
 
 TEST_F(ChangedInstrument, CutAnywhereIsAnError) {
