@@ -137,14 +137,17 @@ void reportLossless(const Environment& before, const std::vector<MeshJob>& jobs,
 void reportEngines(const Environment& before, const std::vector<MeshJob>& jobs, const OptimizeOptions& options,
                    OptimizeResult& result) {
   std::map<std::string_view, std::pair<std::set<std::uint32_t>, std::vector<std::string>>> made;  // shapes, products
-  std::map<std::string, std::vector<std::string>> refused;                                        // products by reason
+  std::set<std::uint32_t> refused;                                                                // shapes
+  std::vector<std::string> left_to_ours;
   result.engines.assign(before.products.size(), {});
   for (const auto& instance : before.instances) {
     const auto& work = jobs[instance.mesh];
     auto& of_product = result.engines[instance.product];
     const auto& id = before.products[instance.product].id;
-    if (!work.refusal.empty() && (refused[work.refusal].empty() || refused[work.refusal].back() != id))
-      refused[work.refusal].push_back(id);
+    if (!work.refusal.empty()) {
+      refused.insert(instance.mesh);
+      if (left_to_ours.empty() || left_to_ours.back() != id) left_to_ours.push_back(id);
+    }
     if (work.engine.empty()) continue;
     if (of_product.find(work.engine) == std::string::npos)
       of_product += (of_product.empty() ? "" : ", ") + std::string(work.engine);
@@ -158,9 +161,10 @@ void reportEngines(const Environment& before, const std::vector<MeshJob>& jobs, 
       result.report.note("engine", fmt::format("{}: {} {} of {}", engine.title, shapes.size(),
                                                shapes.size() == 1 ? "shape" : "shapes", listed(products)));
   }
-  for (const auto& [reason, products] : refused)
-    result.report.warn("engine", fmt::format("simplified by our own engine, as {} refused ({}): {}", options.engine,
-                                             reason, listed(products)));
+  if (!refused.empty())
+    result.report.warn("engine", fmt::format("{} {} simplified by our own engine, as {} refused (for example: {}): {}",
+                                             refused.size(), refused.size() == 1 ? "shape" : "shapes", options.engine,
+                                             jobs[*refused.begin()].refusal, listed(left_to_ours)));
 }
 
 void checkBudgets(const std::vector<MeshJob>& jobs, const OptimizeOptions& options, OptimizeResult& result) {

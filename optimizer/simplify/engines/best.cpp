@@ -22,6 +22,7 @@ constexpr std::size_t kMostForOthers = 400'000;        // triangles that an engi
 constexpr std::size_t kLastSteps = 6;     // times the triangles that are left: where only the last steps differ
 constexpr double kAllowedMaximum = 1.03;  // of the least maximum of all engines: below 1.05 by any measure
 constexpr std::size_t kFittedByMean = 2;  // forms of least mean that are fitted
+constexpr double kPressing[] = {0.85, 0.75, 0.65};  // of the least maximum: where distances are far
 constexpr int kRepairs = 6;
 constexpr std::size_t kRepairFrom = 6;  // times the triangles that are left
 constexpr double kFarSpot = 0.95;       // of the least maximum: points do not find all of it
@@ -86,6 +87,9 @@ class Choice {
   // Where no form is near enough both in the mean and at most: the last steps of the engine's form of least mean again,
   // without those around the spots that are too far, until there are none.
   void repair(const Engine& engine, const Progress& progress);
+  // Before that: of the forms that are near enough in the mean the nearest at most, fitted again with more weight for
+  // what is far.
+  void press(const Progress& progress);
   EngineForm take() { return std::move(forms_[best()]); }
 
  private:
@@ -101,7 +105,7 @@ class Choice {
       if (rank(forms_[i]) < rank(forms_[best])) best = i;
     return best;
   }
-  bool fit(std::size_t which, const Progress& progress);
+  bool fit(std::size_t which, double max_m, const Progress& progress);
   bool markFarSpots(const Shape& form, const Shape& start, std::vector<bool>& stays) const;
 
   const FormRequest& request_;
@@ -109,13 +113,13 @@ class Choice {
   double least_mean_m_ = std::numeric_limits<double>::infinity(), least_max_m_ = least_mean_m_;
 };
 
-bool Choice::fit(std::size_t which, const Progress& progress) {
+bool Choice::fit(std::size_t which, double max_m, const Progress& progress) {
   auto steps = forms_[which].steps;
   LogPlayer player(request_.shape, steps);
   player.at(steps.size());
   Shape form = forms_[which].form;
   form.wedges = player.wedges();
-  const auto moves = fitted(request_.shape, request_.tree, form, {kFarSpot * least_max_m_, request_.seed}, progress);
+  const auto moves = fitted(request_.shape, request_.tree, form, {max_m, request_.seed}, progress);
   if (moves.empty()) return false;
   steps.insert(steps.end(), moves.begin(), moves.end());
   auto made = measured(request_, std::move(steps), forms_[which].engine);
@@ -148,6 +152,18 @@ bool Choice::markFarSpots(const Shape& form, const Shape& start, std::vector<boo
   return !marked.empty();
 }
 
+void Choice::press(const Progress& progress) {
+  for (const double aim : kPressing) {
+    if (rank(forms_[best()]) <= 1 || progress.cancelled()) return;
+    std::size_t nearest = forms_.size();
+    for (std::size_t i = 0; i < forms_.size(); ++i)
+      if (forms_[i].deviation.mean_m <= least_mean_m_ &&
+          (nearest == forms_.size() || forms_[i].deviation.max_m < forms_[nearest].deviation.max_m))
+        nearest = i;
+    fit(nearest, aim * least_max_m_, progress);
+  }
+}
+
 void Choice::repair(const Engine& engine, const Progress& progress) {
   const EngineForm* base = nullptr;
   for (const auto& form : forms_)
@@ -166,7 +182,7 @@ void Choice::repair(const Engine& engine, const Progress& progress) {
     auto made = measured(request_, std::move(*steps), engine.id);
     if (!made) return;
     forms_.push_back(std::move(*made));
-    fit(forms_.size() - 1, progress);
+    fit(forms_.size() - 1, kFarSpot * least_max_m_, progress);
     latest = forms_.back().form;
   }
 }
@@ -187,7 +203,7 @@ void Choice::fitNearest(bool thorough, const Progress& progress) {
   } else {
     sortFrom(0, [&](const EngineForm& f) { return rank(f); });
   }
-  for (std::size_t i = 0; i < count && !progress.cancelled(); ++i) fit(order[i], progress);
+  for (std::size_t i = 0; i < count && !progress.cancelled(); ++i) fit(order[i], kFarSpot * least_max_m_, progress);
 }
 
 }  // namespace
@@ -212,6 +228,7 @@ EngineForm bestForm(const FormRequest& request, EngineForm own, bool thorough, c
   }
   Choice choice(request, std::move(forms), whole);
   choice.fitNearest(thorough, progress);
+  if (thorough) choice.press(progress);
   if (thorough)
     for (const auto& engine : engines())
       if (engine.id == engines()[0].id || engine.id == kSmoothEngine) choice.repair(engine, progress);
