@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/data_folder.h"
 #include "emulated-ui/rehearsal/rehearse_verb.h"
 
 namespace standpoint {
