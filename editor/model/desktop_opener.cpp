@@ -6,6 +6,7 @@
 #include <spawn.h>
 #include <sys/wait.h>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -13,10 +14,25 @@ extern char** environ;
 
 namespace standpoint {
 
+namespace {
+
+// Of a program that was started; it goes on where this is cancelled.
+Result<int> exitStatusOf(pid_t child, const Progress& progress) {
+  int status = 0;
+  pid_t ended = 0;
+  while ((ended = waitpid(child, &status, WNOHANG)) == 0) {
+    TRY(progress.check());
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return ended == child && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+}  // namespace
+
 void DesktopOpener::open(const std::filesystem::path& path, std::function<void()> wake) {
   path_ = path;
   problem_.clear();
-  ended_ = {};
+  task_.reset();
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
     problem_ = fmt::format("{} does not exist", path.string());
@@ -29,20 +45,18 @@ void DesktopOpener::open(const std::filesystem::path& path, std::function<void()
     problem_ = fmt::format("Cannot start '{}' ({}). File: {}", program_, std::strerror(failed), path.string());
     return;
   }
-  std::promise<int> promise;
-  ended_ = promise.get_future();
-  std::thread([child, promise = std::move(promise), wake = std::move(wake)]() mutable {
-    int status = 0;
-    const bool known = waitpid(child, &status, 0) == child && WIFEXITED(status);
-    promise.set_value(known ? WEXITSTATUS(status) : -1);
-    wake();
-  }).detach();
+  task_ = std::make_unique<Task<int>>(
+      fmt::format("Open {}", path.filename().string()),
+      [child](Progress& progress) { return exitStatusOf(child, progress); }, std::move(wake));
 }
 
 const std::string& DesktopOpener::problem() {
-  if (ended_.valid() && ended_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
-    if (const int status = ended_.get(); status != 0)
-      problem_ = fmt::format("'{}' could not open the file (exit code {}). File: {}", program_, status, path_.string());
+  if (task_ && task_->done()) {
+    const auto status = std::exchange(task_, nullptr)->take();
+    if (status && *status != 0)
+      problem_ =
+          fmt::format("'{}' could not open the file (exit code {}). File: {}", program_, *status, path_.string());
+  }
   return problem_;
 }
 

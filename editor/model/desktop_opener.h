@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <functional>
-#include <future>
+#include <memory>
 #include <string>
+
+#include "project/task.h"
 
 namespace standpoint {
 
@@ -18,13 +20,13 @@ class DesktopOpener {
   void open(const std::filesystem::path& path, std::function<void()> wake);
   // What went wrong with the last `open`, once that is known; empty else. Names the path.
   const std::string& problem();
-  // What it told concerns nobody any more.
+  // The last problem was read.
   void forget() { problem_.clear(); }
 
  private:
   std::string program_, problem_;
   std::filesystem::path path_;
-  std::future<int> ended_;  // with the exit status of the program, or -1
+  std::unique_ptr<Task<int>> task_;  // ends with the exit status of the program, or -1
 };
 
 }  // namespace standpoint
