@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -145,6 +147,40 @@ void drawPreview(const Model& model, const OptimiseState& state, Actions& action
     ui::dimText(fmt::format("{} triangles in view", groupedDigits(preview.triangles)));
 }
 
+struct EngineTitle {
+  std::string_view id;
+  const char* title;
+  const char* help;
+};
+constexpr EngineTitle kEngineTitles[] = {
+    {"auto", "Automatic", "Our engine; the best of several for large shapes of many parts"},
+    {"own", "Standpoint", "Quadrics, refined by Lindstrom and Turk's cost"},
+    {"cgal-lt", "CGAL Lindstrom–Turk", "Keeps volume and borders; several times slower"},
+    {"cgal-gh", "CGAL Garland–Heckbert", "Small maximum, larger mean deviation; several times slower"},
+    {"openmesh", "OpenMesh", "Quadrics on half-edges; several times slower"},
+    {"best", "Best of all", "For each shape the form with the least measured deviation; about ten times slower"}};
+
+// An engine without a title is listed by its id.
+EngineTitle titleOf(std::string_view id) {
+  const auto found = std::find_if(std::begin(kEngineTitles), std::end(kEngineTitles),
+                                  [&](const EngineTitle& row) { return row.id == id; });
+  return found != std::end(kEngineTitles) ? *found : EngineTitle{id, id.data(), ""};
+}
+
+void chooseEngine(std::string& engine) {
+  const bool open = ImGui::BeginCombo("###engine", titleOf(engine).title);
+  if (!open) {
+    ui::tooltip(titleOf(engine).help);
+    return;
+  }
+  for (const char* id : engineChoices()) {
+    const auto row = titleOf(id);
+    if (ImGui::Selectable(row.title, engine == id)) engine = id;
+    ui::tooltip(row.help);
+  }
+  ImGui::EndCombo();
+}
+
 void draw(const Model& model, OptimiseState& state, Actions& actions) {
   const auto& document = model.session.document();
   if (!document.imported) {
@@ -169,6 +205,8 @@ void draw(const Model& model, OptimiseState& state, Actions& actions) {
     if (ImGui::SliderFloat("###deviation", &deviation, 0.5F, 100, "%.1f mm",
                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
       state.max_deviation_mm = deviation;
+    ui::propertyLabel("Engine");
+    chooseEngine(state.engine);
     ui::endProperties();
   }
   ImGui::BeginDisabled(!document.collision);
@@ -185,7 +223,8 @@ void draw(const Model& model, OptimiseState& state, Actions& actions) {
     actions.start("optimize",
                   {{"budget", state.only_lossless ? 0 : std::max<std::uint64_t>(1, budget)},
                    {"max-deviation", state.max_deviation_mm / 1000},
-                   {"by-view", state.by_view && document.collision != nullptr}},
+                   {"by-view", state.by_view && document.collision != nullptr},
+                   {"engine", state.engine}},
                   "Optimise the model");
   }
   if (!document.simplified) return;

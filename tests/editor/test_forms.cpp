@@ -24,7 +24,7 @@ TEST(OptionForm, OfEveryVerbGivesOptionsThatTheVerbAccepts) {
 TEST(OptionForm, StartsWithTheDefaultsAndLeavesOutWhatIsOptional) {
   const Verb& optimize = *findVerb(verbs(), "optimize");
   OptionForm form(optimize);
-  EXPECT_EQ(form.options(), (json{{"max-deviation", 0.015}}));
+  EXPECT_EQ(form.options(), (json{{"engine", "auto"}, {"max-deviation", 0.015}}));
   form.find("budget")->given = true;
   form.find("budget")->number = 2000;
   EXPECT_EQ(form.options()["budget"], 2000);
