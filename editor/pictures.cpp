@@ -26,6 +26,7 @@ void reset(Editor& editor) {
   editor.view.tool = Tool::select;
   editor.preview.close();
   editor.showCloud({});
+  editor.view.shaded_points = false;
   editor.view.camera.orthographic = false;
   look(editor.view.camera, StandardView::corner);
   editor.view.frame_wanted = true;
@@ -161,6 +162,7 @@ void scan(Editor& editor) {
   const auto& job = editor.session.document().job;
   if (!job || job->stations.empty() || job->stations.front().scans.empty()) return;
   *editor.visibility.cut_height_m += 0.6;
+  editor.view.shaded_points = true;
   editor.showCloud(job->stations.front().scans.back().file);
   while (editor.readingCloud()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));

@@ -56,7 +56,7 @@ struct ViewportState {
   double wavelength_nm = kReflectanceWavelength_nm;  // at which reflectance is shown
   Probe probe;
   bool coverage_made = false;  // the map of coverage shows scans that were made, not the stations as planned
-  bool edges = true, grid = true, walkable = false, shapes = false, labels = true, shaded_points = true;
+  bool edges = true, grid = true, walkable = false, shapes = false, labels = true, shaded_points = false;
   Tool tool = Tool::select;
   std::optional<RayHit> hover;  // under the pointer
   Eigen::Vector3d pivot = Eigen::Vector3d::Zero();

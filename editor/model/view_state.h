@@ -59,7 +59,7 @@ struct ViewState {
   bool grid = true;
   bool walkable = false;
   bool shapes = false;                 // collision shapes instead of the model
-  bool shaded_points = true;           // a cloud at rest is shaded by depth (eye-dome lighting)
+  bool shaded_points = false;          // a cloud at rest is shaded by depth (eye-dome lighting)
   std::shared_ptr<const Cloud> cloud;  // a scan instead of the model; null: none
   std::vector<ShownUnderlay> underlays;
   Camera camera;
