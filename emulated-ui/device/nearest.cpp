@@ -10,7 +10,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr std::size_t kLongestName = 64;  // a longer one is compared by its beginning
+constexpr std::size_t kLongestCompared = 64;  // a longer one is compared by its beginning
 
 // Letters to put in, take out or change to come from one to the other (Levenshtein).
 std::size_t changes(const std::string& a, const std::string& b) {
@@ -38,7 +38,7 @@ int unlike(const std::string& written, const std::string& name) {
 
 std::string knownInstead(const std::string& wanted, std::vector<std::string> known, std::size_t most) {
   if (known.empty()) return "none";
-  const auto written = wanted.substr(0, kLongestName);
+  const auto written = wanted.substr(0, kLongestCompared);
   std::stable_sort(known.begin(), known.end(),
                    [&](const std::string& a, const std::string& b) { return unlike(written, a) < unlike(written, b); });
   const bool alike = unlike(written, known.front()) <= static_cast<int>(std::max(written.size(), known.front().size()));

@@ -21,7 +21,7 @@ namespace standpoint {
 namespace {
 
 constexpr std::size_t kHeaderBytes = 84, kFacetBytes = 50;
-constexpr float kLargest = 1e13F;
+constexpr float kLargestStl = 1e13F;
 
 std::uint32_t littleEndian32(const char* p) {
   std::uint32_t v = 0;
@@ -79,7 +79,7 @@ Result<void> readBinary(const FileBytes& bytes, const std::string& name, StlSoup
       for (std::size_t axis = 0; axis < 3; ++axis)
         v[axis] = std::bit_cast<float>(littleEndian32(p + 12 + 12 * k + 4 * axis));
       for (const float x : v)
-        if (!(std::abs(x) <= kLargest))
+        if (!(std::abs(x) <= kLargestStl))
           return failure(ErrorKind::unusable, "a coordinate is not a finite number below 1e13",
                          name + " triangle " + std::to_string(i + 1));
       out.corner({v[0], v[1], v[2]});
@@ -93,7 +93,8 @@ Result<void> readBinary(const FileBytes& bytes, const std::string& name, StlSoup
   return {};
 }
 
-Result<ImportedModel> read(const std::filesystem::path& path, const ImportOptions& options, Progress& progress) {
+Result<ImportedModel> readImported(const std::filesystem::path& path, const ImportOptions& options,
+                                   Progress& progress) {
   const std::string name = path.filename().string();
   TRY_ASSIGN(const auto bytes, FileBytes::open(path));
   Report report;
@@ -111,13 +112,13 @@ Result<ImportedModel> read(const std::filesystem::path& path, const ImportOption
 Result<ImportedModel> readStl(const std::filesystem::path& path, const ImportOptions& options, Progress& progress) {
   progress.stage("Reading STL");
   try {
-    return read(path, options, progress);
+    return readImported(path, options, progress);
   } catch (const std::bad_alloc&) {
     return failure(ErrorKind::unusable, "not enough memory", path.filename().string());
   }
 }
 
-constexpr const char* kExtensions[] = {".stl"};
+constexpr const char* kStlExtensions[] = {".stl"};
 
 }  // namespace
 
@@ -135,6 +136,6 @@ bool isBinaryStl(const FileBytes& bytes) {
   return got >= kHeaderBytes && (!begins_as_text || text.find('\0') != std::string_view::npos);
 }
 
-const Importer kStlImporter = {"stl", "STL, binary and text", kExtensions, &readStl, UpAxis::z};
+const Importer kStlImporter = {"stl", "STL, binary and text", kStlExtensions, &readStl, UpAxis::z};
 
 }  // namespace standpoint

@@ -12,7 +12,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr std::size_t kPiece = 4U << 20U;
+constexpr std::size_t kTextPiece = 4U << 20U;
 constexpr double kLargestInText = 1e13;
 constexpr std::uint32_t kFree = 0xFFFFFFFFU;
 
@@ -174,8 +174,8 @@ Result<void> readStlText(const FileBytes& bytes, const std::string& name, StlSou
                          Progress& progress) {
   TextReader reader(name, out);
   std::size_t line = 1;
-  for (std::uint64_t from = 0; from < bytes.size(); from += kPiece) {
-    TRY_ASSIGN(const auto text, textPiece(bytes, from, kPiece));
+  for (std::uint64_t from = 0; from < bytes.size(); from += kTextPiece) {
+    TRY_ASSIGN(const auto text, textPiece(bytes, from, kTextPiece));
     if (auto ok = reader.piece(text, line); !ok) return ok;
     progress.advance(0.6 * static_cast<double>(from) / static_cast<double>(bytes.size()));
     if (auto ok = progress.check(); !ok) return ok;

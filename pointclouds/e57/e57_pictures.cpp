@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kBlobHeader = 16;
 constexpr std::uint64_t kLargestPicture = std::uint64_t{1} << 30;
-constexpr const char* kStructure = "type=\"Structure\"";
+constexpr const char* kPictureStructure = "type=\"Structure\"";
 constexpr const char* kJpeg = "image/jpeg";
 constexpr const char* kPng = "image/png";
 
@@ -55,13 +55,13 @@ void appendPicture(XmlWriter& xml, const StationPicture& picture, std::uint64_t 
                    const std::string& scan_guid) {
   const bool pinhole = picture.projection == StationPicture::Projection::pinhole;
   const char* const representation = pinhole ? "pinholeRepresentation" : "sphericalRepresentation";
-  xml.open("vectorChild", kStructure);
+  xml.open("vectorChild", kPictureStructure);
   xml.string("guid", guid);
   if (!picture.name.empty()) xml.string("name", picture.name);
   xml.string("associatedData3DGuid", scan_guid);
   if (picture.acquired_gps_s > 0) appendTime(xml, "acquisitionDateTime", picture.acquired_gps_s);
   appendPose(xml, picture.file_from_camera);
-  xml.open(representation, kStructure);
+  xml.open(representation, kPictureStructure);
   xml.leaf(picture.media_type == kPng ? "pngImage" : "jpegImage", "type=\"Blob\" fileOffset=\"" +
                                                                       numberText(blob_offset) + "\" length=\"" +
                                                                       numberText(picture.bytes.size()) + "\"");
