@@ -126,7 +126,7 @@ TEST_F(Focus, SaysInTheDevicesLanguageWhatAPressMovedBesides) {
   EXPECT_EQ(d->state().moved_along, "") << "nothing but what was pressed";
   d->change().language = "de";
   ASSERT_TRUE(d.press({"resolution=1/4", "quality=2x", "resolution=1/16"}));
-  EXPECT_EQ(d->state().moved_along, "Qualität ging von 2x auf 3x: 1/16 lässt 2x nicht zu.");
+  EXPECT_EQ(d->state().moved_along, "Qualität von 2x auf 3x geändert: 1/16 lässt 2x nicht zu.");
 }
 
 TEST_F(Focus, SpinsUpScansPhotographsAndSavesUnderItsBaseName) {

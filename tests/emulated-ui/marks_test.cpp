@@ -187,10 +187,10 @@ TEST_F(MarksTest, AreFramedInTheLanguageOfThePage) {
   const std::pair<const char*, std::vector<const char*>> kFrames[] = {
       {"de",
        {"Nicht bestanden", "14.3 % der Punkte (20 % erforderlich)", "Pflichtkriterium nicht erfüllt",
-        "Schritt oder Forderung", "Erwartet", "Gefunden", "Benutzte Hinweise", "Bewertet am", "nicht beantwortet",
+        "Schritt oder Kriterium", "Erwartet", "Gefunden", "Benutzte Hinweise", "Bewertet am", "nicht beantwortet",
         "in den Messpunkten", "Standpoint bildet"}},
       {"uk",
-       {"Не складено", "14.3 % балів (потрібно 20 %)", "Обов’язковий критерій не виконано", "Крок або вимога",
+       {"Не складено", "14.3 % балів (потрібно 20 %)", "Обов’язковий критерій не виконано", "Крок або критерій",
         "Очікувалося", "Виявлено", "Використано підказок", "Оцінено", "без відповіді", "у точках скану",
         "Прилад відтворено"}}};
   for (const auto& [language, frame] : kFrames) {

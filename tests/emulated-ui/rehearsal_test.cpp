@@ -104,8 +104,8 @@ TEST_F(RehearsalTest, ARuleThatNothingAskedSaysSoAndClaimsNoConsequence) {
   const auto rehearsal = start(shortLesson());
   ASSERT_TRUE(rehearsal);
   const std::pair<const char*, const char*> kSaid[] = {{"en", "Not evaluated: no scan was started"},
-                                                       {"de", "Nie gefragt: kein Scan wurde gestartet"},
-                                                       {"uk", "Не запитано: жодного скану не розпочато"}};
+                                                       {"de", "Nicht bewertet: kein Scan wurde gestartet"},
+                                                       {"uk", "Не оцінено: жодного скану не розпочато"}};
   for (const auto& [language, said] : kSaid) {
     const auto marks = marksOf(*rehearsal, "", language);
     const auto& rule = marks["rules"][0];
