@@ -70,7 +70,7 @@ Result<SettingValues> complete(const Instrument& instrument, const SettingValues
 
 bool isStep(const std::string& key) { return key == "line_step" || key == "frame_step"; }
 
-struct Effects {
+struct ChosenEffects {
   double columns = 0, rows = 0, seconds = 0, rate_hz = 0, noise_factor = 1, passes = 1, imaging = 0,
          imaging_seconds = 0;
   double seconds_factor = 1, compression = 1, mode = 0;
@@ -91,8 +91,8 @@ void addToCamera(PanoramaCamera& camera, const std::string& key, double value) {
   if (key == "picture_flash") camera.flash = value;
 }
 
-Effects gather(const Instrument& instrument, const SettingValues& values) {
-  Effects sum;
+ChosenEffects gather(const Instrument& instrument, const SettingValues& values) {
+  ChosenEffects sum;
   sum.imaging_seconds = instrument.imaging_seconds;
   sum.camera = instrument.camera;
   sum.max_range_m = instrument.max_range_m;
@@ -155,7 +155,7 @@ class GridLimits {
   double max_hz_, columns_, finest_ = 0;
 };
 
-Result<void> checkGrid(const Instrument& instrument, const SettingValues& values, const Effects& effects) {
+Result<void> checkGrid(const Instrument& instrument, const SettingValues& values, const ChosenEffects& effects) {
   const GridLimits limits(instrument, effects.columns);
   const bool turns = limits.turns(effects.rate_hz);
   if (turns && limits.compresses(effects.compression)) return {};
@@ -178,7 +178,7 @@ Result<void> checkGrid(const Instrument& instrument, const SettingValues& values
   return failure(ErrorKind::usage, "is not allowed, " + why, "settings");
 }
 
-Result<void> checkMode(const Instrument& instrument, const SettingValues& values, const Effects& effects) {
+Result<void> checkMode(const Instrument& instrument, const SettingValues& values, const ChosenEffects& effects) {
   const auto belongs = [&](const SettingChoice& c) { return effectOf(c, "of_mode", effects.mode) == effects.mode; };
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto& setting = instrument.settings[i];
@@ -228,7 +228,7 @@ Result<Area> areaOf(const Instrument& instrument, const SettingValues& values, b
 }
 
 // The two steps of a pattern of one's own make the grid.
-Result<void> applySteps(const Instrument& instrument, const SettingValues& values, Effects& effects) {
+Result<void> applySteps(const Instrument& instrument, const SettingValues& values, ChosenEffects& effects) {
   const double full = (instrument.max_elevation_rad - instrument.min_elevation_rad) / kRadPerDeg;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto& [key, value] = values[i];
@@ -251,7 +251,7 @@ Result<ScanSettings> resolveSettings(const Instrument& instrument, const Setting
                        " is a mobile scanner and requires a trajectory; choose a tripod instrument for stations",
                    instrument.id);
   TRY_ASSIGN(auto filled, complete(instrument, values));
-  Effects effects = gather(instrument, filled);
+  ChosenEffects effects = gather(instrument, filled);
   TRY(applySteps(instrument, filled, effects));
   if (effects.columns < 2)
     return failure(ErrorKind::unusable, "no setting defines the columns", instrument.id + " /settings");
