@@ -27,16 +27,16 @@ constexpr std::size_t kMostSeeds = 40000;
 constexpr double kRival = 0.6;      // of the best score
 constexpr double kExplained = 0.5;  // of the intensities' variance, by the pattern
 
-struct Plane {
+struct BoardPlane {
   Vector3d place = Vector3d::Zero(), normal = Vector3d::Zero();
   double sigma_m = 0;
 };
 
-Plane planeOf(const std::vector<Vector3d>& points, const std::vector<double>& weights) {
+BoardPlane planeOf(const std::vector<Vector3d>& points, const std::vector<double>& weights) {
   Vector3d sum = Vector3d::Zero();
   double all = 0;
   for (std::size_t i = 0; i < points.size(); ++i) sum += weights[i] * points[i], all += weights[i];
-  Plane plane;
+  BoardPlane plane;
   plane.place = sum / all;
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -48,9 +48,9 @@ Plane planeOf(const std::vector<Vector3d>& points, const std::vector<double>& we
   return plane;
 }
 
-Plane robustPlane(const std::vector<Vector3d>& points) {
+BoardPlane robustPlane(const std::vector<Vector3d>& points) {
   std::vector<double> weights(points.size(), 1), off;
-  Plane plane = planeOf(points, weights);
+  BoardPlane plane = planeOf(points, weights);
   for (int i = 0; i < 12; ++i) {
     off.clear();
     for (const auto& p : points) off.push_back(std::abs(plane.normal.dot(p - plane.place)));
@@ -102,7 +102,7 @@ std::vector<Candidate> candidates(const std::vector<Vector3d>& seeds, const std:
     near.clear(), flat.clear(), bright.clear();
     grid.near(seed, look_m, [&](std::size_t i) { near.push_back(seeds[i]), bright.push_back(intensity[i]); });
     if (near.size() < 12) continue;
-    const Plane plane = planeOf(near, std::vector<double>(near.size(), 1));
+    const BoardPlane plane = planeOf(near, std::vector<double>(near.size(), 1));
     const Vector3d u = plane.normal.unitOrthogonal(), v = plane.normal.cross(u);
     for (const auto& p : near) flat.emplace_back(u.dot(p - seed), v.dot(p - seed));
     all.push_back({harmonics(flat, bright, 0.05 * side_m).score, seed});
@@ -239,7 +239,7 @@ Result<TargetFit> fitAt(const std::vector<Vector3d>& points, const std::vector<f
     return failure(ErrorKind::unusable, "too few points on the target: " + std::to_string(near.size()) +
                                             " of at least " + std::to_string(search.min_points) +
                                             "; scan with higher resolution or from closer");
-  const Plane plane = robustPlane(near);
+  const BoardPlane plane = robustPlane(near);
   const Vector3d u = plane.normal.unitOrthogonal(), v = plane.normal.cross(u);
   std::vector<Vector2d> flat;
   std::vector<float> bright;
