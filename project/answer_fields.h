@@ -135,6 +135,18 @@ struct AnswerField {
         }),
         below(AnswerValue<T>::names()) {}
 
+  template <class B, class T, class Convert>
+  requires std::derived_from<A, B> && std::invocable<Convert, const T&> AnswerField(const char* key,
+                                                                                    std::optional<T> B::*member,
+                                                                                    Convert convert, LeftOut)
+      : name(key),
+        written([member, convert](const A& a) -> std::optional<nlohmann::json> {
+          if (!(a.*member)) return std::nullopt;
+          const auto converted = convert(*(a.*member));
+          return AnswerValue<std::remove_const_t<decltype(converted)>>::write(converted);
+        }),
+        below(AnswerValue<std::remove_cvref_t<std::invoke_result_t<Convert, const T&>>>::names()) {}
+
   template <class B, class T>
   requires std::derived_from<A, B> AnswerField(const char* key, std::vector<T> B::*member, LeftOut)
       : name(key),

@@ -38,7 +38,27 @@ struct StationOptions {
   double yaw_deg = 0;
 };
 const Fields<StationOptions>& stationFields();
-Result<Outcome> runStation(const Document& document, const StationOptions& options, Progress& progress);
+
+struct StationScan {
+  std::string instrument, file;
+  std::uint64_t points = 0;
+};
+const AnswerFields<StationScan>& answerFields(const StationScan*);
+struct StationRow {
+  std::string name;
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  // the instrument's centre, m, the model's file frame
+  double instrument_height_m = 0;
+  double yaw_rad = 0, tilt_rad = 0;
+  std::optional<double> tilt_towards_rad;  // where it is tilted
+  std::vector<StationScan> scans;
+};
+const AnswerFields<StationRow>& answerFields(const StationRow*);
+struct StationAnswer {
+  std::optional<StationRow> placed;  // what was added or moved
+  std::vector<StationRow> stations;
+};
+const AnswerFields<StationAnswer>& answerFields(const StationAnswer*);
+Result<Answered<StationAnswer>> runStation(const Document& document, const StationOptions& options, Progress& progress);
 
 std::span<const Choice<TargetKind>> choices(TargetKind);
 
