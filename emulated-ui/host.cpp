@@ -47,21 +47,20 @@ int numberIn(const std::string& name) {
   return std::sscanf(name.c_str() + from, "%9d", &number) == 1 ? number : 0;
 }
 
-LinkResult linkFrom(const json& answer, const Document& solved) {
-  const auto& row = answer.at("stations").back();
+LinkResult linkFrom(const RegisterAnswer& answer, const Document& solved) {
+  const auto& row = answer.stations.back();
   LinkResult link;
-  if (!row.contains("fit")) return link;
-  link.error_m = row["fit"].at("rms_m");
-  link.overlap = row["fit"].at("used_share");
-  link.true_error_m = row.at("true_error_m");
-  link.true_error_deg = row.at("true_turn_error_deg");
-  if (const auto* station = stationOf(solved, row.at("name").get<std::string>());
-      station != nullptr && station->solved_pose) {
+  if (!row.fit) return link;
+  link.error_m = row.fit->rms_m;
+  link.overlap = row.fit->used_fraction;
+  link.true_error_m = row.true_error_m;
+  link.true_error_deg = row.true_turn_error_rad / kRadPerDeg;
+  if (const auto* station = stationOf(solved, row.name); station != nullptr && station->solved_pose) {
     const Pose &to = *station->solved_pose, &from = station->true_pose;
     link.error.rotation = to.rotation * from.rotation.conjugate();
     link.error.translation = to.translation - link.error.rotation * from.translation;
   }
-  link.joined = row["fit"].at("settled").get<bool>() && row["fit"].at("not_held").empty();
+  link.joined = row.fit->settled && row.fit->free.empty();
   return link;
 }
 

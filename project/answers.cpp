@@ -11,6 +11,50 @@ namespace standpoint {
 
 using nlohmann::json;
 
+namespace {
+
+std::vector<double> wxyz(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+
+std::optional<Eigen::Vector3d> nullWhereZero(const Eigen::Vector3d& v) {
+  return v.isZero() ? std::nullopt : std::optional(v);
+}
+
+}  // namespace
+
+const AnswerFields<Pose>& answerFields(const Pose*) {
+  static const AnswerFields<Pose> fields = {{"rotation", &Pose::rotation, wxyz}, {"translation", &Pose::translation}};
+  return fields;
+}
+
+const AnswerFields<FreeMotion>& answerFields(const FreeMotion*) {
+  using A = FreeMotion;
+  static const AnswerFields<A> fields = {
+      {"along", &A::shift, nullWhereZero}, {"about", &A::axis, nullWhereZero}, {"held_share", &A::held_fraction}};
+  return fields;
+}
+
+const AnswerFields<SurfaceFit>& answerFields(const SurfaceFit*) {
+  using A = SurfaceFit;
+  static const AnswerFields<A> fields = {{"iterations", &A::iterations},
+                                         {"settled", &A::settled},
+                                         {"rms_m", &A::rms_m},
+                                         {"used_share", &A::used_fraction},
+                                         {"moved_m", &A::moved_m},
+                                         {"sigma_shift_m", &A::sigma_shift_m},
+                                         {"sigma_turn_deg", &A::sigma_turn_rad, answers::degreesOfEach},
+                                         {"not_held", &A::free}};
+  return fields;
+}
+
+ProductIdentity identityOf(const Product& p) { return {p.id, p.global_id, p.ifc_class, p.name}; }
+
+const AnswerFields<ProductIdentity>& answerFields(const ProductIdentity*) {
+  using A = ProductIdentity;
+  static const AnswerFields<A> fields = {
+      {"id", &A::id}, {"global_id", &A::global_id}, {"class", &A::ifc_class}, {"name", &A::name}};
+  return fields;
+}
+
 json toJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 Eigen::Vector3d vectorFrom(const json& array) {
@@ -22,35 +66,16 @@ json toJson(const Bounds& bounds_local, const Eigen::Vector3d& shift_m) {
   return {toJson(bounds_local.min + shift_m), toJson(bounds_local.max + shift_m)};
 }
 
-json toJson(const SurfaceFit& fit) {
-  json free = json::array();
-  for (const auto& motion : fit.free)
-    free.push_back({{"along", motion.shift.isZero() ? json(nullptr) : toJson(motion.shift)},
-                    {"about", motion.axis.isZero() ? json(nullptr) : toJson(motion.axis)},
-                    {"held_share", motion.held_fraction}});
-  return {{"iterations", fit.iterations},
-          {"settled", fit.settled},
-          {"rms_m", fit.rms_m},
-          {"used_share", fit.used_fraction},
-          {"moved_m", fit.moved_m},
-          {"sigma_shift_m", toJson(fit.sigma_shift_m)},
-          {"sigma_turn_deg", toJson(Eigen::Vector3d(fit.sigma_turn_rad / kRadPerDeg))},
-          {"not_held", std::move(free)}};
-}
+json toJson(const SurfaceFit& fit) { return AnswerValue<SurfaceFit>::write(fit); }
 
-json poseToJson(const Pose& p) {
-  return {{"rotation", {p.rotation.w(), p.rotation.x(), p.rotation.y(), p.rotation.z()}},
-          {"translation", toJson(p.translation)}};
-}
+json poseToJson(const Pose& pose) { return AnswerValue<Pose>::write(pose); }
 
 Pose poseFrom(const json& j) {
   const auto& q = j.at("rotation");
   return {Eigen::Quaterniond(q.at(0), q.at(1), q.at(2), q.at(3)), vectorFrom(j.at("translation"))};
 }
 
-json identity(const Product& product) {
-  return {{"id", product.id}, {"global_id", product.global_id}, {"class", product.ifc_class}, {"name", product.name}};
-}
+json identity(const Product& product) { return AnswerValue<ProductIdentity>::write(identityOf(product)); }
 
 json toJson(const Report& report) {
   json issues = json::array();

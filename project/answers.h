@@ -3,6 +3,8 @@
 
 // How values are written in the answers of the verbs (`--json`): metres, degrees, the file's own frame.
 
+#include <string>
+
 #include <nlohmann/json.hpp>
 
 #include "core/environment.h"
@@ -11,6 +13,7 @@
 #include "core/result.h"
 #include "core/surface_fit.h"
 #include "core/survey.h"
+#include "project/answer_fields.h"
 
 namespace standpoint {
 
@@ -24,6 +27,22 @@ Pose poseFrom(const nlohmann::json& pose);
 nlohmann::json identity(const Product& product);  // id, GlobalId, class, name
 nlohmann::json georeferenceToJson(const Georeference& georeference);
 Result<Georeference> georeferenceFrom(const nlohmann::json& object);
+
+// Parts of typed answers.
+template <>
+struct AnswerValue<Bounds> {  // in the frame that they are shown in; null when empty
+  static nlohmann::json write(const Bounds& bounds) { return toJson(bounds, Eigen::Vector3d::Zero()); }
+  static std::vector<std::string> names() { return {}; }
+};
+const AnswerFields<Pose>& answerFields(const Pose*);
+const AnswerFields<FreeMotion>& answerFields(const FreeMotion*);
+const AnswerFields<SurfaceFit>& answerFields(const SurfaceFit*);
+
+struct ProductIdentity {
+  std::string id, global_id, ifc_class, name;
+};
+ProductIdentity identityOf(const Product& product);
+const AnswerFields<ProductIdentity>& answerFields(const ProductIdentity*);
 
 // "1,2,3" → three numbers, "1,2" → two; anything else is an error that says so.
 Result<nlohmann::json> parseNumbers(const std::string& text);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <any>
 #include <functional>
 #include <optional>
 #include <span>
@@ -52,7 +53,8 @@ enum class VerbScope {
   files,    // no document at all
 };
 
-// What a verb gives back. `answer` is what --json prints; `description` is the undo list's line ("Moved station S2 by
+// What a door gets of a verb. `answer` is what --json prints, `typed` the struct that it was written from (see
+// project/answer_fields.h); `description` is the undo list's line ("Moved station S2 by
 // 0.35 m"); `text` is what people read below it on the command line, where the plain figures of `answer` do not say
 // enough.
 struct Outcome {
@@ -61,6 +63,7 @@ struct Outcome {
   Report report;
   std::string description;
   std::string text = {};
+  std::any typed = {};
 };
 
 // An action as the doors see it: `run` takes options that checkOptions has passed. A verb's own function is typed;
@@ -71,6 +74,7 @@ struct Verb {
   VerbScope scope;
   std::vector<Parameter> parameters;  // without the project itself
   std::function<Result<Outcome>(const Document&, const nlohmann::json& options, Progress&)> run;
+  std::vector<std::string> answer_names = {};  // keys of its answer; with '/' those of the rows below a key
 };
 
 // The tables of verbs: this one and emulated-ui's; the doors join them.

@@ -57,7 +57,8 @@ bool Model::startScan(nlohmann::json options, std::string title) {
   const auto work = [company](const Document& document, const nlohmann::json& filled,
                               Progress& progress) -> Result<Outcome> {
     TRY_ASSIGN(const auto typed, optionsFrom(scanFields(), filled));
-    return runScan(document, typed, company, progress);
+    TRY_ASSIGN(auto answered, runScan(document, typed, company, progress));
+    return outcomeOf(std::move(answered));
   };
   if (!session.start("scan", std::move(options), std::move(title), work)) return false;
   live_ = std::move(live);

@@ -227,7 +227,7 @@ void Session::succeed(VerbTask& task, Outcome outcome) {
   const bool begins_project = task.verb().scope == VerbScope::creates && !task.options().value("update", false);
   const std::string text = outcome.description.empty() ? task.title() : outcome.description;
   finished_.push_front(
-      {task.title(), task.verb().name, true, false, text, timeOfDay(), task.seconds(), std::move(outcome.answer)});
+      {task.title(), task.verb().name, true, false, text, timeOfDay(), task.seconds(), std::move(outcome.typed)});
   for (const auto& issue : outcome.report.issues) say(levelOf(issue.severity), issue.source, issue.message);
   say(LogLevel::done, "", text);
   if (verb_name == "save-project") {
@@ -256,8 +256,14 @@ void Session::succeed(VerbTask& task, Outcome outcome) {
 
 void Session::fail(const VerbTask& task, const Error& error) {
   const bool cancelled = error.kind == ErrorKind::cancelled;
-  finished_.push_front({task.title(), task.verb().name, false, cancelled, cancelled ? "Cancelled" : describe(error),
-                        timeOfDay(), task.seconds(), nlohmann::json::object()});
+  finished_.push_front({task.title(),
+                        task.verb().name,
+                        false,
+                        cancelled,
+                        cancelled ? "Cancelled" : describe(error),
+                        timeOfDay(),
+                        task.seconds(),
+                        {}});
   if (cancelled) {
     say(LogLevel::note, "", task.title() + " cancelled");
     return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <any>
 #include <deque>
 #include <filesystem>
 #include <functional>
@@ -12,6 +13,7 @@
 
 #include "editor/model/log.h"
 #include "editor/model/recovery.h"
+#include "project/answer_fields.h"
 #include "project/history.h"
 #include "project/task.h"
 #include "project/verb.h"
@@ -25,7 +27,7 @@ struct FinishedTask {
   std::string text;  // what was done, or what went wrong
   std::string time;
   double seconds = 0;
-  nlohmann::json answer;
+  std::any answer;             // as answerAs reads it
   std::uint64_t revision = 0;  // of the document that it ran on, or made
 };
 
@@ -103,6 +105,12 @@ class Session {
   const std::deque<FinishedTask>& finished() const { return finished_; }  // newest first
   // That went well, and on this project.
   const FinishedTask* lastOf(std::string_view verb) const;
+  // Its answer; null where there is none of that type.
+  template <class A>
+  const A* lastAnswer(std::string_view verb) const {
+    const auto* last = lastOf(verb);
+    return last == nullptr ? nullptr : answerAs<A>(last->answer);
+  }
   const std::vector<LogEntry>& log() const { return log_; }
   void clearLog() { log_.clear(); }
   void say(LogLevel level, std::string source, std::string message);

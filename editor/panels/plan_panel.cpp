@@ -9,6 +9,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "project/survey/survey_verbs.h"
 
 namespace standpoint {
 
@@ -65,69 +66,68 @@ void drawWishes(const Model& model, Actions& actions) {
   ui::endProperties();
 }
 
-void drawCoverage(const Model& model, const json& rows, const char* key, const char* title) {
-  ui::heading(model, title);
-  if (!ui::beginProperties(title, 0.56F)) return;
-  for (const auto& row : rows) {
-    const auto name = row.at(key).get<std::string>();
-    ui::property(name.empty() ? "(none)" : name.c_str(),
-                 fmt::format("{}  of {:.1f} m²", percent(row.at("coverage")), row.at("exposed_m2").get<double>()));
+void coverageRow(const std::string& name, const PlanCoverage& row) {
+  ui::property(name.empty() ? "(none)" : name.c_str(),
+               fmt::format("{}  of {:.1f} m²", percent(row.coverage), row.exposed_m2));
+}
+
+void drawCoverage(const Model& model, const PlanAnswer& answer) {
+  ui::heading(model, "By storey");
+  if (ui::beginProperties("By storey", 0.56F)) {
+    for (const auto& row : answer.storeys) coverageRow(row.storey, row);
+    ui::endProperties();
   }
+  ui::heading(model, "By class");
+  if (!ui::beginProperties("By class", 0.56F)) return;
+  for (const auto& row : answer.classes) coverageRow(row.ifc_class, row);
   ui::endProperties();
 }
 
-void drawStations(const Model& model, const json& answer) {
+void drawStations(const Model& model, const PlanAnswer& answer) {
   ui::heading(model, "Stations");
   if (!ImGui::BeginTable("planned", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
   for (const char* title : {"Station", "Sees", "Points", "File"}) ImGui::TableSetupColumn(title);
   ImGui::TableHeadersRow();
-  const auto row = [](const std::string& name, const std::string& sees, double points, double bytes) {
+  const auto row = [](const std::string& name, const std::string& sees, std::int64_t points, std::int64_t bytes) {
     ImGui::TableNextRow();
-    for (const auto& text :
-         {name, sees, fmt::format("{:.1f} M", points / 1e6), fmt::format("{:.0f} MB", bytes / 1e6)}) {
+    for (const auto& text : {name, sees, fmt::format("{:.1f} M", static_cast<double>(points) / 1e6),
+                             fmt::format("{:.0f} MB", static_cast<double>(bytes) / 1e6)}) {
       ImGui::TableNextColumn();
       ui::fitted(text, ImGui::GetContentRegionAvail().x);
     }
   };
-  for (const auto& s : answer.at("stations"))
-    row(s.at("station"), fmt::format("{:.0f} m²", s.at("seen_m2").get<double>()), s.at("points"), s.at("bytes"));
-  row("all", percent(answer.at("coverage")), answer.at("points"), answer.at("bytes"));
+  for (const auto& s : answer.stations) row(s.station, fmt::format("{:.0f} m²", s.seen_m2), s.points, s.bytes);
+  row("all", percent(answer.coverage), answer.points, answer.bytes);
   ImGui::EndTable();
-  ui::dimText("Time on site: " + durationText(answer.at("instrument_seconds")));
+  ui::dimText("Time on site: " + durationText(answer.instrument_seconds));
 }
 
-void drawPairs(const Model& model, const json& pairs) {
+void drawPairs(const Model& model, const std::vector<PlanPair>& pairs) {
   if (pairs.empty()) return;
   ui::heading(model, "Overlap");
   if (!ui::beginProperties("pairs", 0.56F)) return;
-  for (const auto& pair : pairs) {
-    const double overlap = pair.at("overlap");
-    ui::property(fmt::format("{} – {}", pair.at("a").get<std::string>(), pair.at("b").get<std::string>()).c_str(),
-                 percent(overlap) + (overlap < kLowOverlap ? "   low overlap" : ""));
-  }
+  for (const auto& pair : pairs)
+    ui::property(fmt::format("{} – {}", pair.a, pair.b).c_str(),
+                 percent(pair.overlap) + (pair.overlap < kLowOverlap ? "   low overlap" : ""));
   ui::endProperties();
 }
 
-void drawHoles(const Model& model, Actions& actions, const json& holes) {
+void drawHoles(const Model& model, Actions& actions, const std::vector<PlanHole>& holes) {
   if (holes.empty()) return;
   ui::heading(model, "Not covered");
   const auto& products = model.environment()->products;
   for (std::size_t k = 0; k < holes.size(); ++k) {
-    const auto id = holes[k].at("id").get<std::string>();
+    const auto& hole = holes[k];
     ImGui::PushID(static_cast<int>(k));
-    if (ImGui::Selectable(fmt::format("{:.1f} m²   {} {}###hole", holes[k].at("unseen_m2").get<double>(),
-                                      holes[k].value("class", ""), holes[k].value("name", id))
-                              .c_str()))
+    if (ImGui::Selectable(fmt::format("{:.1f} m²   {} {}###hole", hole.unseen_m2, hole.ifc_class, hole.name).c_str()))
       for (std::uint32_t p = 0; p < products.size(); ++p)
-        if (products[p].id == id) actions.reveal(p);
+        if (products[p].id == hole.id) actions.reveal(p);
     ImGui::PopID();
   }
 }
 
-void drawProposal(const Model& model, Actions& actions, const json& proposed) {
-  if (!proposed.is_object()) return;
-  const auto text =
-      fmt::format(ICON_STATION "  Add station: +{:.0f} m²###add-proposed", proposed.at("adds_m2").get<double>());
+void drawProposal(const Model& model, Actions& actions, const PlanProposal& proposed) {
+  const auto text = fmt::format(ICON_STATION "  Add station: +{:.0f} m²###add-proposed", proposed.adds_m2);
   if (!ui::button(text.c_str(), model.session.whyNot("station"), {-FLT_MIN, 0},
                   "Adds a station at the place with the largest coverage gain"))
     return;
@@ -135,7 +135,8 @@ void drawProposal(const Model& model, Actions& actions, const json& proposed) {
   for (std::size_t i = stations.size() + 1;; ++i) {
     const auto name = fmt::format("S{}", i);
     if (std::any_of(stations.begin(), stations.end(), [&](const Station& s) { return s.name == name; })) continue;
-    actions.start("station", {{"add", name}, {"at", proposed.at("at")}}, "Add station " + name);
+    actions.start("station", {{"add", name}, {"at", FieldValue<Eigen::Vector3d>::write(proposed.at)}},
+                  "Add station " + name);
     return;
   }
 }
@@ -157,18 +158,16 @@ void drawPlanPanel(const Model& model, PanelStates&, Actions& actions) {
   if (ui::primaryButton(ICON_EYE "  Compute coverage###run-plan", why, {-FLT_MIN, model.px(28)})) start(model, actions);
   drawMapSwitch(model, actions);
   const auto* last = model.session.lastOf("plan");
-  if (last == nullptr || !last->answer.contains("coverage")) return;
-  const auto& answer = last->answer;
+  const auto* answer = last == nullptr ? nullptr : answerAs<PlanAnswer>(last->answer);
+  if (answer == nullptr) return;
   if (last->revision != model.session.revision()) ui::dimWrapped("Coverage is out of date. Compute it again.");
-  ui::meter(model, answer.at("coverage"), tone::kGood);
-  ui::dimText(fmt::format("{} of {:.0f} m² of exposed surface", percent(answer.at("coverage")),
-                          answer.at("exposed_m2").get<double>()));
-  drawProposal(model, actions, answer.at("proposed"));
-  drawStations(model, answer);
-  drawPairs(model, answer.at("pairs"));
-  drawCoverage(model, answer.at("storeys"), "storey", "By storey");
-  drawCoverage(model, answer.at("classes"), "class", "By class");
-  drawHoles(model, actions, answer.at("holes"));
+  ui::meter(model, answer->coverage, tone::kGood);
+  ui::dimText(fmt::format("{} of {:.0f} m² of exposed surface", percent(answer->coverage), answer->exposed_m2));
+  if (answer->proposed) drawProposal(model, actions, *answer->proposed);
+  drawStations(model, *answer);
+  drawPairs(model, answer->pairs);
+  drawCoverage(model, *answer);
+  drawHoles(model, actions, answer->holes);
 }
 
 }  // namespace standpoint

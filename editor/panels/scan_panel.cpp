@@ -205,14 +205,12 @@ void start(const Model& model, ScanState& state, const ScanChoice& asked, Action
 }
 
 void drawLast(const Model& model) {
-  const auto* last = model.session.lastOf("scan");
-  if (last == nullptr || !last->answer.contains("stations") || !last->answer["stations"].is_array()) return;
+  const auto* last = model.session.lastAnswer<ScanAnswer>("scan");
+  if (last == nullptr) return;
   ui::heading(model, "Last scan");
   if (!ui::beginProperties("last", 0.3F)) return;
-  for (const auto& row : last->answer["stations"])
-    ui::property(row.value("name", row.value("station", std::string("station"))).c_str(),
-                 fmt::format("{} points in {:.1f} s", groupedDigits(row.value("points", std::uint64_t{0})),
-                             row.value("seconds", 0.0)));
+  for (const auto& row : last->stations)
+    ui::property(row.station.c_str(), fmt::format("{} points in {:.1f} s", groupedDigits(row.points), row.seconds));
   ui::endProperties();
 }
 

@@ -11,6 +11,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "project/survey/underlays.h"
 
 namespace standpoint {
 
@@ -70,18 +71,16 @@ void drawVerifyButtons(const Model& model, VerifyState& state, Actions& actions)
 
 // What came of the last fit, as long as it is the last that was done to the clouds.
 void drawFit(const Model& model) {
-  const auto* last = model.session.lastOf("underlay");
-  if (last == nullptr || !last->answer.contains("registered") || !last->answer["registered"].contains("icp")) return;
-  const auto& icp = last->answer["registered"]["icp"];
-  const double fraction = icp.at("used_share");
-  const bool good = icp.at("settled") && icp.at("not_held").empty() && fraction > 0.5;
+  const auto* last = model.session.lastAnswer<UnderlayAnswer>("underlay");
+  if (last == nullptr || !last->registered || !last->registered->icp) return;
+  const SurfaceFit& icp = *last->registered->icp;
+  const bool good = icp.settled && icp.free.empty() && icp.used_fraction > 0.5;
   ImGui::TextColored(colour(good ? tone::kGood : tone::kWarning), "%s", good ? ICON_CHECK : ICON_WARNING);
   ImGui::SameLine();
-  std::string text =
-      fmt::format("Fitted: moved by {:.1f} mm; {:.0f} % of points on the model, RMS {:.1f} mm",
-                  icp.at("moved_m").get<double>() * 1000, fraction * 100, icp.at("rms_m").get<double>() * 1000);
-  if (!icp.at("settled")) text += "; the fit did not converge: place the cloud closer first";
-  if (!icp.at("not_held").empty()) text += "; not constrained in every direction (see Log)";
+  std::string text = fmt::format("Fitted: moved by {:.1f} mm; {:.0f} % of points on the model, RMS {:.1f} mm",
+                                 icp.moved_m * 1000, icp.used_fraction * 100, icp.rms_m * 1000);
+  if (!icp.settled) text += "; the fit did not converge: place the cloud closer first";
+  if (!icp.free.empty()) text += "; not constrained in every direction (see Log)";
   ui::wrapped(text);
 }
 

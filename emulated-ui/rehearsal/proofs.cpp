@@ -14,7 +14,7 @@
 #include "emulated-ui/rehearsal/field_proofs.h"
 #include "emulated-ui/rehearsal/survey_proofs.h"
 #include "pointclouds/formats.h"
-#include "project/verb.h"
+#include "project/survey/survey_verbs.h"
 
 namespace standpoint {
 
@@ -108,26 +108,27 @@ std::string settingsText(const SettingValues& values) {
 }
 
 // What the verb `plan` says of the stations that were scanned from, with the settings of the newest scan.
-std::map<std::string, double> readPlan(const Device& device, const Document& document, const std::string& stations) {
+std::map<std::string, double> readPlan(const Device& device, const Document& document,
+                                       const std::vector<std::string>& stations) {
+  if (!document.imported) return {};
   const auto* newest = device.newestSetup();
-  nlohmann::json settings = nlohmann::json::array();
-  for (const auto& [key, value] : newest->settings) settings.push_back(key + "=" + value);
+  PlanOptions options;
+  options.stations.names = stations;
+  options.instrument = device.type().instrument.id;
+  options.settings = newest->settings;
+  options.samples = 10000;
   Progress quiet;
-  const auto outcome = runVerb(
-      *findVerb(verbs(), "plan"), document,
-      {{"stations", stations}, {"instrument", device.type().instrument.id}, {"set", settings}, {"samples", 10000}},
-      quiet);
-  if (!outcome) return {};
-  const auto& answer = outcome->answer;
+  const auto planned = runPlan(document, options, quiet);
+  if (!planned) return {};
   std::map<std::string, double> figures;
-  figures["plan.coverage"] = answer.value("coverage", 0.0);
+  figures["plan.coverage"] = planned->answer.coverage;
   double least = 1;
   // Each station needs one good neighbour.
   std::map<std::string, double> best;
-  for (const auto& pair : answer.at("pairs"))
-    for (const char* side : {"a", "b"}) {
-      double& overlap = best[pair.at(side).get<std::string>()];
-      overlap = std::max(overlap, pair.at("overlap").get<double>());
+  for (const auto& pair : planned->answer.pairs)
+    for (const auto& side : {pair.a, pair.b}) {
+      double& overlap = best[side];
+      overlap = std::max(overlap, pair.overlap);
     }
   for (const auto& [station, overlap] : best) least = std::min(least, overlap);
   figures["plan.overlap"] = best.empty() ? 0 : least;
@@ -270,10 +271,8 @@ std::optional<Fact> Proofs::fact(const std::string& name, const Exercise& exerci
     std::vector<std::string> names;
     for (const auto* s : allSetups(device))
       if (std::find(names.begin(), names.end(), s->station) == names.end()) names.push_back(s->station);
-    std::string stations;
-    for (const auto& s : names) stations += (stations.empty() ? "" : ",") + s;
-    const auto of = stations + " " + settingsText(newest->settings);
-    if (plan_of_ != of) plan_ = readPlan(device, document, stations), plan_of_ = of;
+    const auto of = fmt::format("{} {}", fmt::join(names, ","), settingsText(newest->settings));
+    if (plan_of_ != of) plan_ = readPlan(device, document, names), plan_of_ = of;
     const auto found = plan_.find(name);
     return found == plan_.end() ? std::nullopt : std::optional(numberFact(found->second));
   }

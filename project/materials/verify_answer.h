@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/surface_fit.h"
+#include "project/materials/verification.h"
 #include "project/verb.h"
 #include "survey/scene/measured_returns.h"
 
@@ -22,7 +23,7 @@ struct VerifyFound {
   MaterialComparison comparison;
 };
 
-nlohmann::json verifyAnswer(const VerifyFound& found);
+VerifyAnswer verifyAnswer(const VerifyFound& found);
 // One line for each material and each proposal.
 void tellVerified(const VerifyFound& found, Report& report);
 

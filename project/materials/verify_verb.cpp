@@ -16,8 +16,6 @@ namespace standpoint {
 
 namespace {
 
-using nlohmann::json;
-
 // A fit that would move the cloud by more than this says that it lies wrong.
 constexpr double kMisplaced_m = 0.02;
 constexpr double kPlacementReach_m = 0.3;
@@ -185,13 +183,13 @@ const Fields<VerifyOptions>& verifyFields() {
   return fields;
 }
 
-Result<Outcome> runVerify(const Document& document, const VerifyOptions& options, Progress& progress) {
+Result<Answered<VerifyAnswer>> runVerify(const Document& document, const VerifyOptions& options, Progress& progress) {
   progress.stage("Verify", 0, 0.4);
   TRY_ASSIGN(auto underlay, underlayFor(document, options));
   if (!document.materials)
     return failure(ErrorKind::usage, "no materials assigned: run `standpoint materials PROJECT` first", "verify");
   TRY_ASSIGN(auto library, readMaterialLibrary(dataFolder() / "materials" / "library"));
-  Outcome outcome{document, json::object(), {}, {}};
+  Answered<VerifyAnswer> outcome{document};
   progress.stage("Reading " + underlay->name, 0, 0.4);
   TRY_ASSIGN(const auto sample, usableSample(*underlay, options, progress));
   TRY_ASSIGN(const auto instrument, instrumentFor(options, sample, outcome.report));
@@ -205,7 +203,8 @@ Result<Outcome> runVerify(const Document& document, const VerifyOptions& options
       f.comparison.no_verdict.empty()
           ? fmt::format("Verified materials with {}: {} proposal{}", f.underlay, proposals, proposals == 1 ? "" : "s")
           : fmt::format("Verified materials with {}: no verdict", f.underlay);
-  outcome.document.verification = std::make_shared<const Verification>(verificationOf(document, outcome.answer));
+  outcome.document.verification =
+      std::make_shared<const Verification>(verificationOf(document, AnswerValue<VerifyAnswer>::write(outcome.answer)));
   return outcome;
 }
 

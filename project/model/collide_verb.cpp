@@ -12,8 +12,6 @@ namespace standpoint {
 
 namespace {
 
-using nlohmann::json;
-
 // Which doors are closed is a setting of each door: what was set last, or now with --closed.
 Result<void> setDoors(const Document& document, const CollideVerbOptions& options, CollideOptions& typed) {
   typed.doors = options.doors;
@@ -38,55 +36,28 @@ Result<void> setDoors(const Document& document, const CollideVerbOptions& option
   return {};
 }
 
-json productRows(const Environment& environment, const CollideResult& result) {
-  json rows = json::array();
-  for (std::size_t i = 0; i < result.products.size(); ++i) {
-    const auto& c = result.products[i];
-    if (c.shapes == 0) continue;
-    json row = identity(environment.products[i]);
-    row["shapes"] = c.shapes;
-    row["triangles"] = c.triangles;
-    row["max_deviation_m"] = c.max_deviation_m;
-    rows.push_back(std::move(row));
-  }
-  return rows;
+std::size_t passableDoors(const CollideResult& result) {
+  return static_cast<std::size_t>(
+      std::count_if(result.doors.begin(), result.doors.end(), [](const Door& d) { return d.passable; }));
 }
 
-json doorRows(const Environment& environment, const CollideResult& result, const Eigen::Vector3d& shift_m) {
-  json rows = json::array();
+CollideAnswer answerOf(const Environment& environment, const CollideResult& result, const Eigen::Vector3d& shift_m) {
+  CollideAnswer answer;
+  for (std::size_t i = 0; i < result.products.size(); ++i)
+    if (result.products[i].shapes != 0)
+      answer.products.push_back({identityOf(environment.products[i]), result.products[i]});
   for (const auto& d : result.doors) {
-    json row = identity(environment.products[d.product]);
-    row["floor"] = d.floor;
-    row["passable"] = d.passable;
-    row["closed"] = d.closed;
-    row["led_through"] = d.led_through;
-    row["clear_width_m"] = d.clear_width_m;
-    row["at"] = toJson(d.position + shift_m);
-    rows.push_back(std::move(row));
+    answer.doors.push_back({identityOf(environment.products[d.product]), d});
+    answer.doors.back().position += shift_m;
   }
-  return rows;
-}
-
-json roomRows(const Environment& environment, const CollideResult& result, const Eigen::Vector3d& shift_m) {
-  json rows = json::array();
   for (const auto& r : result.rooms) {
-    json row = identity(environment.products[r.product]);
-    row["walkable_m2"] = r.walkable_m2;
-    row["reached"] = r.reached;
-    row["at"] = toJson(r.position + shift_m);
-    rows.push_back(std::move(row));
+    answer.rooms.push_back({identityOf(environment.products[r.product]), r});
+    answer.rooms.back().position += shift_m;
   }
-  return rows;
-}
-
-std::ptrdiff_t passableDoors(const CollideResult& result) {
-  return std::count_if(result.doors.begin(), result.doors.end(), [](const Door& d) { return d.passable; });
-}
-
-json answerOf(const Environment& environment, const CollideResult& result, const Eigen::Vector3d& shift_m) {
-  return {{"products", productRows(environment, result)}, {"shapes", result.shapes.size()},
-          {"walkable_area_m2", result.walkable_area_m2},  {"doors", doorRows(environment, result, shift_m)},
-          {"doors_passable", passableDoors(result)},      {"rooms", roomRows(environment, result, shift_m)}};
+  answer.shapes = result.shapes.size();
+  answer.walkable_area_m2 = result.walkable_area_m2;
+  answer.doors_passable = passableDoors(result);
+  return answer;
 }
 
 }  // namespace
@@ -111,7 +82,47 @@ const Fields<CollideVerbOptions>& collideFields() {
   return fields;
 }
 
-Result<Outcome> runCollide(const Document& document, const CollideVerbOptions& options, Progress& progress) {
+const AnswerFields<CollideProduct>& answerFields(const CollideProduct* product) {
+  using A = CollideProduct;
+  static const auto fields =
+      withBases<A>({{"shapes", &A::shapes}, {"triangles", &A::triangles}, {"max_deviation_m", &A::max_deviation_m}},
+                   answerFields(static_cast<const ProductIdentity*>(product)));
+  return fields;
+}
+
+const AnswerFields<CollideDoor>& answerFields(const CollideDoor* door) {
+  using A = CollideDoor;
+  static const auto fields = withBases<A>({{"floor", &A::floor},
+                                           {"passable", &A::passable},
+                                           {"closed", &A::closed},
+                                           {"led_through", &A::led_through},
+                                           {"clear_width_m", &A::clear_width_m},
+                                           {"at", &A::position}},
+                                          answerFields(static_cast<const ProductIdentity*>(door)));
+  return fields;
+}
+
+const AnswerFields<CollideRoom>& answerFields(const CollideRoom* room) {
+  using A = CollideRoom;
+  static const auto fields =
+      withBases<A>({{"walkable_m2", &A::walkable_m2}, {"reached", &A::reached}, {"at", &A::position}},
+                   answerFields(static_cast<const ProductIdentity*>(room)));
+  return fields;
+}
+
+const AnswerFields<CollideAnswer>& answerFields(const CollideAnswer*) {
+  using A = CollideAnswer;
+  static const AnswerFields<A> fields = {{"products", &A::products},
+                                         {"shapes", &A::shapes},
+                                         {"walkable_area_m2", &A::walkable_area_m2},
+                                         {"doors", &A::doors},
+                                         {"doors_passable", &A::doors_passable},
+                                         {"rooms", &A::rooms}};
+  return fields;
+}
+
+Result<Answered<CollideAnswer>> runCollide(const Document& document, const CollideVerbOptions& options,
+                                           Progress& progress) {
   CollideOptions typed{options.agent_radius_m, options.agent_height_m, {}, {}};
   TRY(setDoors(document, options, typed));
   progress.stage("Collision shapes");
@@ -119,7 +130,7 @@ Result<Outcome> runCollide(const Document& document, const CollideVerbOptions& o
   const auto& environment = *document.imported;
   const Eigen::Vector3d shift_m = document.georeference ? document.georeference->shift_m : Eigen::Vector3d::Zero();
   TRY_ASSIGN(auto result, collide(environment, typed, progress));
-  Outcome outcome{document, answerOf(environment, result, shift_m), result.report, {}};
+  Answered<CollideAnswer> outcome{document, answerOf(environment, result, shift_m), result.report};
   outcome.description =
       fmt::format("Created {} collision shapes; {:.1f} m² walkable, {} of {} doors passable", result.shapes.size(),
                   result.walkable_area_m2, passableDoors(result), result.doors.size());

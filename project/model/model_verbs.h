@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "project/answers.h"
 #include "project/fields.h"
 
 namespace standpoint {
@@ -18,7 +19,26 @@ struct CollideVerbOptions {
   std::vector<std::string> closed;  // selectors of doors, with DoorState::as_set; empty: those that were closed last
 };
 const Fields<CollideVerbOptions>& collideFields();
-Result<Outcome> runCollide(const Document& document, const CollideVerbOptions& options, Progress& progress);
+
+struct CollideProduct : ProductIdentity, ProductCollision {};
+const AnswerFields<CollideProduct>& answerFields(const CollideProduct*);
+struct CollideDoor : ProductIdentity, Door {  // its position in the model's file frame
+};
+const AnswerFields<CollideDoor>& answerFields(const CollideDoor*);
+struct CollideRoom : ProductIdentity, Room {  // its position in the model's file frame
+};
+const AnswerFields<CollideRoom>& answerFields(const CollideRoom*);
+struct CollideAnswer {
+  std::vector<CollideProduct> products;  // that have shapes
+  std::size_t shapes = 0;
+  double walkable_area_m2 = 0;
+  std::vector<CollideDoor> doors;
+  std::size_t doors_passable = 0;
+  std::vector<CollideRoom> rooms;
+};
+const AnswerFields<CollideAnswer>& answerFields(const CollideAnswer*);
+Result<Answered<CollideAnswer>> runCollide(const Document& document, const CollideVerbOptions& options,
+                                           Progress& progress);
 
 struct GeoreferenceOptions {
   std::string crs;                        // empty: as it is

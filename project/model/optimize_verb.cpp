@@ -18,14 +18,6 @@ namespace standpoint {
 
 namespace {
 
-using nlohmann::json;
-
-json lossJson(const ProductLoss& loss, const std::string& lod) {
-  return {{"triangles_before", loss.triangles_before},        {"triangles_after", loss.triangles_after},
-          {"max_deviation_m", loss.max_deviation_m},          {"mean_deviation_m", loss.mean_deviation_m},
-          {"mean_turn_deg", loss.mean_turn_rad / kRadPerDeg}, {"lod", lod}};
-}
-
 std::string alikeName(const OptimizeOptions& options) {
   return options.budget == 0 ? "lossless" : fmt::format("budget {}", options.budget);
 }
@@ -115,7 +107,37 @@ const Fields<SimplificationRequest>& optimizeFields() {
   return fields;
 }
 
-Result<Outcome> runOptimize(const Document& document, const SimplificationRequest& request, Progress& progress) {
+const AnswerFields<ProductLoss>& answerFields(const ProductLoss*) {
+  using A = ProductLoss;
+  static const AnswerFields<A> fields = {{"triangles_before", &A::triangles_before},
+                                         {"triangles_after", &A::triangles_after},
+                                         {"max_deviation_m", &A::max_deviation_m},
+                                         {"mean_deviation_m", &A::mean_deviation_m},
+                                         {"mean_turn_deg", &A::mean_turn_rad, answers::degrees}};
+  return fields;
+}
+
+const AnswerFields<OptimizedProduct>& answerFields(const OptimizedProduct* product) {
+  using A = OptimizedProduct;
+  static const auto fields =
+      withBases<A>({{"lod", &A::lod}, {"engine", &A::engine, kLeftOut}, {"rule", &A::rule, kLeftOut}},
+                   answerFields(static_cast<const ProductIdentity*>(product)),
+                   answerFields(static_cast<const ProductLoss*>(product)));
+  return fields;
+}
+
+const AnswerFields<OptimizeAnswer>& answerFields(const OptimizeAnswer* answer) {
+  using A = OptimizeAnswer;
+  static const auto fields = withBases<A>({{"lod", &A::lod},
+                                           {"budget_reached", &A::budget_reached},
+                                           {"smallest_budget", &A::smallest_budget, kLeftOut},
+                                           {"products", &A::products}},
+                                          answerFields(static_cast<const ProductLoss*>(answer)));
+  return fields;
+}
+
+Result<Answered<OptimizeAnswer>> runOptimize(const Document& document, const SimplificationRequest& request,
+                                             Progress& progress) {
   if (!request.surroundings.empty() && request.lod_rules.empty())
     return failure(ErrorKind::usage, "requires --lod", "surroundings");
   progress.stage("Optimise");
@@ -123,26 +145,22 @@ Result<Outcome> runOptimize(const Document& document, const SimplificationReques
   plan.options.engine = request.engine;
   const auto& options = plan.options;
   TRY_ASSIGN(auto result, optimize(*document.imported, options, progress));
-  Outcome outcome{document, json::object(), {}, {}};
+  Answered<OptimizeAnswer> outcome{document};
   reportRules(plan, outcome.report);
   reportTreatments(document, outcome.report);
   outcome.report.append(result.report);
   const auto lod = [&](std::size_t product) {
     return options.products.empty() ? alikeName(options) : options.products[product].lod;
   };
-  outcome.answer = lossJson(result.all, levelsOf(options));
-  outcome.answer["budget_reached"] = result.budget_reached;
-  if (!result.budget_reached) outcome.answer["smallest_budget"] = result.smallest_budget;
-  json rows = json::array();
+  outcome.answer = {result.all, levelsOf(options), result.budget_reached, {}, {}};
+  if (!result.budget_reached) outcome.answer.smallest_budget = result.smallest_budget;
   for (std::size_t i = 0; i < result.products.size(); ++i) {
     if (result.products[i].triangles_before == 0) continue;
-    json row = identity(document.imported->products[i]);
-    row.update(lossJson(result.products[i], lod(i)));
-    if (!result.engines[i].empty()) row["engine"] = result.engines[i];
-    if (!options.products.empty()) row["rule"] = options.products[i].reason;
-    rows.push_back(std::move(row));
+    OptimizedProduct row{identityOf(document.imported->products[i]), result.products[i], lod(i), {}, {}};
+    if (!result.engines[i].empty()) row.engine = result.engines[i];
+    if (!options.products.empty()) row.rule = options.products[i].reason;
+    outcome.answer.products.push_back(std::move(row));
   }
-  outcome.answer["products"] = std::move(rows);
   outcome.description =
       fmt::format("Optimised {} to {} triangles, max deviation {:.1f} mm", result.all.triangles_before,
                   result.all.triangles_after, result.all.max_deviation_m * 1000);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "project/answers.h"
 #include "project/fields.h"
 #include "project/model/lod_rules.h"
 #include "project/verb.h"
@@ -17,6 +18,21 @@ Result<SimplificationPlan> planLightening(const Document& document, const Simpli
 
 // The verb; its options are kept in the document with what came of them.
 const Fields<SimplificationRequest>& optimizeFields();
-Result<Outcome> runOptimize(const Document& document, const SimplificationRequest& request, Progress& progress);
+
+const AnswerFields<ProductLoss>& answerFields(const ProductLoss*);
+struct OptimizedProduct : ProductIdentity, ProductLoss {
+  std::string lod;
+  std::optional<std::string> engine, rule;  // that made it lighter; that decided its limits
+};
+const AnswerFields<OptimizedProduct>& answerFields(const OptimizedProduct*);
+struct OptimizeAnswer : ProductLoss {  // of all products
+  std::string lod;
+  bool budget_reached = true;
+  std::optional<std::uint64_t> smallest_budget;  // where the budget was not reached
+  std::vector<OptimizedProduct> products;        // that had triangles
+};
+const AnswerFields<OptimizeAnswer>& answerFields(const OptimizeAnswer*);
+Result<Answered<OptimizeAnswer>> runOptimize(const Document& document, const SimplificationRequest& request,
+                                             Progress& progress);
 
 }  // namespace standpoint

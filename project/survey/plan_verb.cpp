@@ -17,73 +17,53 @@ namespace standpoint {
 
 namespace {
 
-using nlohmann::json;
-
 constexpr std::size_t kHoles = 30;   // that are listed
 constexpr double kLowOverlap = 0.3;  // of what field practice asks for between neighbours
 
-json coverageJson(const SurfaceCoverage& surface, double each_m2) {
-  return {{"exposed_m2", each_m2 * static_cast<double>(surface.exposed)},
-          {"seen_m2", each_m2 * static_cast<double>(surface.seen)},
-          {"twice_m2", each_m2 * static_cast<double>(surface.twice)},
-          {"coverage", surface.coverage()}};
+PlanCoverage coverageOf(const SurfaceCoverage& surface, double each_m2) {
+  return {each_m2 * static_cast<double>(surface.exposed), each_m2 * static_cast<double>(surface.seen),
+          each_m2 * static_cast<double>(surface.twice), surface.coverage()};
 }
 
-json rowsOf(const std::vector<SurfaceCoverage>& surfaces, const char* key, double each_m2) {
-  json rows = json::array();
-  for (const auto& surface : surfaces) {
-    rows.push_back(coverageJson(surface, each_m2));
-    rows.back()[key] = surface.name;
-  }
-  return rows;
-}
-
-json holesOf(const SurveyPlan& plan, const Environment& environment) {
-  json rows = json::array();
-  for (std::size_t k = 0; k < std::min(kHoles, plan.holes.size()); ++k) {
-    json row = identity(environment.products[plan.holes[k].product]);
-    row.update(coverageJson(plan.holes[k], plan.samples.each_m2()));
-    row["unseen_m2"] = plan.samples.each_m2() * static_cast<double>(plan.holes[k].exposed - plan.holes[k].seen);
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
-json answerOf(const SurveyPlan& plan, const Environment& environment) {
+std::vector<PlanHole> holesOf(const SurveyPlan& plan, const Environment& environment) {
   const double each = plan.samples.each_m2();
-  json answer = coverageJson(plan.all, each);
-  answer["area_m2"] = plan.samples.area_m2;
-  answer["samples"] = plan.samples.samples.size();
-  const double fraction = plan.all.coverage();
-  answer["coverage_sigma"] =
-      plan.all.exposed == 0 ? 0 : std::sqrt(fraction * (1 - fraction) / static_cast<double>(plan.all.exposed));
-  answer["classes"] = rowsOf(plan.classes, "class", each);
-  answer["storeys"] = rowsOf(plan.storeys, "storey", each);
-  answer["holes"] = holesOf(plan, environment);
-  double points = 0, seconds = 0, bytes = 0;
-  answer["stations"] = json::array();
+  std::vector<PlanHole> holes;
+  for (std::size_t k = 0; k < std::min(kHoles, plan.holes.size()); ++k) {
+    const auto& hole = plan.holes[k];
+    holes.push_back({coverageOf(hole, each), identityOf(environment.products[hole.product]),
+                     each * static_cast<double>(hole.exposed - hole.seen)});
+  }
+  return holes;
+}
+
+void addStations(PlanAnswer& answer, const SurveyPlan& plan) {
+  double points = 0, bytes = 0;
   for (std::size_t k = 0; k < plan.stations.size(); ++k) {
     const auto& f = plan.forecasts[k];
-    answer["stations"].push_back({{"station", plan.stations[k]},
-                                  {"seen_m2", plan.seen_m2[k]},
-                                  {"points", std::llround(f.points)},
-                                  {"instrument_seconds", f.seconds},
-                                  {"bytes", std::llround(plan.bytes[k])}});
+    answer.stations.push_back(
+        {plan.stations[k], plan.seen_m2[k], std::llround(f.points), f.seconds, std::llround(plan.bytes[k])});
     points += f.points;
-    seconds += f.seconds;
+    answer.instrument_seconds += f.seconds;
     bytes += plan.bytes[k];
   }
-  answer["points"] = std::llround(points);
-  answer["instrument_seconds"] = seconds;
-  answer["bytes"] = std::llround(bytes);
-  answer["pairs"] = json::array();
+  answer.points = std::llround(points);
+  answer.bytes = std::llround(bytes);
+}
+
+PlanAnswer answerOf(const SurveyPlan& plan, const Environment& environment) {
+  const double each = plan.samples.each_m2();
+  PlanAnswer answer{coverageOf(plan.all, each)};
+  answer.area_m2 = plan.samples.area_m2;
+  answer.samples = plan.samples.samples.size();
+  const double fraction = plan.all.coverage();
+  if (plan.all.exposed != 0)
+    answer.coverage_sigma = std::sqrt(fraction * (1 - fraction) / static_cast<double>(plan.all.exposed));
+  for (const auto& surface : plan.classes) answer.classes.push_back({coverageOf(surface, each), surface.name});
+  for (const auto& surface : plan.storeys) answer.storeys.push_back({coverageOf(surface, each), surface.name});
+  answer.holes = holesOf(plan, environment);
+  addStations(answer, plan);
   for (const auto& p : plan.pairs)
-    answer["pairs"].push_back({{"a", plan.stations[p.a]},
-                               {"b", plan.stations[p.b]},
-                               {"common_m2", p.common_m2},
-                               {"of_a", p.of_a},
-                               {"of_b", p.of_b},
-                               {"overlap", p.overlap()}});
+    answer.pairs.push_back({plan.stations[p.a], plan.stations[p.b], p.common_m2, p.of_a, p.of_b, p.overlap()});
   return answer;
 }
 
@@ -92,7 +72,7 @@ std::string minutes(double seconds) {
   return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 
-std::string textOf(const SurveyPlan& plan, const json& answer) {
+std::string textOf(const SurveyPlan& plan, const PlanAnswer& answer) {
   std::string text;
   for (std::size_t k = 0; k < plan.stations.size(); ++k)
     text += fmt::format("{:12} sees {:8.1f} m2   {:7.2f} M points   {:>6} min   {:7.1f} MB\n", plan.stations[k],
@@ -100,8 +80,8 @@ std::string textOf(const SurveyPlan& plan, const json& answer) {
                         plan.bytes[k] / 1e6);
   if (plan.stations.size() > 1)
     text += fmt::format("{:12}                     {:7.2f} M points   {:>6} min   {:7.1f} MB\n", "all",
-                        answer["points"].get<double>() / 1e6, minutes(answer["instrument_seconds"]),
-                        answer["bytes"].get<double>() / 1e6);
+                        static_cast<double>(answer.points) / 1e6, minutes(answer.instrument_seconds),
+                        static_cast<double>(answer.bytes) / 1e6);
   for (const auto& surface : plan.storeys)
     text += fmt::format("storey {:30} {:5.1f} %\n", surface.name.empty() ? "(none)" : surface.name,
                         surface.coverage() * 100);
@@ -111,9 +91,11 @@ std::string textOf(const SurveyPlan& plan, const json& answer) {
   for (const auto& pair : plan.pairs)
     text += fmt::format("overlap {} - {}: {:.0f} %{}\n", plan.stations[pair.a], plan.stations[pair.b],
                         pair.overlap() * 100, pair.overlap() < kLowOverlap ? ", low overlap" : "");
-  for (const auto& hole : answer["holes"])
-    text += fmt::format("not covered: {:8.2f} m2 of {} {} {}\n", hole["unseen_m2"].get<double>(),
-                        hole.value("class", ""), hole.value("id", ""), hole.value("name", ""));
+  for (const auto& hole : answer.holes)
+    text += fmt::format("not covered: {:8.2f} m2 of {} {} {}\n", hole.unseen_m2, hole.ifc_class, hole.id, hole.name);
+  if (const auto& next = answer.proposed)
+    text += fmt::format("another station at {:.2f},{:.2f},{:.2f} would add {:.1f} m2\n", next->at.x(), next->at.y(),
+                        next->at.z(), next->adds_m2);
   return text;
 }
 
@@ -137,8 +119,8 @@ Result<PlanRequest> requestFrom(const Document& document, const PlanOptions& opt
 }
 
 // The place that adds most to what these stations see.
-Result<json> proposalFor(const Document& document, const RayScene& scene, const SurveyPlan& plan,
-                         const PlanRequest& request, Progress& progress) {
+Result<std::optional<PlanProposal>> proposalFor(const Document& document, const RayScene& scene, const SurveyPlan& plan,
+                                                const PlanRequest& request, Progress& progress) {
   TRY_ASSIGN(const auto stand, readTripodStand(tripodStandFile()));
   const StationPlacement placement(scene, stand, request.instrument.trunnion_height_m);
   std::vector<std::uint8_t> seen(plan.samples.samples.size(), 0);
@@ -151,8 +133,8 @@ Result<json> proposalFor(const Document& document, const RayScene& scene, const 
   const auto next = nextStation(*document.job, document.walkable(), placement, plan.samples, seen, limits,
                                 request.instrument.tripod_height_m, progress);
   TRY(progress.check());
-  if (!next) return json();
-  return json{{"at", toJson(next->centre + document.georeference->shift_m)}, {"adds_m2", next->adds_m2}};
+  if (!next) return std::optional<PlanProposal>();
+  return std::optional(PlanProposal{next->centre + document.georeference->shift_m, next->adds_m2});
 }
 
 }  // namespace
@@ -180,9 +162,75 @@ const Fields<PlanOptions>& planFields() {
   return fields;
 }
 
-Result<Outcome> runPlan(const Document& document, const PlanOptions& options, Progress& progress) {
+const AnswerFields<PlanCoverage>& answerFields(const PlanCoverage*) {
+  using A = PlanCoverage;
+  static const AnswerFields<A> fields = {
+      {"exposed_m2", &A::exposed_m2}, {"seen_m2", &A::seen_m2}, {"twice_m2", &A::twice_m2}, {"coverage", &A::coverage}};
+  return fields;
+}
+
+const AnswerFields<PlanClass>& answerFields(const PlanClass* plan_class) {
+  static const auto fields = withBases<PlanClass>({{"class", &PlanClass::ifc_class}},
+                                                  answerFields(static_cast<const PlanCoverage*>(plan_class)));
+  return fields;
+}
+
+const AnswerFields<PlanStorey>& answerFields(const PlanStorey* storey) {
+  static const auto fields =
+      withBases<PlanStorey>({{"storey", &PlanStorey::storey}}, answerFields(static_cast<const PlanCoverage*>(storey)));
+  return fields;
+}
+
+const AnswerFields<PlanHole>& answerFields(const PlanHole* hole) {
+  static const auto fields =
+      withBases<PlanHole>({{"unseen_m2", &PlanHole::unseen_m2}}, answerFields(static_cast<const PlanCoverage*>(hole)),
+                          answerFields(static_cast<const ProductIdentity*>(hole)));
+  return fields;
+}
+
+const AnswerFields<PlanStation>& answerFields(const PlanStation*) {
+  using A = PlanStation;
+  static const AnswerFields<A> fields = {{"station", &A::station},
+                                         {"seen_m2", &A::seen_m2},
+                                         {"points", &A::points},
+                                         {"instrument_seconds", &A::instrument_seconds},
+                                         {"bytes", &A::bytes}};
+  return fields;
+}
+
+const AnswerFields<PlanPair>& answerFields(const PlanPair*) {
+  using A = PlanPair;
+  static const AnswerFields<A> fields = {{"a", &A::a},       {"b", &A::b},       {"common_m2", &A::common_m2},
+                                         {"of_a", &A::of_a}, {"of_b", &A::of_b}, {"overlap", &A::overlap}};
+  return fields;
+}
+
+const AnswerFields<PlanProposal>& answerFields(const PlanProposal*) {
+  static const AnswerFields<PlanProposal> fields = {{"at", &PlanProposal::at}, {"adds_m2", &PlanProposal::adds_m2}};
+  return fields;
+}
+
+const AnswerFields<PlanAnswer>& answerFields(const PlanAnswer* answer) {
+  using A = PlanAnswer;
+  static const auto fields = withBases<A>({{"area_m2", &A::area_m2},
+                                           {"samples", &A::samples},
+                                           {"coverage_sigma", &A::coverage_sigma},
+                                           {"classes", &A::classes},
+                                           {"storeys", &A::storeys},
+                                           {"holes", &A::holes},
+                                           {"stations", &A::stations},
+                                           {"points", &A::points},
+                                           {"instrument_seconds", &A::instrument_seconds},
+                                           {"bytes", &A::bytes},
+                                           {"pairs", &A::pairs},
+                                           {"proposed", &A::proposed}},
+                                          answerFields(static_cast<const PlanCoverage*>(answer)));
+  return fields;
+}
+
+Result<Answered<PlanAnswer>> runPlan(const Document& document, const PlanOptions& options, Progress& progress) {
   TRY_ASSIGN(auto request, requestFrom(document, options));
-  Outcome outcome{document, json::object(), {}, {}};
+  Answered<PlanAnswer> outcome{document};
   noteDefaultRules(document, outcome.report);
   TRY_ASSIGN(auto assignment, scanAssignment(document, progress));
   const ScanWorld world = scanWorld(document.environment(), document.job->targets, assignment);
@@ -195,15 +243,11 @@ Result<Outcome> runPlan(const Document& document, const PlanOptions& options, Pr
                                    request, progress));
   TRY_ASSIGN(auto proposal, proposalFor(document, *scene, plan, request, progress));
   outcome.answer = answerOf(plan, *world.environment);
-  outcome.answer["proposed"] = proposal;
-  outcome.description = fmt::format("{} station{} would cover {:.1f} % of {:.0f} m2", plan.stations.size(),
-                                    plan.stations.size() == 1 ? "" : "s", plan.all.coverage() * 100,
-                                    outcome.answer["exposed_m2"].get<double>());
+  outcome.answer.proposed = proposal;
+  outcome.description =
+      fmt::format("{} station{} would cover {:.1f} % of {:.0f} m2", plan.stations.size(),
+                  plan.stations.size() == 1 ? "" : "s", plan.all.coverage() * 100, outcome.answer.exposed_m2);
   outcome.text = textOf(plan, outcome.answer);
-  if (proposal.is_object())
-    outcome.text += fmt::format("another station at {:.2f},{:.2f},{:.2f} would add {:.1f} m2\n",
-                                proposal["at"][0].get<double>(), proposal["at"][1].get<double>(),
-                                proposal["at"][2].get<double>(), proposal["adds_m2"].get<double>());
   return outcome;
 }
 

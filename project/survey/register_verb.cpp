@@ -24,116 +24,110 @@ Vector3d trueCentre(const Station& station, const Target& target) {
   return station.true_pose.rotation.conjugate() * (target.centre - station.true_pose.translation);
 }
 
-json linkRow(const Job& job, const TargetRegistration& r, const NetworkLink& link) {
-  json rows = json::array();
-  for (const auto& row : link.rows)
-    rows.push_back({{"target", r.target_names[row.target]},
-                    {"dx_m", row.difference_m.x()},
-                    {"dy_m", row.difference_m.y()},
-                    {"dz_m", row.difference_m.z()},
-                    {"d3_m", row.difference_m.norm()}});
-  return {{"from", job.stations[r.station_of[link.from]].name},
-          {"to", job.stations[r.station_of[link.to]].name},
-          {"targets", link.rows.size()},
-          {"rms_m", link.rms_m},
-          {"mean_m", link.mean_m},
-          {"unbiased_m", link.unbiased_m ? json(*link.unbiased_m) : json(nullptr)},
-          {"differences", std::move(rows)}};
+RegisterLink linkRow(const Job& job, const TargetRegistration& r, const NetworkLink& link) {
+  RegisterLink row{job.stations[r.station_of[link.from]].name,
+                   job.stations[r.station_of[link.to]].name,
+                   link.rows.size(),
+                   link.rms_m,
+                   link.mean_m,
+                   link.unbiased_m,
+                   {}};
+  for (const auto& [target, d] : link.rows)
+    row.differences.push_back({r.target_names[target], d.x(), d.y(), d.z(), d.norm()});
+  return row;
 }
 
-json targetRows(const Job& job, const TargetRegistration& r, const Vector3d& shift_m) {
-  json rows = json::array();
+std::vector<RegisteredTarget> targetRows(const Job& job, const TargetRegistration& r, const Vector3d& shift_m) {
+  std::vector<RegisteredTarget> rows;
   for (std::size_t t = 0; t < r.network.targets; ++t) {
     if (!r.fit.target[t]) continue;
-    json from = json::array();
+    RegisteredTarget row{r.target_names[t], *r.fit.target[t] + shift_m, {}, {}};
     for (std::size_t i = 0; i < r.network.sightings.size(); ++i) {
       const auto& s = r.network.sightings[i];
       if (s.target != t) continue;
       const Vector3d& d = r.fit.residual_m[i];
-      from.push_back({{"station", job.stations[r.station_of[s.station]].name},
-                      {"dx_m", d.x()},
-                      {"dy_m", d.y()},
-                      {"dz_m", d.z()},
-                      {"d3_m", d.norm()}});
+      row.residuals.push_back({job.stations[r.station_of[s.station]].name, d.x(), d.y(), d.z(), d.norm()});
     }
-    json row = {{"name", r.target_names[t]},
-                {"at", toJson(Vector3d(*r.fit.target[t] + shift_m))},
-                {"residuals", std::move(from)}};
     for (const auto& target : job.targets)
-      if (target.name == r.target_names[t]) row["true_error_m"] = (*r.fit.target[t] - target.centre).norm();
+      if (target.name == r.target_names[t]) row.true_error_m = (*r.fit.target[t] - target.centre).norm();
     rows.push_back(std::move(row));
   }
   return rows;
 }
 
-json measuredRows(const Job& job, const TargetMeasurements& measured) {
-  json found = json::array(), missed = json::array();
+RegisterMeasurements measuredRows(const Job& job, const TargetMeasurements& measured) {
+  RegisterMeasurements rows;
   for (const auto& m : measured.found) {
     const auto& station = job.stations[m.station];
     const auto& target = job.targets[m.target];
-    json row = {{"station", station.name},
-                {"target", target.name},
-                {"centre", toJson(m.fit.centre)},
-                {"sigma_m", toJson(m.fit.sigma_m())},
-                {"points", m.fit.points},
-                {"residual_m", m.fit.residual_m},
-                {"true_error_m", (m.fit.centre - trueCentre(station, target)).norm()}};
-    if (target.kind == TargetKind::checkerboard) row["incidence_deg"] = m.fit.incidence_rad / kRadPerDeg;
-    found.push_back(std::move(row));
+    RegisterMeasured row{station.name,
+                         target.name,
+                         m.fit.centre,
+                         m.fit.sigma_m(),
+                         m.fit.points,
+                         m.fit.residual_m,
+                         (m.fit.centre - trueCentre(station, target)).norm(),
+                         {}};
+    if (target.kind == TargetKind::checkerboard) row.incidence_rad = m.fit.incidence_rad;
+    rows.found.push_back(std::move(row));
   }
   for (const auto& m : measured.missed)
-    missed.push_back(
-        {{"station", job.stations[m.station].name}, {"target", job.targets[m.target].name}, {"why", m.why}});
-  return {{"found", std::move(found)}, {"missed", std::move(missed)}};
+    rows.missed.push_back({job.stations[m.station].name, job.targets[m.target].name, m.why});
+  return rows;
 }
 
-json stationRow(const Station& station, const Pose& solved, const Vector3d& shift_m) {
-  Pose shown = solved;
-  shown.translation += shift_m;
-  return {{"name", station.name},
-          {"solved_pose", poseToJson(shown)},
-          {"true_error_m", (solved.translation - station.true_pose.translation).norm()},
-          {"true_turn_error_deg", solved.rotation.angularDistance(station.true_pose.rotation) / kRadPerDeg}};
+RegisteredStation stationRow(const Station& station, const Pose& solved, const Vector3d& shift_m) {
+  RegisteredStation row;
+  row.name = station.name;
+  row.solved_pose = solved;
+  row.solved_pose.translation += shift_m;
+  row.true_error_m = (solved.translation - station.true_pose.translation).norm();
+  row.true_turn_error_rad = solved.rotation.angularDistance(station.true_pose.rotation);
+  return row;
 }
 
-json registrationRows(const Job& job, const TargetRegistration& r, const Vector3d& shift_m) {
-  json stations = json::array(), links = json::array();
+RegisterAnswer answerOf(const Job& job, const TargetRegistration& r, const TargetMeasurements& measured,
+                        const Vector3d& shift_m) {
+  RegisterAnswer answer;
   for (std::size_t i = 0; i < r.network.stations; ++i) {
-    json row = stationRow(job.stations[r.station_of[i]], r.fit.pose[i], shift_m);
-    row["held"] = r.network.held && r.network.held->first == i;
-    row["sigma_shift_m"] = toJson(r.fit.sigma_shift_m[i]);
-    row["sigma_turn_deg"] = toJson(Vector3d(r.fit.sigma_turn_rad[i] / kRadPerDeg));
-    stations.push_back(std::move(row));
+    auto row = stationRow(job.stations[r.station_of[i]], r.fit.pose[i], shift_m);
+    row.held = r.network.held && r.network.held->first == i;
+    row.sigma_shift_m = r.fit.sigma_shift_m[i];
+    row.sigma_turn_rad = r.fit.sigma_turn_rad[i];
+    answer.stations.push_back(std::move(row));
   }
   double mean = 0, count = 0;
+  answer.links.emplace();
   for (const auto& link : r.links) {
-    links.push_back(linkRow(job, r, link));
+    answer.links->push_back(linkRow(job, r, link));
     mean += link.mean_m * static_cast<double>(link.rows.size()), count += static_cast<double>(link.rows.size());
   }
-  return {
-      {"stations", std::move(stations)},        {"links", std::move(links)},
-      {"targets", targetRows(job, r, shift_m)}, {"mean_target_error_m", count > 0 ? json(mean / count) : json(nullptr)},
-      {"sigma_factor", r.fit.sigma_factor},     {"redundancy", r.fit.redundancy},
-      {"wrong_matches", r.wrong_matches}};
+  answer.targets = targetRows(job, r, shift_m);
+  answer.mean_target_error_m.emplace();
+  if (count > 0) *answer.mean_target_error_m = mean / count;
+  answer.sigma_factor = r.fit.sigma_factor;
+  answer.redundancy = r.fit.redundancy;
+  answer.wrong_matches = r.wrong_matches;
+  answer.measured = measuredRows(job, measured);
+  return answer;
 }
 
 // What people read: links as office software lists them, and what only a simulation can say beside it. Millimetres.
-std::string textOf(const json& answer) {
+std::string textOf(const RegisterAnswer& answer) {
   std::string text;
-  const auto mm = [](const json& metres) {
-    return metres.is_null() ? std::string("–") : fmt::format("{:.2f}", metres.get<double>() * 1000);
+  const auto mm = [](const std::optional<double>& metres) {
+    return metres ? fmt::format("{:.2f}", *metres * 1000) : std::string("–");
   };
-  for (const auto& link : answer.value("links", json::array())) {
-    text += fmt::format("{} – {}: {} targets, {} mm RMS, mean {} mm, unbiased {} mm\n", link["from"].get<std::string>(),
-                        link["to"].get<std::string>(), link["targets"].get<int>(), mm(link["rms_m"]),
-                        mm(link["mean_m"]), mm(link["unbiased_m"]));
-    for (const auto& d : link["differences"])
-      text += fmt::format("    {:12}  dx {:>7}  dy {:>7}  dz {:>7}  3D {:>7} mm\n", d["target"].get<std::string>(),
-                          mm(d["dx_m"]), mm(d["dy_m"]), mm(d["dz_m"]), mm(d["d3_m"]));
+  for (const auto& link : answer.links.value_or(std::vector<RegisterLink>())) {
+    text += fmt::format("{} – {}: {} targets, {} mm RMS, mean {} mm, unbiased {} mm\n", link.from, link.to,
+                        link.targets, mm(link.rms_m), mm(link.mean_m), mm(link.unbiased_m));
+    for (const auto& d : link.differences)
+      text += fmt::format("    {:12}  dx {:>7}  dy {:>7}  dz {:>7}  3D {:>7} mm\n", d.target, mm(d.dx_m), mm(d.dy_m),
+                          mm(d.dz_m), mm(d.d3_m));
   }
-  for (const auto& s : answer.at("stations"))
-    text += fmt::format("{}: true error {} mm and {:.4f}°\n", s["name"].get<std::string>(), mm(s["true_error_m"]),
-                        s["true_turn_error_deg"].get<double>());
+  for (const auto& s : answer.stations)
+    text += fmt::format("{}: true error {} mm and {:.4f}°\n", s.name, mm(s.true_error_m),
+                        s.true_turn_error_rad / kRadPerDeg);
   return text;
 }
 
@@ -166,8 +160,9 @@ Result<std::size_t> heldStation(const Job& job, const TargetMeasurements& measur
 }
 
 // Station by station, each to all that are placed already; the held one first.
-Result<json> byClouds(Job& job, const TargetMeasurements& measured, std::size_t held, const RegisterOptions& options,
-                      const Vector3d& shift_m, Report& report, Progress& progress) {
+Result<RegisterAnswer> byClouds(Job& job, const TargetMeasurements& measured, std::size_t held,
+                                const RegisterOptions& options, const Vector3d& shift_m, Report& report,
+                                Progress& progress) {
   std::vector<PlacedCloud> placed;
   std::vector<const ScannedStation*> waiting;
   for (const auto& s : measured.scans) {
@@ -181,7 +176,8 @@ Result<json> byClouds(Job& job, const TargetMeasurements& measured, std::size_t 
   if (placed.empty())
     return failure(ErrorKind::usage, fmt::format("none of the files contains station {}", job.stations[held].name),
                    "--fix");
-  json stations = json::array({stationRow(job.stations[held], job.stations[held].true_pose, shift_m)});
+  RegisterAnswer answer;
+  answer.stations.push_back(stationRow(job.stations[held], job.stations[held].true_pose, shift_m));
   for (const auto* scan : waiting) {
     Station& station = job.stations[scan->station];
     progress.stage("Fitting " + station.name, 0.9, 1);
@@ -196,17 +192,16 @@ Result<json> byClouds(Job& job, const TargetMeasurements& measured, std::size_t 
     if (fit->used_fraction < 0.3)
       report.warn(station.name, fmt::format("only {:.0f} % of points overlap the other scans: too little overlap",
                                             fit->used_fraction * 100));
-    json row = stationRow(station, fit->to_from, shift_m);
-    row["fit"] = toJson(*fit);
-    stations.push_back(std::move(row));
+    answer.stations.push_back(stationRow(station, fit->to_from, shift_m));
+    answer.stations.back().fit = *fit;
     station.solved_pose = fit->to_from;
     placed.push_back({fit->to_from, scan->sample});
   }
-  return json{{"stations", std::move(stations)}};
+  return answer;
 }
 
-Result<json> byTargets(Job& job, const TargetMeasurements& measured, std::size_t held, const RegisterOptions& options,
-                       const Vector3d& shift_m, Report& report) {
+Result<RegisterAnswer> byTargets(Job& job, const TargetMeasurements& measured, std::size_t held,
+                                 const RegisterOptions& options, const Vector3d& shift_m, Report& report) {
   RegistrationRequest request;
   request.held = held;
   request.matching = options.by;
@@ -216,8 +211,7 @@ Result<json> byTargets(Job& job, const TargetMeasurements& measured, std::size_t
     job.control_points = request.control;
   }
   TRY_ASSIGN(const auto r, registerByTargets(job, measured, request, report));
-  json answer = registrationRows(job, r, shift_m);
-  answer["measured"] = measuredRows(job, measured);
+  auto answer = answerOf(job, r, measured, shift_m);
   for (std::size_t i = 0; i < r.station_of.size(); ++i) job.stations[r.station_of[i]].solved_pose = r.fit.pose[i];
   return answer;
 }
@@ -267,7 +261,93 @@ const Fields<RegisterOptions>& registerFields() {
   return fields;
 }
 
-Result<Outcome> runRegister(const Document& document, const RegisterOptions& options, Progress& progress) {
+const AnswerFields<TargetDifference>& answerFields(const TargetDifference*) {
+  using A = TargetDifference;
+  static const AnswerFields<A> fields = {
+      {"target", &A::target}, {"dx_m", &A::dx_m}, {"dy_m", &A::dy_m}, {"dz_m", &A::dz_m}, {"d3_m", &A::d3_m}};
+  return fields;
+}
+
+const AnswerFields<RegisterLink>& answerFields(const RegisterLink*) {
+  using A = RegisterLink;
+  static const AnswerFields<A> fields = {{"from", &A::from},
+                                         {"to", &A::to},
+                                         {"targets", &A::targets},
+                                         {"rms_m", &A::rms_m},
+                                         {"mean_m", &A::mean_m},
+                                         {"unbiased_m", &A::unbiased_m},
+                                         {"differences", &A::differences}};
+  return fields;
+}
+
+const AnswerFields<StationResidual>& answerFields(const StationResidual*) {
+  using A = StationResidual;
+  static const AnswerFields<A> fields = {
+      {"station", &A::station}, {"dx_m", &A::dx_m}, {"dy_m", &A::dy_m}, {"dz_m", &A::dz_m}, {"d3_m", &A::d3_m}};
+  return fields;
+}
+
+const AnswerFields<RegisteredTarget>& answerFields(const RegisteredTarget*) {
+  using A = RegisteredTarget;
+  static const AnswerFields<A> fields = {
+      {"name", &A::name}, {"at", &A::at}, {"residuals", &A::residuals}, {"true_error_m", &A::true_error_m, kLeftOut}};
+  return fields;
+}
+
+const AnswerFields<RegisterMeasured>& answerFields(const RegisterMeasured*) {
+  using A = RegisterMeasured;
+  static const AnswerFields<A> fields = {{"station", &A::station},
+                                         {"target", &A::target},
+                                         {"centre", &A::centre_m},
+                                         {"sigma_m", &A::sigma_m},
+                                         {"points", &A::points},
+                                         {"residual_m", &A::residual_m},
+                                         {"true_error_m", &A::true_error_m},
+                                         {"incidence_deg", &A::incidence_rad, answers::degrees, kLeftOut}};
+  return fields;
+}
+
+const AnswerFields<RegisterMissed>& answerFields(const RegisterMissed*) {
+  using A = RegisterMissed;
+  static const AnswerFields<A> fields = {{"station", &A::station}, {"target", &A::target}, {"why", &A::why}};
+  return fields;
+}
+
+const AnswerFields<RegisterMeasurements>& answerFields(const RegisterMeasurements*) {
+  using A = RegisterMeasurements;
+  static const AnswerFields<A> fields = {{"found", &A::found}, {"missed", &A::missed}};
+  return fields;
+}
+
+const AnswerFields<RegisteredStation>& answerFields(const RegisteredStation*) {
+  using A = RegisteredStation;
+  static const AnswerFields<A> fields = {{"name", &A::name},
+                                         {"solved_pose", &A::solved_pose},
+                                         {"true_error_m", &A::true_error_m},
+                                         {"true_turn_error_deg", &A::true_turn_error_rad, answers::degrees},
+                                         {"held", &A::held, kLeftOut},
+                                         {"sigma_shift_m", &A::sigma_shift_m, kLeftOut},
+                                         {"sigma_turn_deg", &A::sigma_turn_rad, answers::degreesOfEach, kLeftOut},
+                                         {"fit", &A::fit, kLeftOut}};
+  return fields;
+}
+
+const AnswerFields<RegisterAnswer>& answerFields(const RegisterAnswer*) {
+  using A = RegisterAnswer;
+  static const AnswerFields<A> fields = {{"stations", &A::stations},
+                                         {"links", &A::links, kLeftOut},
+                                         {"targets", &A::targets, kLeftOut},
+                                         {"mean_target_error_m", &A::mean_target_error_m, kLeftOut},
+                                         {"sigma_factor", &A::sigma_factor, kLeftOut},
+                                         {"redundancy", &A::redundancy, kLeftOut},
+                                         {"wrong_matches", &A::wrong_matches, kLeftOut},
+                                         {"measured", &A::measured, kLeftOut},
+                                         {"files", &A::files, kLeftOut}};
+  return fields;
+}
+
+Result<Answered<RegisterAnswer>> runRegister(const Document& document, const RegisterOptions& options,
+                                             Progress& progress) {
   const bool cloud = options.cloud;
   if (cloud && !options.control.empty())
     return failure(ErrorKind::usage, "--cloud and --control cannot be combined", "--control");
@@ -289,7 +369,7 @@ Result<Outcome> runRegister(const Document& document, const RegisterOptions& opt
   if (measured.scans.size() < (options.control.empty() ? 2U : 1U))
     return failure(ErrorKind::usage,
                    "a single station cannot be registered: specify scans of at least two, or use --control", "files");
-  Outcome outcome{document, json::object(), measured.report, {}};
+  Answered<RegisterAnswer> outcome{document, {}, measured.report};
   Job job = *document.job;
   TRY_ASSIGN(const auto held, heldStation(job, measured, options));
   const Vector3d& shift_m = document.georeference->shift_m;
@@ -299,7 +379,7 @@ Result<Outcome> runRegister(const Document& document, const RegisterOptions& opt
   outcome.text = textOf(outcome.answer);
   if (!written.empty()) {
     TRY(writeRegistered(job, shift_m, request.files, written, outcome.report, progress));
-    for (const auto& file : written) outcome.answer["files"].push_back(file.string());
+    outcome.answer.files = written;
   }
   outcome.description =
       fmt::format("Registered {} stations {}", measured.scans.size(), cloud ? "cloud to cloud" : "by targets");

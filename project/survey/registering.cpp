@@ -46,18 +46,16 @@ bool scaleDiffers(const RigidFit& fit, const std::vector<PlacePair>& pairs) {
   return off > 3 * fit.scale_sigma && off * extent_m > 0.001;
 }
 
-Result<Pose> byPairs(const std::vector<PlacePair>& pairs, const std::string& name, json& answer, Report& report) {
+Result<Pose> byPairs(const std::vector<PlacePair>& pairs, const std::string& name, UnderlayRegistration& came_of_it,
+                     Report& report) {
   std::vector<Vector3d> cloud, model;
   for (const auto& p : pairs) cloud.push_back(p.cloud_m), model.push_back(p.model_m);
   const auto fit = fitRigid(cloud, model);
   if (!fit) return failure(fit.error().kind, fit.error().message, "--pairs");
-  json rows = json::array();
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    rows.push_back({{"cloud", toJson(cloud[i])}, {"model", toJson(model[i])}, {"residual_m", fit->residual_m[i]}});
-  answer["pairs"] = std::move(rows);
-  answer["pairs_rms_m"] = fit->rms_m;
-  answer["scale"] = fit->scale;
-  answer["scale_sigma"] = fit->scale_sigma;
+  for (std::size_t i = 0; i < pairs.size(); ++i) came_of_it.pairs.push_back({cloud[i], model[i], fit->residual_m[i]});
+  came_of_it.pairs_rms_m = fit->rms_m;
+  came_of_it.scale = fit->scale;
+  came_of_it.scale_sigma = fit->scale_sigma;
   if (scaleDiffers(*fit, pairs))
     report.warn(name, fmt::format("best fit of the pairs has scale {:.6f} ± {:.6f}; the scale is not applied{}",
                                   fit->scale, fit->scale_sigma, unitFor(fit->scale)));
@@ -106,13 +104,28 @@ json FieldValue<std::vector<PlacePair>>::write(const std::vector<PlacePair>& pai
   return texts;
 }
 
+const AnswerFields<PairResidual>& answerFields(const PairResidual*) {
+  using A = PairResidual;
+  static const AnswerFields<A> fields = {
+      {"cloud", &A::cloud_m}, {"model", &A::model_m}, {"residual_m", &A::residual_m}};
+  return fields;
+}
+
+const AnswerFields<UnderlayRegistration>& answerFields(const UnderlayRegistration*) {
+  using A = UnderlayRegistration;
+  static const AnswerFields<A> fields = {{"pairs", &A::pairs, kLeftOut}, {"pairs_rms_m", &A::pairs_rms_m, kLeftOut},
+                                         {"scale", &A::scale, kLeftOut}, {"scale_sigma", &A::scale_sigma, kLeftOut},
+                                         {"icp", &A::icp, kLeftOut},     {"pose", &A::file_from_cloud}};
+  return fields;
+}
+
 Result<Underlay> registered(const Document& document, const Underlay& underlay, const RegisterRequest& request,
-                            json& answer, Report& report, Progress& progress) {
+                            UnderlayRegistration& came_of_it, Report& report, Progress& progress) {
   Underlay result = underlay;
   if (request.pairs.empty() && !request.to_surface)
     return failure(ErrorKind::usage, "specify --pairs x,y,z=X,Y,Z … (three or more), --icp, or both", "--register");
   if (!request.pairs.empty()) {
-    TRY_ASSIGN(auto pose, byPairs(request.pairs, underlay.name, answer, report));
+    TRY_ASSIGN(auto pose, byPairs(request.pairs, underlay.name, came_of_it, report));
     result.file_from_cloud = pose;
   }
   if (request.to_surface) {
@@ -123,10 +136,10 @@ Result<Underlay> registered(const Document& document, const Underlay& underlay, 
                                      result.file_from_cloud, request.reach_m, progress);
     if (!fit) return failure(fit.error().kind, fit.error().message, underlay.name);
     result.file_from_cloud = fit->to_from;
-    answer["icp"] = toJson(*fit);
+    came_of_it.icp = *fit;
     tell(*fit, underlay.name, report);
   }
-  answer["pose"] = poseToJson(result.file_from_cloud);
+  came_of_it.file_from_cloud = result.file_from_cloud;
   return result;
 }
 

@@ -36,7 +36,7 @@ struct ScanSurroundings {
 };
 
 // The verb `scan` with company.
-Result<Outcome> runScan(const Document& document, const ScanVerbOptions& options, const ScanSurroundings& company,
-                        Progress& progress);
+Result<Answered<ScanAnswer>> runScan(const Document& document, const ScanVerbOptions& options,
+                                     const ScanSurroundings& company, Progress& progress);
 
 }  // namespace standpoint

@@ -20,7 +20,6 @@ namespace standpoint {
 
 namespace {
 
-using nlohmann::json;
 namespace fs = std::filesystem;
 
 // The simulation's clock is not the wall clock, so that the same job gives the same bytes: the first station starts on
@@ -71,15 +70,11 @@ ScanHeader headerOf(const Document& document, const ScanWorld& world, const Stat
   return h;
 }
 
-json scanRow(const Station& station, const ScanCount& count, double seconds, const ScanRequest& request,
-             const fs::path& file) {
-  return {{"station", station.name},
-          {"points", count.points},
-          {"pulses", count.pulses},
-          {"returns", count.returns},
-          {"seconds", seconds},
-          {"instrument_seconds", request.settings.scan_seconds + request.settings.imaging_seconds},
-          {"file", file.string()}};
+ScanAnswerRow scanRow(const Station& station, const ScanCount& count, double seconds, const ScanRequest& request,
+                      const fs::path& file) {
+  return {station.name,  count.points, count.pulses,
+          count.returns, seconds,      request.settings.scan_seconds + request.settings.imaging_seconds,
+          file,          std::nullopt};
 }
 
 Scan record(const ScanCount& count, const ScanRequest& request, const fs::path& file) {
@@ -180,7 +175,7 @@ class ScanRun {
     return {};
   }
 
-  json rows = json::array();
+  std::vector<ScanAnswerRow> rows;
   Report report;
   Job& job() { return job_; }
 
@@ -221,7 +216,7 @@ class ScanRun {
     finished_.push_back(station.name);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     rows.push_back(scanRow(station, count, seconds, request_, file));
-    if (is_there) rows.back()["resumed"] = true;
+    if (is_there) rows.back().resumed = true;
     if (count.points == 0 && request_.settings.laser)
       report.warn(station.name, whyNothing(scene_, station.true_pose, request_.instrument, request_.settings));
     station.scans.push_back(record(count, request_, file));
@@ -318,14 +313,28 @@ class ScanRun {
 
 }  // namespace
 
-Result<Outcome> runScan(const Document& document, const ScanVerbOptions& options, Progress& progress) {
+const AnswerFields<ScanAnswerRow>& answerFields(const ScanAnswerRow*) {
+  using A = ScanAnswerRow;
+  static const AnswerFields<A> fields = {{"station", &A::station}, {"points", &A::points},
+                                         {"pulses", &A::pulses},   {"returns", &A::returns},
+                                         {"seconds", &A::seconds}, {"instrument_seconds", &A::instrument_seconds},
+                                         {"file", &A::file},       {"resumed", &A::resumed, kLeftOut}};
+  return fields;
+}
+
+const AnswerFields<ScanAnswer>& answerFields(const ScanAnswer*) {
+  static const AnswerFields<ScanAnswer> fields = {{"stations", &ScanAnswer::stations}};
+  return fields;
+}
+
+Result<Answered<ScanAnswer>> runScan(const Document& document, const ScanVerbOptions& options, Progress& progress) {
   return runScan(document, options, ScanSurroundings(), progress);
 }
 
-Result<Outcome> runScan(const Document& document, const ScanVerbOptions& options, const ScanSurroundings& company,
-                        Progress& progress) {
+Result<Answered<ScanAnswer>> runScan(const Document& document, const ScanVerbOptions& options,
+                                     const ScanSurroundings& company, Progress& progress) {
   TRY_ASSIGN(auto request, scanRequestFrom(document, options));
-  Outcome outcome{document, json::object(), {}, {}};
+  Answered<ScanAnswer> outcome{document};
   std::vector<Pose> believed;
   for (const auto index : request.stations) {
     TRY_ASSIGN(auto pose,
@@ -344,7 +353,7 @@ Result<Outcome> runScan(const Document& document, const ScanVerbOptions& options
   outcome.description =
       fmt::format("Scanned {} station{} with {} {}", scan_run.rows.size(), scan_run.rows.size() == 1 ? "" : "s",
                   request.instrument.maker, request.instrument.model);
-  outcome.answer["stations"] = std::move(scan_run.rows);
+  outcome.answer.stations = std::move(scan_run.rows);
   outcome.document.scanning = std::make_shared<const ScanChoice>(choiceOf(request));
   outcome.document.job = std::make_shared<const Job>(std::move(scan_run.job()));
   return outcome;

@@ -19,8 +19,6 @@ namespace standpoint {
 
 namespace {
 
-using nlohmann::json;
-
 // What a station stands on and how it stands, as the options say it.
 struct Setup {
   TripodStand stand;
@@ -56,18 +54,17 @@ Eigen::Quaterniond standingRotation(const StationOptions& options, const std::st
   return rotationOf(options.yaw_deg * kRadPerDeg, tilt);
 }
 
-json stationRow(const Station& s, const Georeference& g) {
-  json scans = json::array();
-  for (const auto& scan : s.scans)
-    scans.push_back({{"instrument", scan.instrument}, {"file", scan.file}, {"points", scan.points}});
+StationRow stationRow(const Station& s, const Georeference& g) {
   const Tilt tilt = tiltOf(s.true_pose.rotation);
-  json row{{"name", s.name},
-           {"at", toJson(s.true_pose.translation + g.shift_m)},
-           {"instrument_height", s.instrument_height_m},
-           {"yaw_deg", yawOf(s.true_pose.rotation) / kRadPerDeg},
-           {"scans", std::move(scans)}};
-  row["tilt_deg"] = tilt.angle_rad / kRadPerDeg;
-  if (tilt.angle_rad > 0) row["tilt_towards_deg"] = tilt.towards_rad / kRadPerDeg;
+  StationRow row{s.name,
+                 s.true_pose.translation + g.shift_m,
+                 s.instrument_height_m,
+                 yawOf(s.true_pose.rotation),
+                 tilt.angle_rad,
+                 {},
+                 {}};
+  if (tilt.angle_rad > 0) row.tilt_towards_rad = tilt.towards_rad;
+  for (const auto& scan : s.scans) row.scans.push_back({scan.instrument, scan.file, scan.points});
   return row;
 }
 
@@ -212,14 +209,39 @@ const Fields<StationOptions>& stationFields() {
   return fields;
 }
 
-Result<Outcome> runStation(const Document& document, const StationOptions& options, Progress& progress) {
+const AnswerFields<StationScan>& answerFields(const StationScan*) {
+  using A = StationScan;
+  static const AnswerFields<A> fields = {{"instrument", &A::instrument}, {"file", &A::file}, {"points", &A::points}};
+  return fields;
+}
+
+const AnswerFields<StationRow>& answerFields(const StationRow*) {
+  using A = StationRow;
+  static const AnswerFields<A> fields = {{"name", &A::name},
+                                         {"at", &A::at},
+                                         {"instrument_height", &A::instrument_height_m},
+                                         {"yaw_deg", &A::yaw_rad, answers::degrees},
+                                         {"tilt_deg", &A::tilt_rad, answers::degrees},
+                                         {"tilt_towards_deg", &A::tilt_towards_rad, answers::degrees, kLeftOut},
+                                         {"scans", &A::scans}};
+  return fields;
+}
+
+const AnswerFields<StationAnswer>& answerFields(const StationAnswer*) {
+  using A = StationAnswer;
+  static const AnswerFields<A> fields = {{"placed", &A::placed, kLeftOut}, {"stations", &A::stations}};
+  return fields;
+}
+
+Result<Answered<StationAnswer>> runStation(const Document& document, const StationOptions& options,
+                                           Progress& progress) {
   progress.stage("Station");
   const int asked = static_cast<int>(options.add.has_value()) + static_cast<int>(options.move.has_value()) +
                     static_cast<int>(options.remove.has_value());
   if (asked > 1) return failure(ErrorKind::usage, "specify one of --add NAME, --move NAME, --remove NAME");
   if (options.tilt_deg && options.levelling_error_deg)
     return failure(ErrorKind::usage, "use either --tilt-deg, or --levelling-error-deg for a random tilt");
-  Outcome outcome{document, json::object(), {}, {}};
+  Answered<StationAnswer> outcome{document};
   Job job = *document.job;
   const auto& g = *document.georeference;
   if (options.add) {
@@ -230,7 +252,7 @@ Result<Outcome> runStation(const Document& document, const StationOptions& optio
     if (find(job, name) != job.stations.end())
       return failure(ErrorKind::usage, fmt::format("station '{}' already exists; use --move, or another name", name));
     TRY_ASSIGN(auto station, place(document, name, options, nullptr, outcome.report, progress));
-    outcome.answer["placed"] = stationRow(station, g);
+    outcome.answer.placed = stationRow(station, g);
     outcome.description = "Added station " + name;
     job.stations.push_back(std::move(station));
   } else if (options.move) {
@@ -241,7 +263,7 @@ Result<Outcome> runStation(const Document& document, const StationOptions& optio
     const double distance = (station.true_pose.translation - at->true_pose.translation).norm();
     station.scans = at->scans;
     *at = std::move(station);
-    outcome.answer["placed"] = stationRow(*at, g);
+    outcome.answer.placed = stationRow(*at, g);
     outcome.description = fmt::format("Moved station {} by {:.2f} m", name, distance);
   } else if (options.remove) {
     const auto& name = *options.remove;
@@ -250,9 +272,7 @@ Result<Outcome> runStation(const Document& document, const StationOptions& optio
     job.stations.erase(at);
     outcome.description = "Removed station " + name;
   }
-  json rows = json::array();
-  for (const auto& s : job.stations) rows.push_back(stationRow(s, g));
-  outcome.answer["stations"] = std::move(rows);
+  for (const auto& s : job.stations) outcome.answer.stations.push_back(stationRow(s, g));
   if (asked == 1) outcome.document.job = std::make_shared<const Job>(std::move(job));
   return outcome;
 }

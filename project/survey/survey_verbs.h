@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "project/answers.h"
 #include "project/fields.h"
 #include "scanners/engine/ray_engine.h"
 #include "scanners/instruments/instrument.h"
@@ -37,7 +38,27 @@ struct StationOptions {
   double yaw_deg = 0;
 };
 const Fields<StationOptions>& stationFields();
-Result<Outcome> runStation(const Document& document, const StationOptions& options, Progress& progress);
+
+struct StationScan {
+  std::string instrument, file;
+  std::uint64_t points = 0;
+};
+const AnswerFields<StationScan>& answerFields(const StationScan*);
+struct StationRow {
+  std::string name;
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  // the instrument's centre, m, the model's file frame
+  double instrument_height_m = 0;
+  double yaw_rad = 0, tilt_rad = 0;
+  std::optional<double> tilt_towards_rad;  // where it is tilted
+  std::vector<StationScan> scans;
+};
+const AnswerFields<StationRow>& answerFields(const StationRow*);
+struct StationAnswer {
+  std::optional<StationRow> placed;  // what was added or moved
+  std::vector<StationRow> stations;
+};
+const AnswerFields<StationAnswer>& answerFields(const StationAnswer*);
+Result<Answered<StationAnswer>> runStation(const Document& document, const StationOptions& options, Progress& progress);
 
 std::span<const Choice<TargetKind>> choices(TargetKind);
 
@@ -89,7 +110,62 @@ struct PlanOptions {
   std::uint64_t seed = 1;
 };
 const Fields<PlanOptions>& planFields();
-Result<Outcome> runPlan(const Document& document, const PlanOptions& options, Progress& progress);
+
+struct PlanCoverage {
+  double exposed_m2 = 0;
+  double seen_m2 = 0, twice_m2 = 0;  // by one station, by two or more
+  double coverage = 0;               // 0..1, of what is exposed
+};
+const AnswerFields<PlanCoverage>& answerFields(const PlanCoverage*);
+struct PlanClass : PlanCoverage {
+  std::string ifc_class;
+};
+const AnswerFields<PlanClass>& answerFields(const PlanClass*);
+struct PlanStorey : PlanCoverage {
+  std::string storey;
+};
+const AnswerFields<PlanStorey>& answerFields(const PlanStorey*);
+struct PlanHole : PlanCoverage, ProductIdentity {
+  double unseen_m2 = 0;
+};
+const AnswerFields<PlanHole>& answerFields(const PlanHole*);
+struct PlanStation {
+  std::string station;
+  double seen_m2 = 0;
+  std::int64_t points = 0;
+  double instrument_seconds = 0;
+  std::int64_t bytes = 0;
+};
+const AnswerFields<PlanStation>& answerFields(const PlanStation*);
+struct PlanPair {
+  std::string a, b;
+  double common_m2 = 0;
+  double of_a = 0, of_b = 0;  // 0..1, of what each sees
+  double overlap = 0;         // the larger of them
+};
+const AnswerFields<PlanPair>& answerFields(const PlanPair*);
+struct PlanProposal {
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  // the instrument's centre, m, the model's file frame
+  double adds_m2 = 0;
+};
+const AnswerFields<PlanProposal>& answerFields(const PlanProposal*);
+
+struct PlanAnswer : PlanCoverage {  // of all products
+  double area_m2 = 0;
+  std::size_t samples = 0;
+  double coverage_sigma = 0;  // 1 σ, by the number of samples
+  std::vector<PlanClass> classes;
+  std::vector<PlanStorey> storeys;
+  std::vector<PlanHole> holes;  // largest first
+  std::vector<PlanStation> stations;
+  std::int64_t points = 0;  // of all stations, like those below
+  double instrument_seconds = 0;
+  std::int64_t bytes = 0;
+  std::vector<PlanPair> pairs;
+  std::optional<PlanProposal> proposed;  // the next station
+};
+const AnswerFields<PlanAnswer>& answerFields(const PlanAnswer*);
+Result<Answered<PlanAnswer>> runPlan(const Document& document, const PlanOptions& options, Progress& progress);
 
 template <>
 struct FieldValue<Effects> {  // named are those that are left out
@@ -150,6 +226,20 @@ struct ScanVerbOptions {
   std::filesystem::path output;
 };
 const Fields<ScanVerbOptions>& scanFields();
-Result<Outcome> runScan(const Document& document, const ScanVerbOptions& options, Progress& progress);
+
+struct ScanAnswerRow {
+  std::string station;
+  std::uint64_t points = 0, pulses = 0, returns = 0;
+  double seconds = 0;  // that the simulation took
+  double instrument_seconds = 0;
+  std::filesystem::path file;
+  std::optional<bool> resumed;  // true where an earlier run had finished it
+};
+const AnswerFields<ScanAnswerRow>& answerFields(const ScanAnswerRow*);
+struct ScanAnswer {
+  std::vector<ScanAnswerRow> stations;
+};
+const AnswerFields<ScanAnswer>& answerFields(const ScanAnswer*);
+Result<Answered<ScanAnswer>> runScan(const Document& document, const ScanVerbOptions& options, Progress& progress);
 
 }  // namespace standpoint

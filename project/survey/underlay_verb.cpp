@@ -21,18 +21,10 @@ namespace fs = std::filesystem;
 constexpr std::array kActions = {"add", "move", "register", "remove", "show", "hide"};
 enum class Action { add, move, fit, remove, show, hide };  // of kActions
 
-json underlayRow(const Underlay& u) {
+UnderlayRow underlayRow(const Underlay& u) {
   std::error_code ignored;
-  return {{"name", u.name},
-          {"file", u.file},
-          {"file_there", fs::exists(u.file, ignored)},
-          {"format", u.format},
-          {"points", u.points},
-          {"bounds", toJson(u.bounds_cloud_m, Eigen::Vector3d::Zero())},
-          {"bounds_in_model", toJson(boundsInFile(u), Eigen::Vector3d::Zero())},
-          {"pose", poseToJson(u.file_from_cloud)},
-          {"crs", u.crs.empty() ? json(nullptr) : json(u.crs)},
-          {"visible", u.visible}};
+  return {u.name,           u.file,          fs::exists(u.file, ignored), u.format, u.points,
+          u.bounds_cloud_m, boundsInFile(u), u.file_from_cloud,           u.crs,    u.visible};
 }
 
 bool posed(const UnderlayOptions& options) { return options.at || options.yaw_deg; }
@@ -85,8 +77,8 @@ Result<Underlay> addedUnderlay(const Document& document, const UnderlayOptions& 
   return u;
 }
 
-Result<void> change(Outcome& outcome, Action what, const std::string& name, const UnderlayOptions& options,
-                    Progress& progress) {
+Result<void> change(Answered<UnderlayAnswer>& outcome, Action what, const std::string& name,
+                    const UnderlayOptions& options, Progress& progress) {
   auto& underlays = outcome.document.underlays;
   auto& description = outcome.description;
   const auto at = std::find_if(underlays.begin(), underlays.end(), [&](const auto& u) { return u->name == name; });
@@ -109,10 +101,10 @@ Result<void> change(Outcome& outcome, Action what, const std::string& name, cons
     changed.file_from_cloud = pose;
     description = fmt::format("Moved underlay {} by {:.3f} m", name, by_m);
   } else if (what == Action::fit) {
-    json answer;
-    TRY_ASSIGN(auto done, registered(outcome.document, changed, options, answer, outcome.report, progress));
+    UnderlayRegistration came_of_it;
+    TRY_ASSIGN(auto done, registered(outcome.document, changed, options, came_of_it, outcome.report, progress));
     changed = std::move(done);
-    outcome.answer["registered"] = std::move(answer);
+    outcome.answer.registered = std::move(came_of_it);
     description = fmt::format("Registered underlay {}", name);
   } else {
     changed.visible = what == Action::show;
@@ -153,7 +145,30 @@ const Fields<UnderlayOptions>& underlayFields() {
   return fields;
 }
 
-Result<Outcome> runUnderlay(const Document& document, const UnderlayOptions& options, Progress& progress) {
+const AnswerFields<UnderlayRow>& answerFields(const UnderlayRow*) {
+  using A = UnderlayRow;
+  static const AnswerFields<A> fields = {{"name", &A::name},
+                                         {"file", &A::file},
+                                         {"file_there", &A::file_there},
+                                         {"format", &A::format},
+                                         {"points", &A::points},
+                                         {"bounds", &A::bounds_cloud_m},
+                                         {"bounds_in_model", &A::bounds_file_m},
+                                         {"pose", &A::file_from_cloud},
+                                         {"crs", &A::crs, answers::nullWhereEmpty},
+                                         {"visible", &A::visible}};
+  return fields;
+}
+
+const AnswerFields<UnderlayAnswer>& answerFields(const UnderlayAnswer*) {
+  using A = UnderlayAnswer;
+  static const AnswerFields<A> fields = {
+      {"placed", &A::placed, kLeftOut}, {"registered", &A::registered, kLeftOut}, {"underlays", &A::underlays}};
+  return fields;
+}
+
+Result<Answered<UnderlayAnswer>> runUnderlay(const Document& document, const UnderlayOptions& options,
+                                             Progress& progress) {
   progress.stage("Underlay");
   const auto added_file = options.add ? std::optional(options.add->string()) : std::nullopt;
   const std::array said = {&added_file, &options.move, &options.fit, &options.remove, &options.show, &options.hide};
@@ -165,20 +180,18 @@ Result<Outcome> runUnderlay(const Document& document, const UnderlayOptions& opt
   }
   if (action != Action::fit && (!options.pairs.empty() || options.to_surface))
     return failure(ErrorKind::usage, "--pairs and --icp require --register NAME");
-  Outcome outcome{document, json::object(), {}, {}};
+  Answered<UnderlayAnswer> outcome{document};
   auto& underlays = outcome.document.underlays;
   if (action == Action::add) {
     TRY_ASSIGN(auto added, addedUnderlay(document, options, outcome.report, progress));
-    outcome.answer["placed"] = underlayRow(added);
+    outcome.answer.placed = underlayRow(added);
     outcome.description = fmt::format("Added underlay {}: {} points", added.name, added.points);
     underlays.push_back(std::make_shared<const Underlay>(std::move(added)));
   } else if (action) {
     const auto& name = **said[static_cast<std::size_t>(*action)];
     TRY(change(outcome, *action, name, options, progress));
   }
-  json rows = json::array();
-  for (const auto& u : underlays) rows.push_back(underlayRow(*u));
-  outcome.answer["underlays"] = std::move(rows);
+  for (const auto& u : underlays) outcome.answer.underlays.push_back(underlayRow(*u));
   return outcome;
 }
 

@@ -9,6 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/surface_fit.h"
+#include "project/answers.h"
 #include "project/fields.h"
 
 namespace standpoint {
@@ -36,15 +38,27 @@ struct FieldValue<std::vector<PlacePair>> {
   static nlohmann::json write(const std::vector<PlacePair>& pairs);
 };
 
-// Registers the underlay by pairs, to the model's surface, or first the one and then the other. `answer` gets what came
-// of it.
+// Registers the underlay by pairs, to the model's surface, or first the one and then the other.
 struct RegisterRequest {
   std::vector<PlacePair> pairs;
   bool to_surface = false;
   double reach_m = 0.5;
 };
+struct PairResidual {
+  Eigen::Vector3d cloud_m = Eigen::Vector3d::Zero(), model_m = Eigen::Vector3d::Zero();
+  double residual_m = 0;
+};
+const AnswerFields<PairResidual>& answerFields(const PairResidual*);
+struct UnderlayRegistration {
+  std::vector<PairResidual> pairs;  // empty, and the three below nothing, where it was not registered by pairs
+  std::optional<double> pairs_rms_m, scale, scale_sigma;
+  std::optional<SurfaceFit> icp;
+  Pose file_from_cloud;
+};
+const AnswerFields<UnderlayRegistration>& answerFields(const UnderlayRegistration*);
+// `came_of_it` gets the figures.
 Result<Underlay> registered(const Document& document, const Underlay& underlay, const RegisterRequest& request,
-                            nlohmann::json& answer, Report& report, Progress& progress);
+                            UnderlayRegistration& came_of_it, Report& report, Progress& progress);
 
 // Adds, moves, registers, shows, hides, removes or lists clouds that lie under the model.
 // Of the actions at most one; none lists.
@@ -56,6 +70,25 @@ struct UnderlayOptions : RegisterRequest {  // for `fit`
   std::optional<double> yaw_deg;
 };
 const Fields<UnderlayOptions>& underlayFields();
-Result<Outcome> runUnderlay(const Document& document, const UnderlayOptions& options, Progress& progress);
+
+struct UnderlayRow {
+  std::string name, file;  // absolute
+  bool file_there = false;
+  std::string format;
+  std::uint64_t points = 0;
+  Bounds bounds_cloud_m, bounds_file_m;
+  Pose file_from_cloud;
+  std::string crs;
+  bool visible = true;
+};
+const AnswerFields<UnderlayRow>& answerFields(const UnderlayRow*);
+struct UnderlayAnswer {
+  std::optional<UnderlayRow> placed;               // what was added
+  std::optional<UnderlayRegistration> registered;  // what was registered
+  std::vector<UnderlayRow> underlays;
+};
+const AnswerFields<UnderlayAnswer>& answerFields(const UnderlayAnswer*);
+Result<Answered<UnderlayAnswer>> runUnderlay(const Document& document, const UnderlayOptions& options,
+                                             Progress& progress);
 
 }  // namespace standpoint

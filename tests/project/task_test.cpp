@@ -72,7 +72,7 @@ TEST(Task, TurnsAnExceptionIntoAnError) {
 
 TEST(Task, GivesTheOutcomeOfAVerbOnASnapshot) {
   const auto document = twoStoreyDocument();
-  Task<Outcome> task("Add S1", [document](Progress& progress) {
+  Task<Answered<StationAnswer>> task("Add S1", [document](Progress& progress) {
     StationOptions options;
     options.add = "S1";
     options.at = {500002, 5600002, 1.5};
