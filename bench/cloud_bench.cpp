@@ -13,6 +13,7 @@
 
 #include "core/random.h"
 #include "pointclouds/e57/e57.h"
+#include "pointclouds/formats.h"
 
 namespace standpoint {
 namespace {
