@@ -8,6 +8,7 @@
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_filter.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
@@ -150,7 +151,7 @@ struct FewEnough {
   }
 };
 
-struct Recording : sms::internal::Dummy_visitor {
+struct Recording : sms::Edge_collapse_visitor_base<Surface> {
   explicit Recording(Simplification& to) : here(&to) {}
   template <class Profile>
   void OnCollapsing(const Profile&, const boost::optional<Point>& placement) const {
