@@ -5,7 +5,9 @@
 #include <cmath>
 #include <string>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+
+#include "core/decompositions.h"
 
 namespace standpoint {
 
@@ -28,8 +30,8 @@ Eigen::Matrix3Xd around(std::span<const Eigen::Vector3d> places, const Eigen::Ve
 }
 
 double breadthOf(const Eigen::Matrix3Xd& centred) {
-  const Eigen::Vector3d spread = Eigen::JacobiSVD<Eigen::Matrix3Xd>(centred).singularValues();
-  return spread[0] > 0 ? spread[1] / spread[0] : 0;
+  const Eigen::Vector3d squares = principalAxes(centred * centred.transpose()).values;
+  return squares[2] > 0 ? std::sqrt(std::max(0.0, squares[1]) / squares[2]) : 0;
 }
 
 // The residuals of a fit with scale have 3n - 7 degrees of freedom; the scale's own weight is the spread of the places.

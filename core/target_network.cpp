@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 
+#include "core/decompositions.h"
 #include "core/rigid_fit.h"
 
 namespace standpoint {
@@ -168,20 +169,16 @@ Result<NetworkFit> fitNetwork(const TargetNetwork& network, NetworkProblem* prob
   const Unknowns unknowns = unknownsOf(network, chain);
   NetworkFit fit;
   NetworkEquations e = equationsOf(network, chain, unknowns);
-  Eigen::LDLT<Eigen::MatrixXd> factor(e.normal);
   while (fit.iterations++ < kMostIterations) {
-    const Eigen::VectorXd step = factor.solve(e.right);
+    const Eigen::VectorXd step = solveNormal(e.normal, e.right);
     if (!step.allFinite()) return failure(ErrorKind::unusable, "the targets do not determine the station poses");
     move(chain, unknowns, step);
     e = equationsOf(network, chain, unknowns);
-    factor.compute(e.normal);
     if (step.cwiseAbs().maxCoeff() < kSettled) break;
   }
   fit.redundancy = e.observations - static_cast<int>(unknowns.count);
   fit.sigma_factor = fit.redundancy > 0 ? std::sqrt(e.squares / fit.redundancy) : 0;
-  const Eigen::VectorXd sigma =
-      fit.sigma_factor *
-      factor.solve(Eigen::MatrixXd::Identity(unknowns.count, unknowns.count)).diagonal().cwiseMax(0).cwiseSqrt();
+  const Eigen::VectorXd sigma = fit.sigma_factor * inverseOfNormal(e.normal).diagonal().cwiseMax(0).cwiseSqrt();
   for (std::size_t i = 0; i < network.stations; ++i) {
     const Index at = unknowns.station[i];
     fit.pose.push_back(*chain.pose[i]);

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Dense>
 #include <fmt/format.h>
 
+#include "core/decompositions.h"
 #include "core/units.h"
 #include "emulated-ui/host.h"
 #include "emulated-ui/rehearsal/all_setups.h"
@@ -138,10 +138,15 @@ std::map<std::string, double> readPlan(const Device& device, const Document& doc
 // Σ of the targets' places: how wide they lie along their three principal directions.
 Eigen::Vector3d spreadOf(const std::vector<Target>& targets) {
   if (targets.size() < 2) return Eigen::Vector3d::Zero();
-  Eigen::MatrixXd places(3, static_cast<Eigen::Index>(targets.size()));
-  for (std::size_t i = 0; i < targets.size(); ++i) places.col(static_cast<Eigen::Index>(i)) = targets[i].centre;
-  places.colwise() -= places.rowwise().mean().eval();
-  return places.jacobiSvd().singularValues() / std::sqrt(static_cast<double>(targets.size()));
+  const auto count = static_cast<double>(targets.size());
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const auto& t : targets) middle += (t.centre - targets[0].centre) / count;
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  for (const auto& t : targets) {
+    const Eigen::Vector3d off = t.centre - targets[0].centre - middle;
+    moments += off * off.transpose() / count;
+  }
+  return principalAxes(moments).values.cwiseMax(0).cwiseSqrt().reverse();
 }
 
 double heightSpread(const std::vector<Target>& targets) {

@@ -10,8 +10,9 @@
 #include <sstream>
 #include <utility>
 
-#include <Eigen/SVD>
+#include <Eigen/Geometry>
 
+#include "core/decompositions.h"
 #include "importers/gltf/gltf_companions.h"
 #include "importers/gltf/gltf_georeference.h"
 #include "importers/gltf/gltf_physical_material.h"
@@ -367,10 +368,7 @@ class GltfWriter {
 
   // A node's matrix must be rotation · scale (glTF 2.0 §3.5.3); what is sheared becomes two nodes by M = (U S) Vᵀ.
   void addSheared(const Instance& instance, int mesh, tinygltf::Node& node) {
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(instance.world_from_mesh.linear(),
-                                                Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Eigen::Matrix3d u = svd.matrixU(), v = svd.matrixV();
-    Eigen::Vector3d s = svd.singularValues();
+    auto [u, s, v] = singularValues(instance.world_from_mesh.linear());
     if (u.determinant() < 0) {
       u = -u;
       s = -s;

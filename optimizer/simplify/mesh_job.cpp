@@ -5,9 +5,9 @@
 #include <map>
 #include <tuple>
 
-#include <Eigen/SVD>
 #include <tbb/parallel_for.h>
 
+#include "core/decompositions.h"
 #include "optimizer/surface/identical.h"
 
 namespace standpoint {
@@ -74,9 +74,7 @@ void shareRepetitions(Environment& environment, const OptimizeOptions& options, 
 
 }  // namespace
 
-double largestStretch(const Eigen::Affine3d& transform) {
-  return Eigen::JacobiSVD<Eigen::Matrix3d>(transform.linear()).singularValues()(0);
-}
+double largestStretch(const Eigen::Affine3d& transform) { return singularValues(transform.linear()).values[0]; }
 
 ProductAllowance allowanceOf(const OptimizeOptions& options, std::uint32_t product) {
   if (!options.products.empty()) return options.products[product];

@@ -8,8 +8,10 @@
 #include <optional>
 #include <tuple>
 
-#include <Eigen/SVD>
+#include <Eigen/Geometry>
 #include <tbb/parallel_for.h>
+
+#include "core/decompositions.h"
 
 namespace standpoint {
 
@@ -157,11 +159,11 @@ class Aligner {
     Matrix3d covariance = Matrix3d::Zero();
     for (std::size_t i = 0; i < image.size(); ++i)
       covariance += (b_.positions[image[i]] - middle_b) * (a_.positions[i] - middle_a).transpose();
-    const Eigen::JacobiSVD<Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const auto [u, values, v] = singularValues(covariance);
     Vector3d signs = Vector3d::Ones();
-    if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) signs.z() = -1;
+    if ((u * v.transpose()).determinant() < 0) signs.z() = -1;
     Repetition result;
-    result.motion.linear() = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+    result.motion.linear() = u * signs.asDiagonal() * v.transpose();
     result.motion.translation() = middle_b - result.motion.linear() * middle_a;
     for (std::size_t i = 0; i < image.size(); ++i)
       result.residual_m =

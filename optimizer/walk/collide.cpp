@@ -4,13 +4,13 @@
 #include <cmath>
 #include <optional>
 
-#include <Eigen/SVD>
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include "optimizer/collision/pieces.h"
 #include "optimizer/optimizer.h"
 #include "optimizer/simplify/collapses/collapse.h"
+#include "optimizer/simplify/mesh_job.h"
 #include "optimizer/surface/shape.h"
 #include "optimizer/walk/door_connectivity.h"
 #include "optimizer/walk/doors.h"
@@ -53,9 +53,7 @@ Result<std::vector<MeshJob>> makePieces(const Environment& environment, const st
   std::vector<MeshJob> jobs(environment.meshes.size());
   for (const auto& instance : environment.instances)
     if (stops[instance.product])
-      jobs[instance.mesh].scale =
-          std::max(jobs[instance.mesh].scale,
-                   Eigen::JacobiSVD<Eigen::Matrix3d>(instance.world_from_mesh.linear()).singularValues()(0));
+      jobs[instance.mesh].scale = std::max(jobs[instance.mesh].scale, largestStretch(instance.world_from_mesh));
   progress.stage("Make collision shapes", 0, 0.5);
   std::atomic<std::size_t> done{0};
   tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {  // each task writes only its own Work

@@ -4,10 +4,10 @@
 #include <numbers>
 #include <optional>
 
-#include <Eigen/Eigenvalues>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "core/decompositions.h"
 #include "pointclouds/filters/filters.h"
 #include "pointclouds/statistics/cloud_sample.h"
 #include "pointclouds/statistics/scan_points.h"
@@ -193,8 +193,7 @@ class MixedFilter final : public ScanFilter {
       farthest_m = std::max(farthest_m, beam.dot(to));
     }
     if (-nearest_m < jump_m_ || farthest_m < jump_m_) return false;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments);
-    return std::abs(solver.eigenvectors().col(0).dot(beam)) < sine_;
+    return std::abs(principalAxes(moments).axes.col(0).dot(beam)) < sine_;
   }
 
   double sine_, cosine_, jump_m_;

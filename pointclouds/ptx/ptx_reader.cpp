@@ -3,8 +3,9 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/SVD>
+#include <Eigen/Geometry>
 
+#include "core/decompositions.h"
 #include "pointclouds/files/line_reader.h"
 #include "pointclouds/files/local_points.h"
 #include "pointclouds/files/measure.h"
@@ -113,8 +114,8 @@ void Reader::setPose(const Eigen::Matrix4d& matrix, Frame& frame) {
   if (skew > 1e-9)
     report_.note(lines_.place(), "the matrix is a rotation to " + numberText(static_cast<float>(skew)) +
                                      " only: using the nearest rotation");
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Matrix3d nearest = skew > 1e-9 ? Eigen::Matrix3d(svd.matrixU() * svd.matrixV().transpose()) : linear;
+  const auto [u, values, v] = singularValues(linear);
+  const Eigen::Matrix3d nearest = skew > 1e-9 ? Eigen::Matrix3d(u * v.transpose()) : linear;
   frame.pose.rotation = Eigen::Quaterniond(nearest).normalized();
   if (frame.pose.rotation.w() < 0) frame.pose.rotation.coeffs() *= -1;
 }

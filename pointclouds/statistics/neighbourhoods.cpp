@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include "core/decompositions.h"
 
 namespace standpoint {
 namespace {
@@ -30,9 +30,9 @@ std::optional<Plane> fitPlane(const Neighbourhood& at, std::size_t fewest, Chose
     const Eigen::Vector3d d = n.from_centre.cast<double>() - plane.point;
     if (chosen(n)) moments += d * d.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments);
-  plane.normal = solver.eigenvectors().col(0);
-  plane.spread = (solver.eigenvalues().cwiseMax(0) / std::max(1.0, static_cast<double>(plane.points) - 3)).cwiseSqrt();
+  const auto [values, axes] = principalAxes(moments);
+  plane.normal = axes.col(0);
+  plane.spread = (values.cwiseMax(0) / std::max(1.0, static_cast<double>(plane.points) - 3)).cwiseSqrt();
   for (const auto& n : at.neighbours)
     if (chosen(n))
       plane.largest_residual =

@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 
+#include "core/decompositions.h"
 #include "pointclouds/statistics/cloud_sample.h"
 #include "pointclouds/targets/place_grid.h"
 #include "pointclouds/targets/target_fit.h"
@@ -43,7 +44,7 @@ BoardPlane planeOf(const std::vector<Vector3d>& points, const std::vector<double
     const Vector3d d = points[i] - plane.place;
     spread += weights[i] * d * d.transpose();
   }
-  plane.normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread / all).eigenvectors().col(0);
+  plane.normal = principalAxes(spread / all).axes.col(0);
   if (plane.normal.dot(plane.place) > 0) plane.normal = -plane.normal;
   return plane;
 }
@@ -166,11 +167,9 @@ PatternFit refine(const std::vector<Vector2d>& places, const std::vector<float>&
     if (fit.points < 12) return fit;
     const auto n = static_cast<double>(fit.points);
     fit.variance = sum_squares - sum * sum / n;
-    const Eigen::LDLT<Eigen::Matrix<double, 5, 5>> factor(normal);
-    const Vector5d step = factor.solve(right);
+    const Vector5d step = solveNormal(normal, right);
     if (!step.allFinite() || p.centre.norm() > side_m) return fit.points = 0, fit;
-    fit.covariance =
-        fit.squares / (n - 5) * factor.solve(Eigen::Matrix<double, 5, 5>::Identity()).topLeftCorner<2, 2>();
+    fit.covariance = fit.squares / (n - 5) * inverseOfNormal(normal).topLeftCorner<2, 2>();
     // Never further than an edge is wide: beyond, its slope says nothing.
     const double most = p.width_m / std::max(p.width_m, step.head<2>().norm());
     p.centre += most * step.head<2>();

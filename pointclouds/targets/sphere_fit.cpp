@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 
+#include "core/decompositions.h"
 #include "pointclouds/statistics/cloud_sample.h"
 #include "pointclouds/targets/place_grid.h"
 #include "pointclouds/targets/target_fit.h"
@@ -77,8 +78,7 @@ Solved solve(std::span<const Vector3d> points, const Vector3d& start, double rad
     }
     if (s.fit.points <= static_cast<std::size_t>(unknowns)) return s;
     const Eigen::MatrixXd a = normal.topLeftCorner(unknowns, unknowns);
-    const Eigen::LDLT<Eigen::MatrixXd> factor(a);
-    const Eigen::VectorXd step = factor.solve(right.head(unknowns));
+    const Eigen::VectorXd step = solveNormal(a, right.head(unknowns));
     if (!step.allFinite() || step.head<3>().norm() > 2 * radius_m) return s;
     const double before = scale;
     scale = std::max(medianScale(residuals), 1e-7);
@@ -87,7 +87,7 @@ Solved solve(std::span<const Vector3d> points, const Vector3d& start, double rad
     if (free_radius) s.fit.radius_m += step[3];
     // Tukey's weights cost 5 % of efficiency; the scatter is that of all points they leave in.
     const double variance = squares / static_cast<double>(s.fit.points - static_cast<std::size_t>(unknowns));
-    const Eigen::MatrixXd covariance = variance / 0.95 * plain.topLeftCorner(unknowns, unknowns).inverse();
+    const Eigen::MatrixXd covariance = variance / 0.95 * inverseOfNormal(plain.topLeftCorner(unknowns, unknowns));
     s.fit.covariance_m2 = covariance.topLeftCorner<3, 3>();
     s.fit.radius_sigma_m = free_radius ? std::sqrt(std::max(0.0, covariance(3, 3))) : 0;
     s.fit.residual_m = std::sqrt(squares / static_cast<double>(s.fit.points));
@@ -130,7 +130,7 @@ std::vector<Vector3d> votes(const std::vector<Vector3d>& seeds, double radius_m)
     });
     if (n < 5) continue;
     const Eigen::Matrix3d spread = squares / n - sum * sum.transpose() / (n * n);
-    Vector3d up = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+    Vector3d up = principalAxes(spread).axes.col(0);
     if (up.dot(p) > 0) up = -up;
     result.push_back(p - up * radius_m);
   }

@@ -6,7 +6,9 @@
 #include <cstdio>
 #include <limits>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
+
+#include "core/decompositions.h"
 
 namespace standpoint {
 
@@ -185,7 +187,7 @@ IntensityScale fitIntensityScale(const std::vector<IntensityCell>& cells, bool l
     steps = nonNegative(a, rows.transpose() * weight.asDiagonal() * expected);
     residual = expected - rows * steps;
     scatter = 1.4826 * medianAbsolute({residual.data(), residual.data() + residual.size()});
-    scale.step_covariance = a.inverse() * std::max(1e-6, scatter * scatter) * problem.weight.mean();
+    scale.step_covariance = inverseOfNormal(a) * std::max(1e-6, scatter * scatter) * problem.weight.mean();
     for (Eigen::Index i = 0; i < weight.size(); ++i)
       weight[i] =
           problem.weight[i] * std::min(1.0, kHuber * std::max(scatter, 1e-3) / std::max(1e-12, std::abs(residual[i])));

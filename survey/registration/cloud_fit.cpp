@@ -6,10 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "core/decompositions.h"
 #include "pointclouds/statistics/cloud_sample.h"
 #include "pointclouds/statistics/coverage.h"
 #include "survey/scene/model_surface.h"
@@ -31,12 +32,11 @@ void addPatch(Mesh& mesh, const std::vector<Vector3d>& points, const Vector3d& s
   for (const auto& p : points) middle += p / static_cast<double>(points.size());
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const auto& p : points) spread += (p - middle) * (p - middle).transpose() / static_cast<double>(points.size());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
-  const auto values = axes.eigenvalues();
+  const auto [values, axes] = principalAxes(spread);
   if (std::sqrt(std::max(0.0, values[0])) > kFlat_m || values[1] < 9 * values[0] || values[1] < 1e-4) return;
-  Vector3d normal = axes.eigenvectors().col(0);
+  Vector3d normal = axes.col(0);
   if (normal.dot(seen_from - middle) < 0) normal = -normal;
-  const Vector3d u = kCell_m / 2 * axes.eigenvectors().col(2), v = normal.cross(u);
+  const Vector3d u = kCell_m / 2 * axes.col(2), v = normal.cross(u);
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   for (const Vector3d& corner :
        {Vector3d(middle - u - v), Vector3d(middle + u - v), Vector3d(middle + u + v), Vector3d(middle - u + v)})
