@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <condition_variable>
 #include <functional>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <string>
-#include <thread>
+#include <utility>
+#include <vector>
 
-#include "optimizer/simplify/preview.h"
 #include "project/document.h"
+#include "project/latest_task.h"
 
 namespace standpoint {
 
 // The model at the budget that a slider has right now. Works in the background; of several wishes only the last counts.
 class BudgetPreview {
  public:
-  explicit BudgetPreview(std::function<void()> wake) : wake_(std::move(wake)) {}
-  ~BudgetPreview();
+  explicit BudgetPreview(std::function<void()> wake) : latest_("Budget preview", std::move(wake)) {}
   // Of the imported model with the document's treatments. Other limits, or another model, are prepared first.
   void want(const Document& document, const SimplificationRequest& request);
   void drop();  // shows nothing and forgets what was prepared
@@ -29,7 +26,7 @@ class BudgetPreview {
     std::uint64_t triangles = 0, least = 0;
     std::string error;
   };
-  State state() const;
+  const State& state() const { return state_; }
 
  private:
   struct Wish {
@@ -45,18 +42,17 @@ class BudgetPreview {
     }
     bool operator==(const Wish&) const = default;
   };
-  void work();
-  void prepare(const Wish& wish);
+  struct Prepared;
+  struct Shown {
+    std::shared_ptr<const Environment> environment;
+    std::uint64_t triangles = 0, least = 0;
+  };
+  static Result<Shown> shownAt(const Wish& wish, Prepared& prepared, Progress& progress);
+  void followAnswer();
 
-  std::function<void()> wake_;
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  std::optional<Wish> wish_;
-  bool ended_ = false;
   State state_;
-  std::unique_ptr<Progress> progress_;        // of what is prepared
-  std::unique_ptr<OptimizePreview> preview_;  // the worker's own
-  std::thread worker_;
+  std::shared_ptr<Prepared> prepared_;  // the works' own, which hand it from one to the next
+  LatestTask<Wish, Shown> latest_;
 };
 
 }  // namespace standpoint

@@ -2,8 +2,8 @@
 #include "editor/model/expected_view.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <mutex>
 
 #include <tbb/parallel_for.h>
 
@@ -90,87 +90,86 @@ const std::shared_ptr<const Expectation>& KeptExpectation::of(const std::shared_
              std::make_shared<const Expectation>(scene, std::move(assignment), ReturnLaw(instrument, *settings));
 }
 
-ExpectedView::~ExpectedView() { drop(); }
+// What the works hand from one to the next: the camera's rays, and the picture, which others look at meanwhile.
+class ExpectedView::Drawing {
+ public:
+  Result<Finest> draw(const ExpectedRequest& request, Progress& progress);
+  std::shared_ptr<const PixelPicture> picture(const Camera& camera) const;
+
+ private:
+  struct Seen {
+    Eigen::Vector3f position = Eigen::Vector3f::Zero(), normal = Eigen::Vector3f::Zero();
+    std::uint32_t product = 0, instance = 0, triangle = 0;
+    bool any = false;
+  };
+  // What the camera sees, a ray for each square of `step` pixels.
+  struct Raster {
+    int step = 0, width = 0, height = 0;
+    std::vector<Seen> seen;
+  };
+  static constexpr std::array<int, 3> kSteps = {6, 2, 1};
+
+  static Result<void> look(const ExpectedRequest& request, Raster& raster, const Progress& progress);
+  static Result<std::shared_ptr<const PixelPicture>> paint(const ExpectedRequest& request, const Raster& raster,
+                                                           const Progress& progress);
+
+  mutable std::mutex mutex_;
+  std::shared_ptr<const PixelPicture> picture_;
+  Camera picture_camera_;
+  // The running work's own.
+  std::optional<ExpectedRequest> looked_;  // what rasters_ were made for
+  std::array<Raster, kSteps.size()> rasters_;
+};
+
+ExpectedView::ExpectedView(std::function<void()> wake) : latest_("Expected returns", std::move(wake)) {}
 
 void ExpectedView::want(const ExpectedRequest& request) {
-  const std::lock_guard lock(mutex_);
-  if (wanted_ == request) return;
-  wanted_ = request;
-  ++revision_;
-  if (!worker_.joinable()) worker_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
-  changed_.notify_all();
+  if (latest_.wants(request)) {
+    latest_.poll();
+    return;
+  }
+  if (!drawing_) drawing_ = std::make_shared<Drawing>();
+  latest_.want(request, [request, drawing = drawing_](Progress& progress) { return drawing->draw(request, progress); });
 }
 
 void ExpectedView::drop() {
-  {
-    const std::lock_guard lock(mutex_);
-    if (!worker_.joinable()) return;
-    ++revision_;
-    wanted_.reset();
-    picture_.reset();
-  }
-  worker_.request_stop();
-  changed_.notify_all();
-  worker_.join();
-  looked_.reset();
-  rasters_ = {};
-  done_ = revision_;
-}
-
-void ExpectedView::wait() {
-  std::unique_lock lock(mutex_);
-  if (worker_.joinable()) changed_.wait(lock, [this] { return done_ == revision_; });
+  latest_.drop();
+  drawing_.reset();
 }
 
 std::shared_ptr<const PixelPicture> ExpectedView::picture(const Camera& camera) const {
+  return drawing_ ? drawing_->picture(camera) : nullptr;
+}
+
+std::shared_ptr<const PixelPicture> ExpectedView::Drawing::picture(const Camera& camera) const {
   const std::lock_guard lock(mutex_);
   return picture_ && picture_camera_ == camera ? picture_ : nullptr;
 }
 
-bool ExpectedView::superseded(std::uint64_t revision) const {
-  const std::lock_guard lock(mutex_);
-  return revision != revision_;
-}
-
-bool ExpectedView::publish(const std::shared_ptr<const PixelPicture>& picture, const ExpectedRequest& request,
-                           std::uint64_t revision) {
-  const std::lock_guard lock(mutex_);
-  if (revision != revision_) return false;
-  picture_ = picture;
-  picture_camera_ = request.view.camera;
-  return true;
-}
-
-void ExpectedView::work(const std::stop_token& stop) {
-  std::unique_lock lock(mutex_);
-  while (changed_.wait(lock, stop, [this] { return wanted_ && done_ != revision_; })) {
-    const auto request = *wanted_;
-    const auto revision = revision_;
-    lock.unlock();
-    if (!looked_ || !sameLook(*looked_, request)) rasters_ = {};
-    looked_ = request;
-    std::shared_ptr<const PixelPicture> painted;
-    for (std::size_t i = 0; i < kSteps.size(); ++i) {
-      rasters_[i].step = kSteps[i];
-      painted = look(request, revision, rasters_[i]) ? paint(request, revision, rasters_[i]) : nullptr;
-      if (!painted || !publish(painted, request, revision)) break;
-      if (wake_) wake_();
+Result<ExpectedView::Finest> ExpectedView::Drawing::draw(const ExpectedRequest& request, Progress& progress) {
+  if (!looked_ || !sameLook(*looked_, request)) rasters_ = {};
+  looked_ = request;
+  for (std::size_t i = 0; i < kSteps.size(); ++i) {
+    rasters_[i].step = kSteps[i];
+    TRY(look(request, rasters_[i], progress));
+    TRY_ASSIGN(auto painted, paint(request, rasters_[i], progress));
+    {
+      const std::lock_guard lock(mutex_);
+      picture_ = std::move(painted);
+      picture_camera_ = request.view.camera;
     }
-    lock.lock();
-    if (painted && revision == revision_) done_ = revision;
-    changed_.notify_all();
+    if (i + 1 < kSteps.size()) progress.advance(static_cast<double>(i + 1) / kSteps.size());  // the end wakes by itself
   }
+  return Finest{};
 }
 
-bool ExpectedView::look(const ExpectedRequest& request, std::uint64_t revision, Raster& raster) const {
-  if (!raster.seen.empty()) return true;
+Result<void> ExpectedView::Drawing::look(const ExpectedRequest& request, Raster& raster, const Progress& progress) {
+  if (!raster.seen.empty()) return {};
   raster.width = (request.width + raster.step - 1) / raster.step;
   raster.height = (request.height + raster.step - 1) / raster.step;
   std::vector<Seen> seen(static_cast<std::size_t>(raster.width) * static_cast<std::size_t>(raster.height));
-  std::atomic<bool> late{false};
   tbb::parallel_for(0, raster.height, [&](int y) {
-    if (late.load(std::memory_order_relaxed)) return;
-    if (superseded(revision)) late.store(true);
+    if (progress.cancelled()) return;
     for (int x = 0; x < raster.width; ++x) {
       const auto ray = rayThrough(request.view.camera, {(x + 0.5) * raster.step, (y + 0.5) * raster.step},
                                   {request.width, request.height});
@@ -180,15 +179,16 @@ bool ExpectedView::look(const ExpectedRequest& request, std::uint64_t revision, 
             hit->position.cast<float>(), hit->normal.cast<float>(), hit->product, hit->instance, hit->triangle, true};
     }
   });
-  if (late) return false;
+  TRY(progress.check());
   raster.seen = std::move(seen);
-  return true;
+  return {};
 }
 
 // A little of the camera's light, and lines where the product or the direction of the surface changes, to tell forms
 // apart.
-std::shared_ptr<const PixelPicture> ExpectedView::paint(const ExpectedRequest& request, std::uint64_t revision,
-                                                        const Raster& raster) const {
+Result<std::shared_ptr<const PixelPicture>> ExpectedView::Drawing::paint(const ExpectedRequest& request,
+                                                                         const Raster& raster,
+                                                                         const Progress& progress) {
   auto picture = std::make_shared<PixelPicture>();
   picture->width = raster.width;
   picture->height = raster.height;
@@ -198,10 +198,8 @@ std::shared_ptr<const PixelPicture> ExpectedView::paint(const ExpectedRequest& r
   const auto parted = [&](const Seen& a, const Seen& b) {
     return a.any != b.any || a.product != b.product || a.normal.dot(b.normal) < 0.87F;
   };
-  std::atomic<bool> late{false};
   tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(raster.height), [&](std::size_t y) {
-    if (late.load(std::memory_order_relaxed)) return;
-    if (superseded(revision)) late.store(true);
+    if (progress.cancelled()) return;
     for (std::size_t x = 0; x < width; ++x) {
       const Seen& seen = raster.seen[y * width + x];
       if (!seen.any) continue;
@@ -217,7 +215,8 @@ std::shared_ptr<const PixelPicture> ExpectedView::paint(const ExpectedRequest& r
       picture->rgba[y * width + x] = shaded(colour, light);
     }
   });
-  return late ? nullptr : picture;
+  TRY(progress.check());
+  return picture;
 }
 
 }  // namespace standpoint

@@ -2,17 +2,15 @@
 #pragma once
 
 #include <array>
-#include <condition_variable>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "editor/model/coverage_view.h"
 #include "editor/model/view_state.h"
+#include "project/latest_task.h"
 #include "scanners/forecast/expectation.h"
 
 namespace standpoint {
@@ -63,48 +61,19 @@ struct ExpectedRequest {
 class ExpectedView {
  public:
   // `wake` is called whenever a picture has become better.
-  explicit ExpectedView(std::function<void()> wake) : wake_(std::move(wake)) {}
-  ~ExpectedView();
-  ExpectedView(const ExpectedView&) = delete;
-  ExpectedView& operator=(const ExpectedView&) = delete;
+  explicit ExpectedView(std::function<void()> wake);
 
   void want(const ExpectedRequest& request);
   void drop();
-  void wait();  // until the finest picture of what is wanted is there
+  void wait() { latest_.wait(); }  // until the finest picture of what is wanted is there
   // The newest there is through this camera; null: none.
   std::shared_ptr<const PixelPicture> picture(const Camera& camera) const;
 
  private:
-  struct Seen {
-    Eigen::Vector3f position = Eigen::Vector3f::Zero(), normal = Eigen::Vector3f::Zero();
-    std::uint32_t product = 0, instance = 0, triangle = 0;
-    bool any = false;
-  };
-  // What the camera sees, a ray for each square of `step` pixels.
-  struct Raster {
-    int step = 0, width = 0, height = 0;
-    std::vector<Seen> seen;
-  };
-  static constexpr std::array<int, 3> kSteps = {6, 2, 1};
-
-  void work(const std::stop_token& stop);
-  bool publish(const std::shared_ptr<const PixelPicture>& picture, const ExpectedRequest& request,
-               std::uint64_t revision);
-  bool superseded(std::uint64_t revision) const;
-  bool look(const ExpectedRequest& request, std::uint64_t revision, Raster& raster) const;
-  std::shared_ptr<const PixelPicture> paint(const ExpectedRequest& request, std::uint64_t revision,
-                                            const Raster& raster) const;
-
-  std::function<void()> wake_;
-  mutable std::mutex mutex_;
-  std::condition_variable_any changed_;
-  std::optional<ExpectedRequest> wanted_;
-  std::uint64_t revision_ = 0, done_ = 0;  // of what is wanted, and of what has its finest picture
-  std::shared_ptr<const PixelPicture> picture_;
-  Camera picture_camera_;
-  std::optional<ExpectedRequest> looked_;  // what rasters_ were made for; the worker's own
-  std::array<Raster, kSteps.size()> rasters_;
-  std::jthread worker_;
+  class Drawing;
+  struct Finest {};                   // it is there
+  std::shared_ptr<Drawing> drawing_;  // null: nothing is wanted
+  LatestTask<ExpectedRequest, Finest> latest_;
 };
 
 }  // namespace standpoint

@@ -10,11 +10,10 @@ namespace {
 constexpr std::size_t kSamples =
     100;  // of surfaces: only what is seen of them hangs on these, and nobody asks for that here
 
-std::optional<ScanOutlook> workedOut(const OutlookRequest& wanted, const Instrument& instrument) {
-  auto settings = resolveSettings(instrument, wanted.asked.settings);
-  if (!settings) return std::nullopt;
+Result<ScanOutlook> workedOut(const OutlookRequest& wanted, const Instrument& instrument, Progress& progress) {
+  TRY_ASSIGN(auto settings, resolveSettings(instrument, wanted.asked.settings));
   PlanRequest request{.instrument = instrument,
-                      .settings = *std::move(settings),
+                      .settings = std::move(settings),
                       .stations = wanted.stations,
                       .channels = {},
                       .wanted = {},
@@ -24,14 +23,12 @@ std::optional<ScanOutlook> workedOut(const OutlookRequest& wanted, const Instrum
   const auto assignment = wanted.materials ? std::shared_ptr<const MaterialAssignment>(
                                                  wanted.materials, &wanted.materials->result.assignment)
                                            : std::make_shared<const MaterialAssignment>();
-  Progress progress;
-  const auto plan = planSurvey(*wanted.job, wanted.scene, assignment, request, progress);
-  if (!plan) return std::nullopt;
+  TRY_ASSIGN(const auto plan, planSurvey(*wanted.job, wanted.scene, assignment, request, progress));
   ScanOutlook outlook;
-  for (std::size_t k = 0; k < plan->forecasts.size(); ++k) {
-    outlook.points += plan->forecasts[k].points;
-    outlook.seconds += plan->forecasts[k].seconds;
-    outlook.bytes += plan->bytes[k];
+  for (std::size_t k = 0; k < plan.forecasts.size(); ++k) {
+    outlook.points += plan.forecasts[k].points;
+    outlook.seconds += plan.forecasts[k].seconds;
+    outlook.bytes += plan.bytes[k];
   }
   return outlook;
 }
@@ -39,39 +36,16 @@ std::optional<ScanOutlook> workedOut(const OutlookRequest& wanted, const Instrum
 }  // namespace
 
 void ScanOutlookView::want(const OutlookRequest& request, const Instrument& instrument) {
-  const std::lock_guard lock(mutex_);
-  if (wanted_ == request) return;
-  wanted_ = request;
-  instrument_ = instrument;
-  if (!worker_.joinable()) worker_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
-  changed_.notify_all();
+  if (latest_.wants(request)) {
+    latest_.poll();
+    return;
+  }
+  latest_.want(request, [request, instrument](Progress& progress) { return workedOut(request, instrument, progress); });
 }
 
 std::optional<ScanOutlook> ScanOutlookView::outlook() const {
-  const std::lock_guard lock(mutex_);
-  return answered_ == wanted_ ? outlook_ : std::nullopt;
-}
-
-void ScanOutlookView::wait() {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return answered_ == wanted_; });
-}
-
-void ScanOutlookView::work(const std::stop_token& stop) {
-  while (!stop.stop_requested()) {
-    std::unique_lock lock(mutex_);
-    if (!changed_.wait(lock, stop, [&] { return wanted_ != answered_; })) return;
-    const auto wanted = *wanted_;
-    const auto instrument = instrument_;
-    lock.unlock();
-    const auto outlook = workedOut(wanted, instrument);
-    lock.lock();
-    outlook_ = outlook;
-    answered_ = wanted;
-    lock.unlock();
-    changed_.notify_all();
-    if (wake_) wake_();
-  }
+  const auto* answer = latest_.answer();
+  return answer != nullptr && *answer ? std::optional(**answer) : std::nullopt;
 }
 
 }  // namespace standpoint

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <condition_variable>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
-#include <stop_token>
-#include <thread>
+#include <utility>
 #include <vector>
 
 #include "project/document.h"
+#include "project/latest_task.h"
 #include "scanners/engine/ray_engine.h"
 #include "scanners/instruments/instrument.h"
 
@@ -36,23 +34,15 @@ struct ScanOutlook {
 // Works it out in the background; of several wishes only the last counts.
 class ScanOutlookView {
  public:
-  explicit ScanOutlookView(std::function<void()> wake) : wake_(std::move(wake)) {}
+  explicit ScanOutlookView(std::function<void()> wake) : latest_("Scan outlook", std::move(wake)) {}
   // `instrument` is the one that the request names.
   void want(const OutlookRequest& request, const Instrument& instrument);
   // Of what is wanted; nothing while it is being worked out, or when the settings cannot be.
   std::optional<ScanOutlook> outlook() const;
-  void wait();  // until there is an answer to what is wanted
+  void wait() { latest_.wait(); }  // until there is an answer to what is wanted
 
  private:
-  void work(const std::stop_token& stop);
-
-  std::function<void()> wake_;
-  mutable std::mutex mutex_;
-  std::condition_variable_any changed_;
-  std::optional<OutlookRequest> wanted_, answered_;
-  Instrument instrument_;
-  std::optional<ScanOutlook> outlook_;
-  std::jthread worker_;  // last: it ends before the rest goes
+  LatestTask<OutlookRequest, ScanOutlook> latest_;
 };
 
 }  // namespace standpoint
