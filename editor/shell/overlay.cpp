@@ -28,9 +28,15 @@ ImVec2 axesCentre(const Editor& editor, ImVec2 origin, ImVec2 size) {
 }
 
 // Behind the last chip where there is room for one of this width before the view's edge, else below.
-void beside(const Editor& editor, float width_pt) {
+void beside(const Editor& editor, float width) {
   ImGui::SameLine();
-  if (ImGui::GetCursorScreenPos().x + editor.px(width_pt) > editor.overlay_end) ImGui::NewLine();
+  if (ImGui::GetCursorScreenPos().x + width > editor.overlay_end) ImGui::NewLine();
+}
+
+// Of a list's chip: as its label needs it, so that none is cut off, but not less, so that few changes of it move
+// others.
+float chipWidth(const Editor& editor, const std::string& label, float least_pt) {
+  return std::max(editor.px(least_pt), ImGui::CalcTextSize(label.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x);
 }
 
 const char* colourName(ColourMode mode) {
@@ -51,10 +57,9 @@ const char* colourName(ColourMode mode) {
 }
 
 void colourChip(Editor& editor) {
-  ImGui::SetNextItemWidth(editor.px(152));
-  if (!ImGui::BeginCombo("###colour", fmt::format("{}  {}", ICON_PAINT, colourName(editor.view.colour)).c_str(),
-                         ImGuiComboFlags_NoArrowButton))
-    return;
+  const auto label = fmt::format("{}  {}", ICON_PAINT, colourName(editor.view.colour));
+  ImGui::SetNextItemWidth(chipWidth(editor, label, 152));
+  if (!ImGui::BeginCombo("###colour", label.c_str(), ImGuiComboFlags_NoArrowButton)) return;
   for (const auto mode : {ColourMode::model, ColourMode::material, ColourMode::reflectance, ColourMode::confidence,
                           ColourMode::expected_intensity, ColourMode::expected_noise, ColourMode::expected_fate,
                           ColourMode::coverage, ColourMode::coverage_spacing, ColourMode::coverage_incidence})
@@ -68,7 +73,7 @@ void colourChip(Editor& editor) {
 // Those of the emulated scanners, and where the libraries begin.
 void wavelengthChip(Editor& editor) {
   if (editor.view.colour != ColourMode::reflectance) return;
-  beside(editor, 90);
+  beside(editor, editor.px(90));
   ImGui::SetNextItemWidth(editor.px(90));
   if (!ImGui::BeginCombo("###wavelength", fmt::format("{:.0f} nm", editor.view.wavelength_nm).c_str())) return;
   for (const double wavelength : {532.0, 660.0, 785.0, 830.0, 905.0, 1064.0, 1550.0})
@@ -88,11 +93,11 @@ const char* sideName(ModelSide side) {
 
 void sideChip(Editor& editor) {
   if (!editor.session.document().simplified || isExpected(editor.view.colour)) return;
-  beside(editor, 112);
-  ImGui::SetNextItemWidth(editor.px(112));
-  if (!ImGui::BeginCombo("###side", fmt::format("{}  {}", ICON_COMPRESS, sideName(editor.view.side)).c_str(),
-                         ImGuiComboFlags_NoArrowButton))
-    return;
+  const auto label = fmt::format("{}  {}", ICON_COMPRESS, sideName(editor.view.side));
+  const float width = chipWidth(editor, label, 112);
+  beside(editor, width);
+  ImGui::SetNextItemWidth(width);
+  if (!ImGui::BeginCombo("###side", label.c_str(), ImGuiComboFlags_NoArrowButton)) return;
   for (const auto side : {ModelSide::lighter, ModelSide::original, ModelSide::both})
     if (ImGui::Selectable(sideName(side), editor.view.side == side)) editor.view.side = side;
   ImGui::EndCombo();
@@ -111,7 +116,9 @@ void cutChip(Editor& editor) {
   const double shift = editor.shift_m().z();
   const std::string label =
       cut ? fmt::format("{}  Cut at {:.2f} m", ICON_CUT, *cut + shift) : std::string(ICON_CUT) + "  No cut";
-  ImGui::SetNextItemWidth(editor.px(116));
+  const float width = chipWidth(editor, label, 96);
+  beside(editor, width);
+  ImGui::SetNextItemWidth(width);
   if (ImGui::BeginCombo("###cut", label.c_str(), ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton)) {
     if (ImGui::Selectable("No cut", !cut)) cut.reset();
     const auto& storeys = editor.storeys();
@@ -130,7 +137,7 @@ void cutChip(Editor& editor) {
     ImGui::EndCombo();
   }
   if (!cut) return;
-  beside(editor, 90);
+  beside(editor, editor.px(90));
   auto height = static_cast<float>(*cut + shift);
   ImGui::SetNextItemWidth(editor.px(90));
   if (ImGui::DragFloat("###cut-height", &height, 0.02F, 0, 0, "%.2f m")) cut = height - shift;
@@ -147,13 +154,13 @@ void toggle(Editor& editor, const char* icon, const char* id, bool lit) {
 // What is shown instead of the model, and the way back.
 void cloudChip(Editor& editor) {
   if (editor.readingCloud()) {
-    beside(editor, 120);
+    beside(editor, editor.px(120));
     ImGui::TextUnformatted("Reading the scan …");
     return;
   }
   if (!editor.cloud()) return;
   const auto& cloud = *editor.cloud();
-  beside(editor, 150);
+  beside(editor, editor.px(150));
   if (ImGui::Button(fmt::format("{}  Return to model###cloud", ICON_CUBE).c_str())) {
     editor.showCloud({});
     return;
@@ -162,7 +169,7 @@ void cloudChip(Editor& editor) {
   ui::tooltip(fmt::format("{}: {} of {} points shown", name, groupedDigits(cloud.colours.size()),
                           groupedDigits(cloud.points_in_file)));
   if (!editor.showsLiveScan()) return;
-  beside(editor, 180);
+  beside(editor, editor.px(180));
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(
       fmt::format("{:.1f} million points loaded", static_cast<double>(cloud.points_in_file) / 1e6).c_str());
@@ -305,10 +312,9 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   colourChip(editor);
   wavelengthChip(editor);
   sideChip(editor);
-  beside(editor, 116);
   cutChip(editor);
   cloudChip(editor);
-  beside(editor, 5 * 32);  // they stay together
+  beside(editor, editor.px(5 * 32));  // they stay together
   toggle(editor, ICON_CUBE, "edges", editor.view.edges);
   toggle(editor, ICON_GRID, "grid", editor.view.grid);
   toggle(editor, ICON_WALK, "walkable", editor.view.walkable);
