@@ -182,7 +182,7 @@ void compare(Case c) {
   const auto two = by("own", 2);
   print("own, two threads", two, two);
   print("own, one thread", by("own", 1), two);
-  for (const char* engine : engineChoices())
+  for (const char* engine : engineIds())
     if (std::strcmp(engine, "own") != 0) print(engine, by(engine, 2), two);
   print("meshoptimizer alone", run(c, [&](const Environment& e) { return meshoptimizer(flattened(e), c.budget); }),
         two);

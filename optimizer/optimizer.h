@@ -32,12 +32,18 @@ struct OptimizeOptions {
   std::vector<std::uint64_t> further_budgets;    // of the shares 1, 2, …
   bool hidden_faces =
       false;  // take away triangles that cannot be seen from anywhere (visibility.h); listed in the report
-  std::string engine = "auto";  // which makes the simpler shapes: one of engineChoices()
+  std::string engine = "auto";  // which makes the simpler shapes: one of engineIds()
 };
 
-// An engine's id; `best`, for each shape the one whose measured deviation is least; `auto`, ours, and `best` for shapes
-// for which ours is known to lose.
-std::vector<const char*> engineChoices();
+// An engine; `best`, for each shape the one whose measured deviation is least; `auto`, ours, and `best` for shapes for
+// which ours is known to lose.
+struct EngineChoice {
+  const char* id;     // as options spell it
+  const char* title;  // as screens spell it
+  const char* help;   // what it is good for
+};
+std::vector<EngineChoice> engineChoices();
+std::vector<const char*> engineIds();  // of these choices
 
 struct ProductLoss {
   std::uint64_t triangles_before = 0, triangles_after = 0;

@@ -28,7 +28,7 @@ struct SimplificationRequest {
   std::filesystem::path lod_rules;               // file, or "default"; empty: all products alike
   std::vector<std::string> surroundings;         // selectors
   bool by_view = false;                          // errors weigh by what is seen from the walkable surface
-  std::string engine = "auto";                   // one of engineChoices()
+  std::string engine = "auto";                   // one of engineIds()
   bool operator==(const SimplificationRequest&) const = default;
 };
 

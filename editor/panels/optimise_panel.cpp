@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <string_view>
+#include <string>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -147,36 +146,18 @@ void drawPreview(const Model& model, const OptimiseState& state, Actions& action
     ui::dimText(fmt::format("{} triangles in view", groupedDigits(preview.triangles)));
 }
 
-struct EngineTitle {
-  std::string_view id;
-  const char* title;
-  const char* help;
-};
-constexpr EngineTitle kEngineTitles[] = {
-    {"auto", "Automatic", "Our engine; the best of several for large shapes of many parts"},
-    {"own", "Standpoint", "Quadrics, refined by Lindstrom and Turk's cost"},
-    {"cgal-lt", "CGAL Lindstrom–Turk", "Keeps volume and borders; several times slower"},
-    {"cgal-gh", "CGAL Garland–Heckbert", "Small maximum, larger mean deviation; several times slower"},
-    {"openmesh", "OpenMesh", "Quadrics on half-edges; several times slower"},
-    {"best", "Best of all", "For each shape the form with the least measured deviation; about ten times slower"}};
-
-// An engine without a title is listed by its id.
-EngineTitle titleOf(std::string_view id) {
-  const auto found = std::find_if(std::begin(kEngineTitles), std::end(kEngineTitles),
-                                  [&](const EngineTitle& row) { return row.id == id; });
-  return found != std::end(kEngineTitles) ? *found : EngineTitle{id, id.data(), ""};
-}
-
 void chooseEngine(std::string& engine) {
-  const bool open = ImGui::BeginCombo("###engine", titleOf(engine).title);
+  const auto choices = engineChoices();
+  const auto chosen =
+      std::find_if(choices.begin(), choices.end(), [&](const EngineChoice& choice) { return choice.id == engine; });
+  const bool open = ImGui::BeginCombo("###engine", chosen->title);
   if (!open) {
-    ui::tooltip(titleOf(engine).help);
+    ui::tooltip(chosen->help);
     return;
   }
-  for (const char* id : engineChoices()) {
-    const auto row = titleOf(id);
-    if (ImGui::Selectable(row.title, engine == id)) engine = id;
-    ui::tooltip(row.help);
+  for (const auto& choice : choices) {
+    if (ImGui::Selectable(choice.title, engine == choice.id)) engine = choice.id;
+    ui::tooltip(choice.help);
   }
   ImGui::EndCombo();
 }

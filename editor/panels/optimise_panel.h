@@ -3,15 +3,17 @@
 
 #include <string>
 
+#include "project/document.h"
+
 namespace standpoint {
 
 struct OptimiseState {
   double budget_fraction = 0.25;  // of the imported model's triangles
   bool only_lossless = false;
-  double max_deviation_mm = 15;
-  bool by_view = false;         // what walkers see weighs more
-  bool live = false;            // the view follows the sliders
-  std::string engine = "auto";  // one of engineChoices()
+  double max_deviation_mm = SimplificationRequest().max_deviation_m * 1000;
+  bool by_view = false;  // what walkers see weighs more
+  bool live = false;     // the view follows the sliders
+  std::string engine = SimplificationRequest().engine;
 };
 
 }  // namespace standpoint

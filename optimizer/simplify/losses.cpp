@@ -158,7 +158,7 @@ void reportEngines(const Environment& before, const std::vector<MeshJob>& jobs, 
   for (const auto& engine : engines().subspan(options.engine == kAutoEngine ? 1 : 0)) {
     const auto& [shapes, products] = made[engine.id];
     if (!shapes.empty())
-      result.report.note("engine", fmt::format("{}: {} {} of {}", engine.title, shapes.size(),
+      result.report.note("engine", fmt::format("{}: {} {} of {}", engine.description, shapes.size(),
                                                shapes.size() == 1 ? "shape" : "shapes", listed(products)));
   }
   if (!refused.empty())

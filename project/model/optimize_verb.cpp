@@ -103,7 +103,7 @@ const Fields<SimplificationRequest>& optimizeFields() {
        &O::engine,
        "simplification engine; `best`: for each shape the one that deviates least; `auto`: `own`, and `best` for large "
        "shapes of many parts",
-       {.choices = engineChoices()}}};
+       {.choices = engineIds()}}};
   return fields;
 }
 

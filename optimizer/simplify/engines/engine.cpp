@@ -7,10 +7,14 @@ namespace standpoint {
 
 std::span<const Engine> engines() {
   static constexpr std::array kEngines = {
-      Engine{"own", "own quadrics, refined by Lindstrom and Turk", simplifyByOwn},
-      Engine{"cgal-lt", "CGAL, Lindstrom and Turk", simplifyByLindstromTurk},
-      Engine{"cgal-gh", "CGAL, Garland and Heckbert", simplifyByGarlandHeckbert},
-      Engine{"openmesh", "OpenMesh, quadrics", simplifyByOpenMesh},
+      Engine{"own", "Standpoint", "own quadrics, refined by Lindstrom and Turk",
+             "Quadrics, refined by Lindstrom and Turk's cost", simplifyByOwn},
+      Engine{"cgal-lt", "CGAL Lindstrom–Turk", "CGAL, Lindstrom and Turk",
+             "Keeps volume and borders; several times slower", simplifyByLindstromTurk},
+      Engine{"cgal-gh", "CGAL Garland–Heckbert", "CGAL, Garland and Heckbert",
+             "Small maximum, larger mean deviation; several times slower", simplifyByGarlandHeckbert},
+      Engine{"openmesh", "OpenMesh", "OpenMesh, quadrics", "Quadrics on half-edges; several times slower",
+             simplifyByOpenMesh},
   };
   return kEngines;
 }

@@ -29,8 +29,10 @@ struct EngineTarget {
 // edges of three triangles are held. Nothing depends on the number of threads. Errors: unusable with the reason where
 // the engine cannot simplify this shape, cancelled.
 struct Engine {
-  std::string_view id;     // as options spell it
-  std::string_view title;  // as reports spell it
+  std::string_view id;      // as options spell it
+  const char* title;        // as screens spell it
+  const char* description;  // as reports spell it
+  const char* help;         // what it is good for
   Result<std::vector<Collapse>> (*simplify)(const Shape& shape, const EngineTarget& target, const Progress& progress);
 };
 

@@ -26,7 +26,8 @@ Result<std::vector<Collapse>> simplifyByOwn(const Shape& shape, const EngineTarg
   if (trianglesAfter(shape, log) > target.triangles)
     return failure(ErrorKind::unusable, "the allowed deviation ends the simplification before the target");
   static constexpr Engine kRefining{
-      "", "", [](const Shape& form, const EngineTarget& end, const Progress& p) -> Result<std::vector<Collapse>> {
+      "", "", "", "",
+      [](const Shape& form, const EngineTarget& end, const Progress& p) -> Result<std::vector<Collapse>> {
         return refined(form, end.triangles, p, end.stays);
       }};
   TRY_ASSIGN(auto finer, simplifyFurther(kRefining, shape, log, stepsDownTo(shape, log, kRefineAt * target.triangles),
