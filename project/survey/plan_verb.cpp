@@ -99,15 +99,12 @@ std::string textOf(const SurveyPlan& plan, const PlanAnswer& answer) {
   return text;
 }
 
-Result<PlanRequest> requestFrom(const Document& document, const PlanOptions& options) {
+Result<PlanRequest> planRequestFrom(const Document& document, const PlanOptions& options) {
   PlanRequest request;
-  TRY_ASSIGN(auto instrument, instrumentById(options.instrument));
-  request.instrument = std::move(instrument);
-  TRY_ASSIGN(auto settings, resolveSettings(request.instrument, options.settings));
-  request.settings = std::move(settings);
+  TRY_ASSIGN(request.instrument, instrumentById(options.instrument));
+  TRY_ASSIGN(request.settings, resolveSettings(request.instrument, options.settings));
   if (!document.job->stations.empty()) {
-    TRY_ASSIGN(auto stations, stationsFrom(*document.job, options.stations));
-    request.stations = std::move(stations);
+    TRY_ASSIGN(request.stations, stationsFrom(*document.job, options.stations));
   }
   if (options.spacing_m) request.wanted.max_spacing_m = *options.spacing_m;
   if (options.max_incidence_deg) request.wanted.max_incidence_rad = *options.max_incidence_deg * kRadPerDeg;
@@ -229,7 +226,7 @@ const AnswerFields<PlanAnswer>& answerFields(const PlanAnswer* answer) {
 }
 
 Result<Answered<PlanAnswer>> runPlan(const Document& document, const PlanOptions& options, Progress& progress) {
-  TRY_ASSIGN(auto request, requestFrom(document, options));
+  TRY_ASSIGN(auto request, planRequestFrom(document, options));
   Answered<PlanAnswer> outcome{document};
   noteDefaultRules(document, outcome.report);
   TRY_ASSIGN(auto assignment, scanAssignment(document, progress));

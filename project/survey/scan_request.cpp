@@ -232,10 +232,8 @@ const Fields<ScanVerbOptions>& scanFields() {
 
 Result<ScanRequest> scanRequestFrom(const Document& document, const ScanVerbOptions& options) {
   ScanRequest request;
-  TRY_ASSIGN(auto instrument, instrumentById(options.instrument));
-  request.instrument = std::move(instrument);
-  TRY_ASSIGN(auto settings, resolveSettings(request.instrument, options.settings));
-  request.settings = std::move(settings);
+  TRY_ASSIGN(request.instrument, instrumentById(options.instrument));
+  TRY_ASSIGN(request.settings, resolveSettings(request.instrument, options.settings));
   request.instrument.camera = request.settings.camera;
   if (const auto most = chosenEffect(request.instrument, request.settings.values, "most_returns"))
     request.instrument.waveform.max_returns = static_cast<int>(*most);
