@@ -16,6 +16,7 @@
 #include "editor/viewport/offscreen.h"
 #include "editor/viewport/window.h"
 #include "pointclouds/formats.h"
+#include "project/model/import_verb.h"
 
 namespace {
 
@@ -85,7 +86,7 @@ int fail(const Error& error) {
 // One folder is a project; files are models that make one environment, and clouds that lie under it. Who names them on
 // the command line has chosen already: there is no preview.
 void openAll(Editor& editor, const std::vector<std::string>& paths) {
-  std::vector<std::string> models;
+  std::vector<std::filesystem::path> models;
   for (const auto& path : paths) {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored) || std::filesystem::path(path).filename() == "project.json") {
@@ -98,9 +99,8 @@ void openAll(Editor& editor, const std::vector<std::string>& paths) {
       models.push_back(path);
   }
   if (models.empty()) return;
-  const auto title =
-      models.size() == 1 ? "Import " + std::filesystem::path(models.front()).filename().string() : "Import models";
-  if (editor.session.start("import", {{"files", models}}, title) && models.size() == 1)
+  const auto title = models.size() == 1 ? "Import " + models.front().filename().string() : "Import models";
+  if (editor.session.start(ImportVerbOptions{{.files = models}}, title) && models.size() == 1)
     editor.settings.remember(models.front());
 }
 

@@ -7,6 +7,8 @@
 #include <thread>
 
 #include "editor/shell/actions.h"
+#include "project/materials/materials_verb.h"
+#include "project/materials/verification.h"
 
 namespace standpoint {
 
@@ -74,7 +76,7 @@ void materials(Editor& editor) {
   editor.workspace = Workspace::materials;
   editor.wanted_tab[1] = "material";
   if (!editor.session.document().materials) {
-    editor.session.start("materials", nlohmann::json::object());
+    editor.session.start(MaterialsOptions{});
     editor.session.wait();
   }
   editor.view.colour = ColourMode::material;
@@ -87,7 +89,7 @@ void measured(Editor& editor) {
   materials(editor);
   editor.wanted_tab[1] = "verify";
   if (!editor.session.document().verification && !editor.session.document().underlays.empty()) {
-    editor.session.start("verify", {{"underlay", editor.session.document().underlays.front()->name}});
+    editor.session.start(VerifyOptions{.underlay = editor.session.document().underlays.front()->name});
     editor.session.wait();
     editor.update();
   }
@@ -116,9 +118,8 @@ void deviation(Editor& editor) {
   editor.workspace = Workspace::model;
   editor.wanted_tab[1] = "optimise";
   if (!editor.session.document().simplified) {
-    editor.session.start(
-        "optimize",
-        {{"budget", std::max<std::uint64_t>(1, sceneTriangleCount(*editor.session.document().imported) / 4)}});
+    editor.session.start(SimplificationRequest{
+        .budget = std::max<std::uint64_t>(1, sceneTriangleCount(*editor.session.document().imported) / 4)});
     editor.session.wait();
     editor.update();
   }

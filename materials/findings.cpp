@@ -96,9 +96,15 @@ void putInOrder(std::vector<MaterialFinding>& findings) {
   });
 }
 
+std::vector<MaterialOverride> overridesBy(const Remedy& remedy, const std::string& material) {
+  std::vector<MaterialOverride> overrides{{remedy.selector, material}};
+  for (const auto& selector : remedy.more) overrides.push_back({selector, material});
+  return overrides;
+}
+
 std::vector<std::string> assignWords(const Remedy& remedy, const std::string& material) {
-  std::vector<std::string> words{remedy.selector + "=" + material};
-  for (const auto& selector : remedy.more) words.push_back(selector + "=" + material);
+  std::vector<std::string> words;
+  for (const auto& o : overridesBy(remedy, material)) words.push_back(o.selector + "=" + o.material);
   return words;
 }
 

@@ -117,7 +117,8 @@ struct Remedy {
   std::string material;
   std::vector<std::string> more = {};  // selectors that it goes for as well
 };
-// What the verb `materials` takes as `assign` to follow it with that material.
+// That follow it with that material, and as the verb `materials` takes them as `assign`.
+std::vector<MaterialOverride> overridesBy(const Remedy& remedy, const std::string& material);
 std::vector<std::string> assignWords(const Remedy& remedy, const std::string& material);
 
 struct MaterialFinding {

@@ -5,6 +5,7 @@
 // the verb maps its members to the names, units and limits of command line, job files, `--json` and forms. JSON becomes
 // the struct in one place, `optionsFrom`.
 
+#include <any>
 #include <concepts>
 #include <cstdint>
 #include <filesystem>
@@ -246,6 +247,10 @@ template <class O, class Run>
 Verb verbOf(const char* name, const char* summary, VerbScope scope, const Fields<O>& fields, Run run) {
   Verb verb{name, summary, scope, {}, {}};
   for (const auto& field : fields) verb.parameters.push_back(field.parameter);
+  verb.options_type = typeid(O);
+  verb.job_options = [&fields](const std::any& options) {
+    return jobOptions(fields, std::any_cast<const O&>(options));
+  };
   verb.run = [&fields, run](const Document& document, const nlohmann::json& checked,
                             Progress& progress) -> Result<Outcome> {
     TRY_ASSIGN(const auto options, optionsFrom(fields, checked));

@@ -116,4 +116,10 @@ const Verb* findVerb(std::span<const Verb> table, std::string_view wanted) {
   return found == table.end() ? nullptr : &*found;
 }
 
+const Verb* findVerb(std::span<const Verb> table, std::type_index options_type) {
+  const auto found =
+      std::find_if(table.begin(), table.end(), [&](const Verb& v) { return v.options_type == options_type; });
+  return found == table.end() ? nullptr : &*found;
+}
+
 }  // namespace standpoint

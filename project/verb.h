@@ -7,6 +7,9 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <typeindex>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -75,11 +78,28 @@ struct Verb {
   std::vector<Parameter> parameters;  // without the project itself
   std::function<Result<Outcome>(const Document&, const nlohmann::json& options, Progress&)> run;
   std::vector<std::string> answer_names = {};  // keys of its answer; with '/' those of the rows below a key
+  // The struct of its options, and what a job file would say for one; of a verb that is typed.
+  std::type_index options_type = typeid(void);
+  std::function<nlohmann::json(const std::any& options)> job_options = {};
+};
+
+// The options of a verb as code gives them; their type says which verb is meant: start(StationOptions{.add = "S1"}).
+class VerbOptions {
+ public:
+  template <class O>
+  requires(std::is_class_v<O>&& std::is_aggregate_v<O>) VerbOptions(O options) : options_(std::move(options)) {}
+
+  std::type_index type() const { return options_.type(); }
+  const std::any& held() const { return options_; }
+
+ private:
+  std::any options_;
 };
 
 // The tables of verbs: this one and emulated-ui's; the doors join them.
 std::span<const Verb> verbs();
 const Verb* findVerb(std::span<const Verb> table, std::string_view name);
+const Verb* findVerb(std::span<const Verb> table, std::type_index options_type);
 
 // What an option may be, in words: "a number in m, at least 0", "one of open, closed".
 std::string domainOf(const Parameter& parameter);

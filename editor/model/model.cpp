@@ -6,6 +6,7 @@
 
 #include "project/model/product_match.h"
 #include "project/model/treatments.h"
+#include "project/survey/underlays.h"
 #include "survey/registration/underlay_placing.h"
 
 namespace standpoint {
@@ -51,16 +52,14 @@ void Model::showCloud(const std::filesystem::path& file) {
   if (!file.empty()) cloud_loader_.start(file, shift_m(), wake);
 }
 
-bool Model::startScan(nlohmann::json options, std::string title) {
+bool Model::startScan(const ScanVerbOptions& options, std::string title) {
   auto live = std::make_shared<LiveCloud>(shift_m(), wake);
   const ScanSurroundings company{scan_readiness.at_hand(), live};
-  const auto work = [company](const Document& document, const nlohmann::json& filled,
-                              Progress& progress) -> Result<Outcome> {
-    TRY_ASSIGN(const auto typed, optionsFrom(scanFields(), filled));
-    TRY_ASSIGN(auto answered, runScan(document, typed, company, progress));
+  const auto work = [options, company](const Document& document, Progress& progress) -> Result<Outcome> {
+    TRY_ASSIGN(auto answered, runScan(document, options, company, progress));
     return outcomeOf(std::move(answered));
   };
-  if (!session.start("scan", std::move(options), std::move(title), work)) return false;
+  if (!session.start(options, std::move(title), work)) return false;
   live_ = std::move(live);
   live_task_ = session.running().back().get();
   cloud_ =
@@ -147,7 +146,7 @@ void Model::startWaitingCloud() {
   if (!session.whyNot("underlay").empty()) return;
   const auto file = waiting_clouds.front();
   waiting_clouds.pop_front();
-  session.start("underlay", {{"add", file.string()}}, "Lay " + file.filename().string() + " under the model");
+  session.start(UnderlayOptions{.add = file}, "Lay " + file.filename().string() + " under the model");
 }
 
 bool Model::followModel(const Environment& before, const Environment& after) {

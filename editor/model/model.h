@@ -155,7 +155,7 @@ struct Model : Style {
   void showCloud(const std::filesystem::path& file);
   const std::shared_ptr<const Cloud>& cloud() const { return cloud_; }
   // Starts the verb `scan`; its points are shown instead of the model as they come.
-  bool startScan(nlohmann::json options, std::string title);
+  bool startScan(const ScanVerbOptions& options, std::string title);
   bool showsLiveScan() const { return live_ != nullptr; }
   bool readingCloud() const { return cloud_loader_.busy(); }
   Bounds visibleBounds() const;

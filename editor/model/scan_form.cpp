@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "project/survey/scan_request.h"
-
 namespace standpoint {
 
 namespace {
@@ -17,8 +15,6 @@ std::string joined(std::string a, const std::string& b, const char* gap) {
 }
 
 }  // namespace
-
-nlohmann::json scanOptions(const ScanChoice& asked) { return jobOptions(scanFields(), optionsOf(asked)); }
 
 void chooseInstrument(ScanChoice& asked, const Instrument& instrument) {
   asked.instrument = instrument.id;

@@ -3,15 +3,10 @@
 
 #include <string>
 
-#include <nlohmann/json.hpp>
-
 #include "project/document.h"
 #include "scanners/instruments/instrument.h"
 
 namespace standpoint {
-
-// The options of the verb `scan` that ask for this, without stations and output.
-nlohmann::json scanOptions(const ScanChoice& asked);
 
 // Another instrument with its own settings; what is not the instrument's stays.
 void chooseInstrument(ScanChoice& asked, const Instrument& instrument);

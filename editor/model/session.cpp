@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "project/fields.h"
 #include "project/model/import_verb.h"
 #include "project/storage/project_files.h"
 
@@ -17,35 +18,74 @@ namespace {
 using nlohmann::json;
 constexpr std::size_t kRememberedTasks = 200;
 
-std::filesystem::path folderOf(const json& options) { return options.at("folder").get<std::string>(); }
-
-Result<Outcome> runSave(const Document& document, const json& options, Progress& progress) {
-  TRY(saveProject(document, folderOf(options), progress));
-  Outcome outcome;
-  outcome.document = document;
-  outcome.description = fmt::format("Saved {}", folderOf(options).string());
-  return outcome;
-}
-
-Result<Outcome> runOpen(const Document&, const json& options, Progress& progress) {
-  TRY_ASSIGN(auto document, loadProject(folderOf(options), progress));
-  Outcome outcome;
-  outcome.document = std::move(document);
-  outcome.description = fmt::format("Opened {}", folderOf(options).string());
-  return outcome;
-}
-
 // Saving, opening and keeping a recovery copy run as tasks like every verb; only the editor has a use for them.
+struct SaveOptions {
+  std::filesystem::path folder;
+};
+struct SaveRecoveryOptions {
+  std::filesystem::path folder;
+};
+struct OpenOptions {
+  std::filesystem::path folder;
+};
+struct OpenRecoveryOptions {
+  std::filesystem::path folder;
+  std::string name, saved_in;  // of the project that it is a copy of
+};
+struct ProjectAnswer {
+  std::filesystem::path folder;  // that was read or written
+  std::string name, saved_in;    // of a recovery copy
+};
+const AnswerFields<ProjectAnswer>& answerFields(const ProjectAnswer*) {
+  using A = ProjectAnswer;
+  static const AnswerFields<A> fields = {{"folder", &A::folder}, {"name", &A::name}, {"saved_in", &A::saved_in}};
+  return fields;
+}
+
+template <class O>
+Field<O> folderField() {
+  return {"folder", &O::folder, "Project folder", {.positional = true, .required = true}};
+}
+template <class O>
+const Fields<O>& folderFields() {
+  static const Fields<O> fields = {folderField<O>()};
+  return fields;
+}
+const Fields<OpenRecoveryOptions>& openRecoveryFields() {
+  using O = OpenRecoveryOptions;
+  static const Fields<O> fields = {folderField<O>(),
+                                   {"name", &O::name, "Project name"},
+                                   {"saved-in", &O::saved_in, "Folder of the original project"}};
+  return fields;
+}
+
+template <class O>
+Result<Answered<ProjectAnswer>> runSave(const Document& document, const O& options, Progress& progress) {
+  TRY(saveProject(document, options.folder, progress));
+  return Answered<ProjectAnswer>{
+      document, {options.folder, {}, {}}, {}, fmt::format("Saved {}", options.folder.string())};
+}
+
+Result<Answered<ProjectAnswer>> opened(ProjectAnswer answer, Progress& progress) {
+  TRY_ASSIGN(auto document, loadProject(answer.folder, progress));
+  auto description = fmt::format("Opened {}", answer.folder.string());
+  return Answered<ProjectAnswer>{std::move(document), std::move(answer), {}, std::move(description)};
+}
+Result<Answered<ProjectAnswer>> runOpen(const Document&, const OpenOptions& options, Progress& progress) {
+  return opened({options.folder, {}, {}}, progress);
+}
+Result<Answered<ProjectAnswer>> runOpenRecovery(const Document&, const OpenRecoveryOptions& options,
+                                                Progress& progress) {
+  return opened({options.folder, options.name, options.saved_in}, progress);
+}
+
 std::vector<Verb> fileVerbs() {
-  const std::vector<Parameter> folder = {
-      {.name = "folder", .kind = ParameterKind::path, .help = "Project folder", .positional = true, .required = true}};
-  auto with_owner = folder;
-  with_owner.push_back({.name = "name", .kind = ParameterKind::text, .help = "Project name"});
-  with_owner.push_back({.name = "saved-in", .kind = ParameterKind::text, .help = "Folder of the original project"});
-  return {{"save-project", "Save the project", VerbScope::reads, folder, runSave},
-          {"save-recovery", "Save recovery copy", VerbScope::reads, folder, runSave},
-          {"open-project", "Open a project", VerbScope::creates, folder, runOpen},
-          {"open-recovery", "Open a recovery copy", VerbScope::creates, with_owner, runOpen}};
+  using S = VerbScope;
+  return {verbOf("save-project", "Save the project", S::reads, folderFields<SaveOptions>(), runSave<SaveOptions>),
+          verbOf("save-recovery", "Save recovery copy", S::reads, folderFields<SaveRecoveryOptions>(),
+                 runSave<SaveRecoveryOptions>),
+          verbOf("open-project", "Open a project", S::creates, folderFields<OpenOptions>(), runOpen),
+          verbOf("open-recovery", "Open a recovery copy", S::creates, openRecoveryFields(), runOpenRecovery)};
 }
 
 bool writesDocument(const Verb& verb) { return verb.scope == VerbScope::creates || verb.scope == VerbScope::changes; }
@@ -114,33 +154,35 @@ bool Session::start(std::string_view name, json options, std::string title) {
   return true;
 }
 
-bool Session::start(std::string_view name, json options, std::string title, Work work) {
-  if (!whyNot(name).empty()) return false;
-  const Verb& wanted = *verb(name);
-  auto checked = [&wanted, snapshot = document(), options,
-                  work = std::move(work)](Progress& progress) -> Result<Outcome> {
-    TRY_ASSIGN(auto filled, checkOptions(wanted, options));
-    return work(snapshot, filled, progress);
+bool Session::start(const VerbOptions& options, std::string title) {
+  const Verb* wanted = findVerb(verbs_, options.type());
+  return wanted != nullptr && start(wanted->name, wanted->job_options(options.held()), std::move(title));
+}
+
+bool Session::start(const VerbOptions& options, std::string title, Work work) {
+  const Verb* wanted = findVerb(verbs_, options.type());
+  if (wanted == nullptr || !whyNot(wanted->name).empty()) return false;
+  auto job = wanted->job_options(options.held());
+  auto checked = [wanted, snapshot = document(), job, work = std::move(work)](Progress& progress) -> Result<Outcome> {
+    TRY(checkOptions(*wanted, job));
+    return work(snapshot, progress);
   };
-  launch(wanted, std::move(options), std::move(title), std::move(checked));
+  launch(*wanted, std::move(job), std::move(title), std::move(checked));
   return true;
 }
 
 bool Session::save(const std::filesystem::path& folder) {
-  return start("save-project", {{"folder", folder.string()}}, "Save " + folder.filename().string());
+  return start(SaveOptions{folder}, "Save " + folder.filename().string());
 }
 
 bool Session::open(const std::filesystem::path& folder) {
-  return start("open-project", {{"folder", folder.string()}}, "Open " + folder.filename().string());
+  return start(OpenOptions{folder}, "Open " + folder.filename().string());
 }
 
-bool Session::saveRecovery(const std::filesystem::path& folder) {
-  return start("save-recovery", {{"folder", folder.string()}});
-}
+bool Session::saveRecovery(const std::filesystem::path& folder) { return start(SaveRecoveryOptions{folder}); }
 
 bool Session::recover(const RecoveryCopy& copy) {
-  return start("open-recovery", {{"folder", copy.project.string()}, {"name", copy.name}, {"saved-in", copy.saved_in}},
-               "Recover " + copy.name);
+  return start(OpenRecoveryOptions{copy.project, copy.name, copy.saved_in}, "Recover " + copy.name);
 }
 
 void Session::clear() {
@@ -230,19 +272,20 @@ void Session::succeed(VerbTask& task, Outcome outcome) {
       {task.title(), task.verb().name, true, false, text, timeOfDay(), task.seconds(), std::move(outcome.typed)});
   for (const auto& issue : outcome.report.issues) say(levelOf(issue.severity), issue.source, issue.message);
   say(LogLevel::done, "", text);
+  const auto* project = answerAs<ProjectAnswer>(finished_.front().answer);
   if (verb_name == "save-project") {
-    folder_ = folderOf(task.options());
+    folder_ = project->folder;
     history_.markSaved();
   } else if (verb_name == "open-project") {
     history_ = History(std::move(outcome.document), text);
-    folder_ = folderOf(task.options());
+    folder_ = project->folder;
     ++revision_;
   } else if (verb_name == "open-recovery") {
-    history_ = History();  // an empty saved value below it: what was recovered counts as unsaved
-    outcome.document.name = task.options().at("name").get<std::string>();  // it was loaded as the copy's folder
+    history_ = History();                   // an empty saved value below it: what was recovered counts as unsaved
+    outcome.document.name = project->name;  // it was loaded as the copy's folder
     history_.push(std::move(outcome.document), text);
-    folder_ = task.options().at("saved-in").get<std::string>();
-    removeRecovery(folderOf(task.options()).parent_path());
+    folder_ = project->saved_in;
+    removeRecovery(project->folder.parent_path());
     ++revision_;
   } else if (writesDocument(task.verb())) {
     if (begins_project) folder_.clear();

@@ -75,11 +75,14 @@ class Session {
   std::string whyNotSave() const;
   std::string whyNotAdopt() const;
 
-  // Starts a verb; false when whyNot() says why not. `title` is what the list of tasks shows.
+  // Starts the verb that these are options of; false when whyNot() says why not. `title` is what the list of tasks
+  // shows.
+  bool start(const VerbOptions& options, std::string title = {});
+  // The same with work of its own, once the options have been checked.
+  using Work = std::function<Result<Outcome>(const Document&, Progress&)>;
+  bool start(const VerbOptions& options, std::string title, Work work);
+  // By name, as a form has filled them in.
   bool start(std::string_view verb, nlohmann::json options, std::string title = {});
-  // The same with work of its own, which gets the options checked and filled up.
-  using Work = std::function<Result<Outcome>(const Document&, const nlohmann::json& options, Progress&)>;
-  bool start(std::string_view verb, nlohmann::json options, std::string title, Work work);
   bool save(const std::filesystem::path& folder);
   bool open(const std::filesystem::path& folder);
   bool saveRecovery(const std::filesystem::path& folder);

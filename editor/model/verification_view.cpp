@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "project/materials/materials_verb.h"
+
 namespace standpoint {
 
 namespace {
@@ -40,7 +42,7 @@ VerifiedProposal proposalFrom(const json& row, const std::map<std::string, std::
   p.alike = row.at("alike").get<std::vector<std::string>>();
   p.whole_material = row.at("whole_material");
   p.evidence = row.at("evidence");
-  p.assign = row.at("assign");
+  if (auto assign = FieldValue<std::vector<MaterialOverride>>::read(row.at("assign"))) p.assign = *std::move(assign);
   return p;
 }
 

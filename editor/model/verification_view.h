@@ -23,7 +23,7 @@ struct VerifiedProposal {
   std::vector<std::string> alike;      // ids that explain it as well
   bool whole_material = false;
   std::string evidence;
-  nlohmann::json assign;  // for the verb `materials`
+  std::vector<MaterialOverride> assign;  // to follow it
   std::vector<std::uint32_t> products;
 };
 struct VerificationView {

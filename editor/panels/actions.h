@@ -5,14 +5,12 @@
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 #include "editor/model/dialog_states.h"
 #include "editor/model/import_preview.h"
 #include "editor/model/model.h"
+#include "project/survey/survey_verbs.h"
 
 namespace standpoint {
 
@@ -23,8 +21,8 @@ class Actions {
   virtual ~Actions() = default;
 
   // The document. False when Session::whyNot() says why not.
-  virtual bool start(std::string_view verb, nlohmann::json options, std::string title) = 0;
-  virtual bool startScan(nlohmann::json options, std::string title) = 0;  // its points are shown as they come
+  virtual bool start(const VerbOptions& options, std::string title) = 0;
+  virtual bool startScan(const ScanVerbOptions& options, std::string title) = 0;  // its points are shown as they come
   virtual void report(std::string title, Error error) = 0;
   virtual void clearLog() = 0;
 
@@ -72,7 +70,7 @@ class Actions {
   using WhenChosen = std::function<void(Actions& later, const std::filesystem::path& chosen)>;
   virtual void run(const char* command) = 0;       // of those that menus and keys have
   virtual void menuItem(const char* command) = 0;  // in an open menu
-  virtual void openForm(const char* verb, const nlohmann::json& filled) = 0;
+  virtual void openForm(const VerbOptions& filled) = 0;
   virtual void askForFile(FileDialogState::Purpose purpose, std::string title, std::string accept,
                           std::vector<std::string> extensions, std::string name, WhenChosen done) = 0;
   virtual bool drawInstrument() = 0;  // the emulated device; false: this build has none

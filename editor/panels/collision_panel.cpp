@@ -10,14 +10,15 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "project/model/model_verbs.h"
 
 namespace standpoint {
 
 namespace {
 
 struct CollisionState {
-  int doors = 0;                 // 0 open, 1 closed, 2 one by one
-  std::set<std::string> closed;  // ids of the doors that stand closed, one by one
+  DoorState doors = DoorState::open;
+  std::set<std::string> closed;  // ids of the doors that stand closed, where each is set
 };
 
 void numberRow(const char* label, const char* id, double& value, float low, float high) {
@@ -61,7 +62,7 @@ void drawDoors(const Model& model, CollisionState& state, Actions& actions, cons
     const auto& door = result.doors[i];
     const auto& id = model.environment()->products[door.product].id;
     beginRow(static_cast<int>(i));
-    if (state.doors == 2) {
+    if (state.doors == DoorState::as_set) {
       bool closed = state.closed.contains(id);
       if (ImGui::Checkbox("###closed", &closed)) closed ? void(state.closed.insert(id)) : void(state.closed.erase(id));
       ui::tooltip("Treat as closed when collision shapes are next computed");
@@ -106,11 +107,10 @@ void drawRooms(const Model& model, Actions& actions, const CollideResult& result
 }
 
 // The options of the verb that the panel's fields stand for.
-nlohmann::json options(const Model& model, const CollisionState& state) {
-  constexpr const char* kDoors[] = {"open", "closed", "as-set"};
-  nlohmann::json result = {
-      {"agent-radius", model.walker.radius_m}, {"agent-height", model.walker.height_m}, {"doors", kDoors[state.doors]}};
-  if (state.doors == 2) result["closed"] = state.closed;
+CollideVerbOptions options(const Model& model, const CollisionState& state) {
+  CollideVerbOptions result{
+      .agent_radius_m = model.walker.radius_m, .agent_height_m = model.walker.height_m, .doors = state.doors};
+  if (state.doors == DoorState::as_set) result.closed.assign(state.closed.begin(), state.closed.end());
   return result;
 }
 
@@ -126,12 +126,13 @@ void draw(const Model& model, CollisionState& state, Actions& actions) {
     numberRow("Agent height", "###height", walker.height_m, 0.3F, 2.5F);
     actions.set(walker);
     ui::propertyLabel("Doors");
-    ImGui::Combo("###doors", &state.doors, "open\0closed\0individual\0");
+    auto doors = static_cast<int>(state.doors);
+    if (ImGui::Combo("###doors", &doors, "open\0closed\0individual\0")) state.doors = static_cast<DoorState>(doors);
     ui::endProperties();
   }
   if (ui::primaryButton(ICON_CUBES "  Compute collision shapes###collide", model.session.whyNot("collide"),
                         {-FLT_MIN, 0})) {
-    actions.start("collide", options(model, state), "Collision shapes");
+    actions.start(options(model, state), "Collision shapes");
     actions.showWalkable(true);
   }
   if (!document.collision) {

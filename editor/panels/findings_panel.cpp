@@ -11,6 +11,7 @@
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 #include "project/materials/material_findings.h"
+#include "project/materials/materials_verb.h"
 
 namespace standpoint {
 
@@ -73,7 +74,7 @@ void drawRemedy(const Model& model, Actions& actions, const Remedy& remedy, cons
       open ? fmt::format("{}: {}", remedy.text, known == nullptr ? "Select a material" : known->label) : remedy.text;
   if (ui::button(fmt::format("{}  {}###{}{}", ICON_MAGIC, text, remedy.selector, remedy.material).c_str(), blocked,
                  {-FLT_MIN, 0}))
-    actions.start("materials", {{"assign", assignWords(remedy, material)}}, remedy.text);
+    actions.start(MaterialsOptions{{.assign = overridesBy(remedy, material)}}, remedy.text);
 }
 
 void drawAcceptance(const Model& model, FindingsState& state, Actions& actions, const MaterialFinding& finding,
@@ -81,7 +82,7 @@ void drawAcceptance(const Model& model, FindingsState& state, Actions& actions, 
   if (!finding.because.empty()) {
     ui::wrapped("Accepted: " + finding.because);
     if (ui::button(ICON_UNDO "  Reopen###reopen", why, {-FLT_MIN, 0}))
-      actions.start("materials", {{"reopen", {finding.id}}}, "Reopen finding");
+      actions.start(MaterialsOptions{{.reopen = {finding.id}}}, "Reopen finding");
     return;
   }
   const float button = model.px(84);
@@ -90,7 +91,7 @@ void drawAcceptance(const Model& model, FindingsState& state, Actions& actions, 
   ImGui::SameLine();
   const std::string blocked = !why.empty() ? why : state.because.empty() ? "Enter a reason" : "";
   if (ui::button(ICON_CHECK "  Accept###accept", blocked, {button, 0}))
-    actions.start("materials", {{"accept", {finding.id}}, {"because", state.because}}, "Accept finding");
+    actions.start(MaterialsOptions{{.accept = {finding.id}, .because = state.because}}, "Accept finding");
 }
 
 void drawFinding(const Model& model, FindingsState& state, Actions& actions, const MaterialFinding& finding) {

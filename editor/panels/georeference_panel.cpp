@@ -12,6 +12,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "project/model/model_verbs.h"
 #include "survey/geodesy.h"
 
 namespace standpoint {
@@ -20,7 +21,7 @@ namespace {
 
 struct GeoreferenceState {
   std::string crs;
-  std::array<double, 3> origin_m = {0, 0, 0};
+  Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();
   double rotation_deg = 0;
   const void* filled_from = nullptr;  // the georeference that the fields were filled from
   const void* derived_from = nullptr;
@@ -110,9 +111,8 @@ void drawForm(const Model& model, GeoreferenceState& state, Actions& actions) {
   if (!ui::primaryButton(ICON_GLOBE "  Set georeference###georeference", model.session.whyNot("georeference"),
                          {-FLT_MIN, 0}))
     return;
-  nlohmann::json options = {{"origin", state.origin_m}, {"rotation-deg", state.rotation_deg}};
-  if (!state.crs.empty()) options["crs"] = state.crs;
-  actions.start("georeference", std::move(options), "Set georeference");
+  actions.start(GeoreferenceOptions{.crs = state.crs, .origin = state.origin_m, .rotation_deg = state.rotation_deg},
+                "Set georeference");
 }
 
 void draw(const Model& model, GeoreferenceState& state, Actions& actions) {

@@ -14,6 +14,7 @@
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 #include "optimizer/surface/mesh_statistics.h"
+#include "project/materials/materials_verb.h"
 
 namespace standpoint {
 
@@ -173,12 +174,12 @@ std::vector<std::pair<std::int32_t, std::string>> materialsOf(const MaterialAssi
 }
 
 void assign(const Model& model, Actions& actions, const PhysicalMaterial& material) {
-  nlohmann::json pairs = nlohmann::json::array();
+  std::vector<MaterialOverride> overrides;
   for (const auto p : model.selection.products())
-    pairs.push_back(selectorOf(model.environment()->products[p]) + "=" + material.id);
+    overrides.push_back({selectorOf(model.environment()->products[p]), material.id});
   const auto count = model.selection.products().size();
   actions.start(
-      "materials", {{"assign", std::move(pairs)}},
+      MaterialsOptions{{.assign = std::move(overrides)}},
       fmt::format("Assign {} to {}", material.label, count == 1 ? "1 product" : fmt::format("{} products", count)));
 }
 

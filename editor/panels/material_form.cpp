@@ -12,6 +12,7 @@
 #include "editor/panels/material_card_panel.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/widgets.h"
+#include "project/materials/materials_verb.h"
 
 namespace standpoint {
 
@@ -105,7 +106,7 @@ void keep(MaterialCardState& state, Actions& actions, const MaterialEdit& edit) 
     actions.report("Cannot save the material", {ErrorKind::file_system, "cannot write", file.string()});
     return;
   }
-  if (!actions.start("materials", {{"library", {file.string()}}}, "Save material " + edit.label)) return;
+  if (!actions.start(MaterialsOptions{{.libraries = {file}}}, "Save material " + edit.label)) return;
   actions.choose(ChosenMaterial{edit.id});
   state.edit.reset();
 }

@@ -11,6 +11,7 @@
 #include "editor/widgets/material_drag.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "project/materials/materials_verb.h"
 
 namespace standpoint {
 
@@ -44,14 +45,14 @@ void drawMaterialButtons(const Model& model, Actions& actions) {
   const auto why = model.session.whyNot("materials");
   const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
   if (ui::primaryButton(ICON_MAGIC "  Assign by rules###assign-rules", why, {width, 0}))
-    actions.start("materials", nlohmann::json::object(), "Assign materials by rules");
+    actions.start(MaterialsOptions{}, "Assign materials by rules");
   ImGui::SameLine();
   if (ui::button(ICON_FILE "  Rules file…###rules-file", why, {width, 0}, "Use custom assignment rules"))
-    actions.askForFile(
-        FileDialogState::Purpose::openFile, "Assignment rules", "Use", {".json"}, "",
-        [](Actions& later, const std::filesystem::path& file) {
-          later.start("materials", {{"rules", file.string()}}, "Assign materials by " + file.filename().string());
-        });
+    actions.askForFile(FileDialogState::Purpose::openFile, "Assignment rules", "Use", {".json"}, "",
+                       [](Actions& later, const std::filesystem::path& file) {
+                         later.start(MaterialsOptions{{.rules = file}},
+                                     "Assign materials by " + file.filename().string());
+                       });
 }
 
 // What one row of either list shows, and that it can be dragged onto a surface.
@@ -153,7 +154,7 @@ void drawBulk(const Model& model, MaterialsState& state, Actions& actions) {
                    : material == nullptr ? "Select a material in the list first"
                                          : model.session.whyNot("materials");
   if (ui::button(ICON_PAINT "  Assign selected###bulk-assign", why, {width, 0}))
-    actions.start("materials", {{"assign", {state.bulk + "=" + material->id}}},
+    actions.start(MaterialsOptions{{.assign = {{state.bulk, material->id}}}},
                   fmt::format("Assign {} to {} products", material->label, meant.size()));
 }
 

@@ -125,15 +125,16 @@ void drawWorst(const Model& model, Actions& actions, const SimplifiedModel& ligh
   ImGui::EndTable();
 }
 
+// But for the engine, which a preview has no choice of.
+SimplificationRequest requestOf(const Model& model, const OptimiseState& state, std::uint64_t budget) {
+  return {.budget = state.only_lossless ? 0 : std::max<std::uint64_t>(1, budget),
+          .max_deviation_m = state.max_deviation_mm / 1000,
+          .by_view = state.by_view && model.session.document().collision};
+}
+
 // Asks for the model at the sliders' budget, and says what has come of it.
 void drawPreview(const Model& model, const OptimiseState& state, Actions& actions, std::uint64_t budget) {
-  if (!state.only_lossless) {
-    SimplificationRequest request;
-    request.budget = std::max<std::uint64_t>(1, budget);
-    request.max_deviation_m = state.max_deviation_mm / 1000;
-    request.by_view = state.by_view && model.session.document().collision;
-    actions.wantBudget(std::move(request));
-  }
+  if (!state.only_lossless) actions.wantBudget(requestOf(model, state, budget));
   const auto preview = model.budget_preview.state();
   if (!preview.error.empty())
     ImGui::TextColored(colour(tone::kWarning), "%s  %s", ICON_WARNING, preview.error.c_str());
@@ -201,12 +202,9 @@ void draw(const Model& model, OptimiseState& state, Actions& actions) {
   ImGui::EndDisabled();
   if (ui::primaryButton(ICON_COMPRESS "  Optimise###run-optimise", model.session.whyNot("optimize"), {-FLT_MIN, 0})) {
     state.live = false;
-    actions.start("optimize",
-                  {{"budget", state.only_lossless ? 0 : std::max<std::uint64_t>(1, budget)},
-                   {"max-deviation", state.max_deviation_mm / 1000},
-                   {"by-view", state.by_view && document.collision != nullptr},
-                   {"engine", state.engine}},
-                  "Optimise the model");
+    auto request = requestOf(model, state, budget);
+    request.engine = state.engine;
+    actions.start(std::move(request), "Optimise the model");
   }
   if (!document.simplified) return;
   drawResult(model, *document.simplified);

@@ -11,6 +11,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "project/survey/underlays.h"
 
 namespace standpoint {
 
@@ -133,8 +134,8 @@ void drawUnderlayEye(const Model& model, Actions& actions, const Underlay& under
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(model.px(3), 0));
   if (ui::iconButton(underlay.visible ? ICON_EYE "###eye" : ICON_EYE_OFF "###eye", underlay.visible ? "Hide" : "Show",
                      model.session.whyNot("underlay")))
-    actions.start("underlay", {{underlay.visible ? "hide" : "show", underlay.name}},
-                  (underlay.visible ? "Hide " : "Show ") + underlay.name);
+    underlay.visible ? actions.start(UnderlayOptions{.hide = underlay.name}, "Hide " + underlay.name)
+                     : actions.start(UnderlayOptions{.show = underlay.name}, "Show " + underlay.name);
   ImGui::PopStyleVar();
   ImGui::PopStyleColor();
 }
@@ -148,14 +149,10 @@ void underlayMenu(const Model& model, Actions& actions, const Underlay& underlay
   if (!ImGui::BeginPopupContextItem("###underlay-menu")) return;
   if (ImGui::MenuItem(ICON_EXPAND "  Frame###underlay-frame")) frameUnderlay(model, actions, underlay);
   const auto why = model.session.whyNot("underlay");
-  if (ImGui::MenuItem(ICON_MOVE "  Move…###underlay-move", nullptr, false, why.empty())) {
-    actions.openForm("underlay", {{"move", underlay.name},
-                                  {"at",
-                                   {underlay.file_from_cloud.translation.x(), underlay.file_from_cloud.translation.y(),
-                                    underlay.file_from_cloud.translation.z()}}});
-  }
+  if (ImGui::MenuItem(ICON_MOVE "  Move…###underlay-move", nullptr, false, why.empty()))
+    actions.openForm(UnderlayOptions{.move = underlay.name, .at = underlay.file_from_cloud.translation});
   if (ImGui::MenuItem(ICON_TRASH "  Remove (keeps the file)###underlay-remove", nullptr, false, why.empty()))
-    actions.start("underlay", {{"remove", underlay.name}}, "Remove underlay " + underlay.name);
+    actions.start(UnderlayOptions{.remove = underlay.name}, "Remove underlay " + underlay.name);
   ImGui::EndPopup();
 }
 

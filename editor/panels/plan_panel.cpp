@@ -15,18 +15,15 @@ namespace standpoint {
 
 namespace {
 
-using nlohmann::json;
-
 constexpr double kLowOverlap = 0.3;
 
 std::string percent(double fraction) { return fmt::format("{:.0f} %", fraction * 100); }
 void start(const Model& model, Actions& actions) {
   const auto& [spacing_mm, max_incidence_deg] = model.seen;
-  json options = {{"instrument", model.scan_choice.instrument}, {"set", json::array()}};
-  for (const auto& [key, value] : model.scan_choice.settings) options["set"].push_back(key + "=" + value);
-  if (spacing_mm > 0) options["spacing"] = spacing_mm / 1000;
-  if (max_incidence_deg < 90) options["max-incidence-deg"] = max_incidence_deg;
-  actions.start("plan", std::move(options), "Plan the scans");
+  PlanOptions options{.instrument = model.scan_choice.instrument, .settings = model.scan_choice.settings};
+  if (spacing_mm > 0) options.spacing_m = spacing_mm / 1000;
+  if (max_incidence_deg < 90) options.max_incidence_deg = max_incidence_deg;
+  actions.start(options, "Plan the scans");
 }
 
 // The same as the view's colour chip, where it is wanted.
@@ -135,8 +132,7 @@ void drawProposal(const Model& model, Actions& actions, const PlanProposal& prop
   for (std::size_t i = stations.size() + 1;; ++i) {
     const auto name = fmt::format("S{}", i);
     if (std::any_of(stations.begin(), stations.end(), [&](const Station& s) { return s.name == name; })) continue;
-    actions.start("station", {{"add", name}, {"at", FieldValue<Eigen::Vector3d>::write(proposed.at)}},
-                  "Add station " + name);
+    actions.start(StationOptions{.add = name, .at = proposed.at}, "Add station " + name);
     return;
   }
 }

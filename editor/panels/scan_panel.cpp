@@ -20,6 +20,7 @@
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 #include "pointclouds/formats.h"
+#include "project/survey/scan_request.h"
 
 namespace standpoint {
 
@@ -196,12 +197,12 @@ void start(const Model& model, ScanState& state, const ScanChoice& asked, Action
   const auto file = folder / ((stations == "all" ? model.session.document().name : stations) + extension);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  auto options = scanOptions(asked);
-  options["stations"] = stations;
-  options["output"] = file.string();
-  if (state.resume) options["resume"] = true;
+  auto options = optionsOf(asked);
+  if (stations != "all") options.stations.names = {stations};
+  options.output = file;
+  options.resume = state.resume;
   state.started = asked;
-  actions.startScan(std::move(options), stations == "all" ? "Scan all stations" : "Scan station " + stations);
+  actions.startScan(options, stations == "all" ? "Scan all stations" : "Scan station " + stations);
 }
 
 void drawLast(const Model& model) {

@@ -12,13 +12,14 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "project/survey/survey_verbs.h"
 
 namespace standpoint {
 
 namespace {
 
 struct SurveyState {
-  std::array<double, 3> move_to = {0, 0, 0};
+  Eigen::Vector3d move_to = Eigen::Vector3d::Zero();
   int move_of = -1;  // station that `move_to` was filled from
   Eigen::Vector3d move_from = Eigen::Vector3d::Zero();
 };
@@ -28,10 +29,6 @@ void lookAt(Actions& actions, const Eigen::Vector3d& place) {
   around.extend(place - Eigen::Vector3d(3, 3, 2));
   around.extend(place + Eigen::Vector3d(3, 3, 2));
   actions.bringIntoView(around);
-}
-
-void remove(Actions& actions, const char* verb, const std::string& name) {
-  actions.start(verb, {{"remove", name}}, fmt::format("Remove {} {}", verb, name));
 }
 
 void drawStationRow(const Model& model, Actions& actions, const Station& station, int i) {
@@ -79,8 +76,7 @@ void fillMove(const Model& model, SurveyState& state, const Station& station) {
   if (state.move_of == model.survey.station && state.move_from == station.true_pose.translation) return;
   state.move_of = model.survey.station;
   state.move_from = station.true_pose.translation;
-  const Eigen::Vector3d p = station.true_pose.translation + model.shift_m();
-  state.move_to = {p.x(), p.y(), p.z()};
+  state.move_to = station.true_pose.translation + model.shift_m();
 }
 
 void drawChosenStation(const Model& model, SurveyState& state, Actions& actions, const Station& station) {
@@ -105,7 +101,7 @@ void drawChosenStation(const Model& model, SurveyState& state, Actions& actions,
   const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
   if (ui::button(ui::fittingLabel(ICON_MOVE, "Move", "move-station", width).c_str(), why, {width, 0},
                  "Move to these coordinates"))
-    actions.start("station", {{"move", station.name}, {"at", state.move_to}, {"height", station.instrument_height_m}},
+    actions.start(StationOptions{.move = station.name, .at = state.move_to, .height_m = station.instrument_height_m},
                   "Move station " + station.name);
   ImGui::SameLine();
   if (ui::button(ui::fittingLabel(ICON_CROSSHAIRS, "Look", "look-station", width).c_str(), {}, {width, 0},
@@ -114,7 +110,7 @@ void drawChosenStation(const Model& model, SurveyState& state, Actions& actions,
   ImGui::SameLine();
   if (ui::button(ui::fittingLabel(ICON_TRASH, "Remove", "remove-station", width).c_str(), why, {width, 0},
                  "Remove station"))
-    remove(actions, "station", station.name);
+    actions.start(StationOptions{.remove = station.name}, "Remove station " + station.name);
   for (const auto& scan : station.scans) {
     ImGui::TextColored(colour(tone::kGood), "%s", ICON_CHECK);
     ImGui::SameLine();
@@ -145,7 +141,7 @@ void drawTargets(const Model& model, Actions& actions, const Job& job) {
     ImGui::SameLine(ImGui::GetContentRegionMax().x - button);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(model.px(4), 0));
     if (ui::iconButton(ICON_TRASH "###remove-target", "Remove", model.session.whyNot("target")))
-      remove(actions, "target", target.name);
+      actions.start(TargetOptions{.remove = target.name}, "Remove target " + target.name);
     ImGui::PopStyleVar();
     ImGui::PopID();
   }

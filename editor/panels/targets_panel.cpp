@@ -9,6 +9,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "project/survey/register_verb.h"
 
 namespace standpoint {
 
@@ -34,10 +35,9 @@ void drawRegister(const Model& model, TargetsState& state, Actions& actions, con
   if (ui::button(ICON_TARGET "  Register###register", whyNotRegister(model, rows), {model.px(100), 0},
                  "Solves station poses from the targets")) {
     const auto files = lastScanFiles(*model.session.document().job);
-    nlohmann::json options = {{"files", nlohmann::json::array()}};
-    for (const auto& file : files) options["files"].push_back(file.string());
-    if (copies) options["output"] = (files.front().parent_path() / "registered").string();
-    actions.start("register", std::move(options), "Register stations");
+    RegisterOptions options{.files = files};
+    if (copies) options.output = files.front().parent_path() / "registered";
+    actions.start(options, "Register stations");
   }
   ImGui::SameLine();
   ImGui::Checkbox("Write registered copies of the scans###copies", &copies);

@@ -11,6 +11,8 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "project/materials/materials_verb.h"
+#include "project/materials/verification.h"
 #include "project/survey/underlays.h"
 
 namespace standpoint {
@@ -58,15 +60,16 @@ void drawVerifyButtons(const Model& model, VerifyState& state, Actions& actions)
   const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
   const auto why =
       !model.session.document().materials ? std::string("Assign materials first") : model.session.whyNot("verify");
-  if (ui::primaryButton(ICON_CHECK "  Compare###verify", why, {width, 0})) {
-    nlohmann::json options = {{"underlay", state.underlay}};
-    if (!state.instrument.empty()) options["instrument"] = state.instrument;
-    actions.start("verify", options, "Verify materials with " + state.underlay);
-  }
+  if (ui::primaryButton(ICON_CHECK "  Compare###verify", why, {width, 0}))
+    actions.start(VerifyOptions{.underlay = state.underlay, .instrument = state.instrument},
+                  "Verify materials with " + state.underlay);
   ImGui::SameLine();
   if (ui::button(ICON_MOVE "  Fit to model###fit", model.session.whyNot("underlay"), {width, 0},
-                 "Aligns the point cloud to the model surface, starting from its current position (ICP)"))
-    actions.start("underlay", {{"register", state.underlay}, {"icp", true}}, "Fit " + state.underlay + " to the model");
+                 "Aligns the point cloud to the model surface, starting from its current position (ICP)")) {
+    UnderlayOptions options{.fit = state.underlay};
+    options.to_surface = true;
+    actions.start(options, "Fit " + state.underlay + " to the model");
+  }
 }
 
 // What came of the last fit, as long as it is the last that was done to the clouds.
@@ -148,9 +151,10 @@ std::string titleOf(const Model& model, const VerifiedProposal& p) {
 bool isTaken(const Document& document, const VerifiedProposal& p) {
   if (!document.materials) return false;
   const auto& said = document.materials->overrides;
-  return std::all_of(p.assign.begin(), p.assign.end(), [&](const std::string& assign) {
-    return std::any_of(said.begin(), said.end(),
-                       [&](const MaterialOverride& o) { return o.selector + "=" + o.material == assign; });
+  return std::all_of(p.assign.begin(), p.assign.end(), [&](const MaterialOverride& assign) {
+    return std::any_of(said.begin(), said.end(), [&](const MaterialOverride& o) {
+      return o.selector == assign.selector && o.material == assign.material;
+    });
   });
 }
 
@@ -166,7 +170,7 @@ void drawProposal(const Model& model, Actions& actions, const VerifiedProposal& 
   const std::string why = isTaken(model.session.document(), p) ? "Assigned. Compare again to see the effect."
                                                                : model.session.whyNot("materials");
   if (ui::button(ICON_PAINT "  Assign###assign", why, {0, 0}, "Assigns the material to these products (can be undone)"))
-    actions.start("materials", {{"assign", p.assign}}, "Assign measured materials");
+    actions.start(MaterialsOptions{{.assign = p.assign}}, "Assign measured materials");
   ImGui::SameLine();
   if (ui::button(ICON_POINTER "  Select###select", {}, {0, 0})) {
     actions.select(p.products);

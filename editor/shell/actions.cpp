@@ -13,6 +13,8 @@
 #include "editor/shell/import_preview.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/widgets.h"
+#include "project/model/treatments.h"
+#include "project/survey/survey_verbs.h"
 
 namespace standpoint {
 
@@ -88,7 +90,11 @@ std::pair<const char*, std::string> chosenInSurvey(const Editor& e) {
 }
 void removeChosen(Editor& e) {
   const auto [verb, name] = chosenInSurvey(e);
-  e.session.start(verb, {{"remove", name}}, std::string("Remove ") + verb + " " + name);
+  const auto title = std::string("Remove ") + verb + " " + name;
+  if (std::string_view(verb) == "target")
+    e.session.start(TargetOptions{.remove = name}, title);
+  else
+    e.session.start(StationOptions{.remove = name}, title);
 }
 std::string whyRemoveNot(const Editor& e) {
   const auto [verb, name] = chosenInSurvey(e);
@@ -97,13 +103,13 @@ std::string whyRemoveNot(const Editor& e) {
 }
 
 // What is said of the selection, each product by what it keeps through an update of the model.
-void treat(Editor& e, const char* as, const char* title) {
-  nlohmann::json selectors = nlohmann::json::array();
+void treat(Editor& e, TreatmentKind as, const char* title) {
+  std::vector<std::string> selectors;
   for (const auto p : e.selection.products()) {
     const auto& product = e.environment()->products[p];
     selectors.push_back(product.global_id.empty() ? product.id : product.global_id);
   }
-  e.session.start("treat", {{"products", std::move(selectors)}, {"as", as}}, title);
+  e.session.start(TreatOptions{.products = std::move(selectors), .as = as}, title);
 }
 std::string whyTreatNot(const Editor& e) {
   if (auto why = whyNoSelection(e); !why.empty()) return why;
@@ -197,19 +203,19 @@ const std::array kActions = {
            "Exclude from the scene",
            ICON_BAN,
            {'X'},
-           [](Editor& e) { treat(e, "excluded", "Exclude from the scene"); },
+           [](Editor& e) { treat(e, TreatmentKind::excluded, "Exclude from the scene"); },
            whyTreatNot},
     Action{"keep",
            "Never simplify",
            ICON_CHECK_CIRCLE,
            {'K'},
-           [](Editor& e) { treat(e, "kept", "Never simplify"); },
+           [](Editor& e) { treat(e, TreatmentKind::kept, "Never simplify"); },
            whyTreatNot},
     Action{"by-rules",
            "Reset to rules",
            ICON_UNDO,
            {'X', false, true},
-           [](Editor& e) { treat(e, "rules", "Reset to rules"); },
+           [](Editor& e) { treat(e, TreatmentKind::as_rules, "Reset to rules"); },
            whyTreatNot},
     Action{"edges", "Edges", "", {'L'}, [](Editor& e) { e.view.edges = !e.view.edges; }, nullptr},
     Action{"grid", "Ground grid", "", {'G'}, [](Editor& e) { e.view.grid = !e.view.grid; }, nullptr},

@@ -17,6 +17,7 @@
 #include "editor/widgets/widgets.h"
 #include "importers/importers.h"
 #include "pointclouds/formats.h"
+#include "project/model/import_verb.h"
 
 namespace standpoint {
 
@@ -239,8 +240,9 @@ void askForModel(Editor& editor) {
 void askForChangedModel(Editor& editor) {
   askForFile(editor, Purpose::openFile, "Update from a changed model", "Update", modelExtensions(), "",
              [&editor](const std::filesystem::path& file) {
-               editor.session.start("import", {{"files", {file.string()}}, {"update", true}},
-                                    "Update from " + file.filename().string());
+               ImportVerbOptions options{{.files = {file}}};
+               options.update = true;
+               editor.session.start(options, "Update from " + file.filename().string());
              });
 }
 

@@ -8,6 +8,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/material_drag.h"
 #include "editor/widgets/widgets.h"
+#include "project/materials/materials_verb.h"
 
 namespace standpoint {
 
@@ -59,7 +60,7 @@ void drawMaterialMenu(Editor& editor) {
                            ? fmt::format("{}   {} products###{}", scope.title, scope.products, scope.selector)
                            : fmt::format("{}###{}", scope.title, scope.selector);
     if (ImGui::MenuItem(label.c_str(), nullptr, false, why.empty()))
-      editor.session.start("materials", {{"assign", {scope.selector + "=" + material->id}}},
+      editor.session.start(MaterialsOptions{{.assign = {{scope.selector, material->id}}}},
                            fmt::format("Assign {} to {}", material->label, scope.title));
   }
   ui::tooltip(why);

@@ -10,11 +10,11 @@
 
 namespace standpoint {
 
-bool PanelActions::start(std::string_view verb, nlohmann::json options, std::string title) {
-  return editor_.session.start(verb, std::move(options), std::move(title));
+bool PanelActions::start(const VerbOptions& options, std::string title) {
+  return editor_.session.start(options, std::move(title));
 }
-bool PanelActions::startScan(nlohmann::json options, std::string title) {
-  return editor_.startScan(std::move(options), std::move(title));
+bool PanelActions::startScan(const ScanVerbOptions& options, std::string title) {
+  return editor_.startScan(options, std::move(title));
 }
 void PanelActions::report(std::string title, Error error) {
   editor_.session.errors().push_back({std::move(title), std::move(error)});
@@ -72,9 +72,11 @@ void PanelActions::selectInPreview(std::uint32_t product) { editor_.preview_sele
 
 void PanelActions::run(const char* command) { invoke(editor_, command); }
 void PanelActions::menuItem(const char* command) { actionMenuItem(editor_, command); }
-void PanelActions::openForm(const char* verb, const nlohmann::json& filled) {
-  openVerbForm(editor_, verb);
-  editor_.dialogs.verb.form.fill(filled);
+void PanelActions::openForm(const VerbOptions& filled) {
+  const auto* verb = findVerb(editor_.session.verbs(), filled.type());
+  if (verb == nullptr) return;
+  openVerbForm(editor_, verb->name);
+  editor_.dialogs.verb.form.fill(verb->job_options(filled.held()));
 }
 void PanelActions::askForFile(FileDialogState::Purpose purpose, std::string title, std::string accept,
                               std::vector<std::string> extensions, std::string name, WhenChosen done) {

@@ -12,8 +12,8 @@ class PanelActions final : public Actions {
  public:
   explicit PanelActions(Editor& editor) : editor_(editor) {}
 
-  bool start(std::string_view verb, nlohmann::json options, std::string title) override;
-  bool startScan(nlohmann::json options, std::string title) override;
+  bool start(const VerbOptions& options, std::string title) override;
+  bool startScan(const ScanVerbOptions& options, std::string title) override;
   void report(std::string title, Error error) override;
   void clearLog() override;
 
@@ -54,7 +54,7 @@ class PanelActions final : public Actions {
 
   void run(const char* command) override;
   void menuItem(const char* command) override;
-  void openForm(const char* verb, const nlohmann::json& filled) override;
+  void openForm(const VerbOptions& filled) override;
   void askForFile(FileDialogState::Purpose purpose, std::string title, std::string accept,
                   std::vector<std::string> extensions, std::string name, WhenChosen done) override;
   bool drawInstrument() override;

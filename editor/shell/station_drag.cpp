@@ -5,6 +5,7 @@
 
 #include "core/units.h"
 #include "editor/shell/editor.h"
+#include "project/survey/survey_verbs.h"
 #include "survey/stations/levelling.h"
 
 namespace standpoint {
@@ -42,15 +43,15 @@ void drop(Editor& editor, const Station& station) {
   if (!hit || editor.placement.whyNotOn(*hit, station.instrument_height_m)) return;
   const Eigen::Vector3d p = hit->position + editor.shift_m();
   const Tilt tilt = tiltOf(station.true_pose.rotation);
-  nlohmann::json options = {{"move", station.name},
-                            {"on", {p.x(), p.y(), p.z()}},
-                            {"height", station.instrument_height_m},
-                            {"yaw-deg", yawOf(station.true_pose.rotation) / kRadPerDeg}};
+  StationOptions options{.move = station.name,
+                         .on = FloorPlace{p.x(), p.y(), p.z()},
+                         .height_m = station.instrument_height_m,
+                         .yaw_deg = yawOf(station.true_pose.rotation) / kRadPerDeg};
   if (tilt.angle_rad > 0) {
-    options["tilt-deg"] = tilt.angle_rad / kRadPerDeg;
-    options["tilt-towards-deg"] = tilt.towards_rad / kRadPerDeg;
+    options.tilt_deg = tilt.angle_rad / kRadPerDeg;
+    options.tilt_towards_deg = tilt.towards_rad / kRadPerDeg;
   }
-  editor.session.start("station", std::move(options), "Move station " + station.name);
+  editor.session.start(options, "Move station " + station.name);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "project/survey/survey_verbs.h"
 
 namespace standpoint {
 
@@ -66,7 +67,7 @@ void placeStation(Editor& editor, const RayHit& hit) {
     for (const auto& s : job->stations) names.push_back(s.name);
   const auto name = nextName("S", names);
   const Eigen::Vector3d p = hit.position + editor.shift_m();
-  editor.session.start("station", {{"add", name}, {"on", {p.x(), p.y(), p.z()}}}, "Add station " + name);
+  editor.session.start(StationOptions{.add = name, .on = FloorPlace{p.x(), p.y(), p.z()}}, "Add station " + name);
 }
 
 void placeTarget(Editor& editor, const RayHit& hit) {
@@ -76,7 +77,9 @@ void placeTarget(Editor& editor, const RayHit& hit) {
   const auto name = nextName("T", names);
   constexpr double kBefore_m = 0.05;  // says on which side of what was clicked it sticks
   const Eigen::Vector3d p = hit.position + hit.normal * kBefore_m + editor.shift_m();
-  editor.session.start("target", {{"add", name}, {"on-surface", {p.x(), p.y(), p.z()}}}, "Add target " + name);
+  TargetOptions options{.add = name};
+  options.on_surface = p;
+  editor.session.start(options, "Add target " + name);
 }
 
 void measure(Editor& editor, const RayHit& hit) {

@@ -30,7 +30,7 @@ TEST(ScanForm, AsksTheVerbForWhatItShows) {
   const auto document = demoHouse();
   auto wanted = everythingAsked();
   const auto ask = [&](const ScanChoice& choice) {
-    auto options = scanOptions(choice);
+    auto options = jobOptions(scanFields(), optionsOf(choice));
     options["output"] = "x.e57";
     const auto checked = checkOptions(*findVerb(verbs(), "scan"), options);
     EXPECT_TRUE(checked) << describe(checked.error());
@@ -42,10 +42,10 @@ TEST(ScanForm, AsksTheVerbForWhatItShows) {
   EXPECT_EQ(ask(wanted), wanted);
   wanted.effects = Effects::none();
   EXPECT_EQ(ask(wanted), wanted);
-  EXPECT_TRUE(scanOptions(wanted).contains("ideal"));
+  EXPECT_TRUE(optionsOf(wanted).ideal);
   const ScanChoice plain{.instrument = "leica-rtc360", .settings = wanted.settings};
   EXPECT_EQ(ask(plain), plain);
-  EXPECT_FALSE(scanOptions(plain).contains("weather"));
+  EXPECT_FALSE(optionsOf(plain).weather);
 }
 
 TEST(ScanForm, SaysInAWordWhatIsFolded) {

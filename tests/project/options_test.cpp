@@ -4,7 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "optimizer/optimizer.h"
+#include "project/materials/materials_verb.h"
+#include "project/materials/verification.h"
+#include "project/model/import_verb.h"
+#include "project/model/model_verbs.h"
+#include "project/model/treatments.h"
+#include "project/survey/register_verb.h"
 #include "project/survey/survey_verbs.h"
+#include "project/survey/underlays.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
@@ -136,6 +143,77 @@ TEST(Options, AreWrittenAsTheyAreRead) {
   EXPECT_EQ(again->without, options->without);
   for (const char* rewritten : {"sun", "without"}) written[rewritten] = job[rewritten];
   EXPECT_EQ(written, job);
+}
+
+TEST(VerbTable, HasOptionsOfATypeOfItsOwnForEveryVerb) {
+  std::set<std::type_index> types{typeid(void)};
+  for (const auto& v : verbs()) EXPECT_TRUE(types.insert(v.options_type).second) << v.name;
+}
+
+// What code asks for with a struct, beside what a user would have to write for the same.
+struct TypedJob {
+  VerbOptions typed;
+  std::string verb;
+  nlohmann::json job;
+};
+std::vector<TypedJob> typedJobs() {
+  const Eigen::Vector3d p(1, 2, 3.5);
+  TargetOptions target{.add = "T1"};
+  target.on_surface = p;
+  UnderlayOptions fit{.fit = "cloud"};
+  fit.to_surface = true;
+  ImportVerbOptions update{{.files = {"house.ifc"}}};
+  update.update = true;
+  return {
+      {StationOptions{.add = "S1", .on = FloorPlace{1, 2, 3.5}}, "station", {{"add", "S1"}, {"on", {1, 2, 3.5}}}},
+      {StationOptions{.move = "S1", .at = p, .height_m = 1.7, .yaw_deg = 90},
+       "station",
+       {{"move", "S1"}, {"at", {1, 2, 3.5}}, {"height", 1.7}, {"yaw-deg", 90}}},
+      {StationOptions{.remove = "S1"}, "station", {{"remove", "S1"}}},
+      {target, "target", {{"add", "T1"}, {"on-surface", {1, 2, 3.5}}}},
+      {PlanOptions{.instrument = "leica-rtc360", .settings = {{"resolution", "12mm"}}, .spacing_m = 0.01},
+       "plan",
+       {{"instrument", "leica-rtc360"}, {"set", {"resolution=12mm"}}, {"spacing", 0.01}}},
+      {RegisterOptions{.files = {"a.e57", "b.e57"}, .output = "registered"},
+       "register",
+       {{"files", {"a.e57", "b.e57"}}, {"output", "registered"}}},
+      {MaterialsOptions{}, "materials", nlohmann::json::object()},
+      {MaterialsOptions{{.assign = {{"name:a=b", "glass"}}}}, "materials", {{"assign", {"name:a=b=glass"}}}},
+      {MaterialsOptions{{.accept = {"weak-1"}, .because = "seen"}},
+       "materials",
+       {{"accept", {"weak-1"}}, {"because", "seen"}}},
+      {VerifyOptions{.underlay = "cloud"}, "verify", {{"underlay", "cloud"}}},
+      {UnderlayOptions{.add = "cloud.e57"}, "underlay", {{"add", "cloud.e57"}}},
+      {UnderlayOptions{.hide = "cloud"}, "underlay", {{"hide", "cloud"}}},
+      {fit, "underlay", {{"register", "cloud"}, {"icp", true}}},
+      {update, "import", {{"files", {"house.ifc"}}, {"update", true}}},
+      {TreatOptions{.products = {"#1"}, .as = TreatmentKind::as_rules},
+       "treat",
+       {{"products", {"#1"}}, {"as", "rules"}}},
+      {SimplificationRequest{.budget = 0, .max_deviation_m = 0.02},
+       "optimize",
+       {{"budget", 0}, {"max-deviation", 0.02}, {"engine", "auto"}}},
+      {CollideVerbOptions{.agent_radius_m = 0.25, .doors = DoorState::as_set, .closed = {"#7"}},
+       "collide",
+       {{"agent-radius", 0.25}, {"agent-height", 1.8}, {"doors", "as-set"}, {"closed", {"#7"}}}},
+      {GeoreferenceOptions{.origin = p, .rotation_deg = 0},
+       "georeference",
+       {{"origin", {1, 2, 3.5}}, {"rotation-deg", 0}}},
+  };
+}
+
+TEST(Options, OfATypeAreThoseThatAJobSays) {
+  for (const auto& [typed, name, job] : typedJobs()) {
+    const auto* verb = findVerb(verbs(), typed.type());
+    ASSERT_NE(verb, nullptr) << name;
+    EXPECT_EQ(verb->name, name);
+    const auto written = verb->job_options(typed.held());
+    const auto checked = checkOptions(*verb, written), by_hand = checkOptions(*verb, job);
+    ASSERT_TRUE(checked) << describe(checked.error());
+    ASSERT_TRUE(by_hand) << describe(by_hand.error());
+    EXPECT_EQ(*checked, *by_hand);
+    for (const auto& [key, value] : written.items()) EXPECT_EQ(value, job.at(key)) << name << " " << key;
+  }
 }
 
 TEST(Options, HaveTheirDefaultsOnce) {
