@@ -14,6 +14,7 @@
 #include "editor/panels/outliner_panel.h"
 #include "editor/panels/panels.h"
 #include "editor/shell/actions.h"
+#include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "item_probe.h"
 
@@ -374,6 +375,21 @@ TEST_F(Gui, CutsNoToolAtASmallWindowNorAtALargeScale) {
         expectNothingCut("###viewport");
       }
     }
+  }
+}
+
+TEST_F(Gui, ShowsTheLabelsOfItsChipsWhole) {
+  open();
+  ASSERT_TRUE(editor.session.start(SimplificationRequest{.budget = 60, .max_deviation_m = 0.5}));
+  gui.settle();
+  editor.visibility.cut_height_m = 123.4;
+  gui.frames(3);
+  for (const auto& [chip, label] :
+       {std::pair{"###side", ICON_COMPRESS "  Simplified model"}, std::pair{"###colour", ICON_PAINT "  Model colours"},
+        std::pair{"###cut", ICON_CUT "  Cut at 123.40 m"}}) {
+    const auto* drawn = gui.find(chip);
+    ASSERT_NE(drawn, nullptr) << chip;
+    EXPECT_GE(drawn->rect.GetWidth(), ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x) << chip;
   }
 }
 
