@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Decompositions of matrices, compiled once: each of Eigen's solvers costs seconds in every file that uses its template.
+// Decompositions of matrices, compiled once: each of Eigen's solvers costs seconds in every file that uses one.
 
 #include <Eigen/Core>
 
@@ -14,7 +14,8 @@ struct PrincipalAxes {
 };
 PrincipalAxes principalAxes(const Eigen::Matrix3d& symmetric);
 
-// m = u · diag(values) · vᵀ. The values descend and are not negative; u and v are orthogonal, perhaps with a reflection.
+// m = u · diag(values) · vᵀ. The values descend and are not negative; u and v are orthogonal, perhaps with a
+// reflection.
 struct SingularValues {
   Eigen::Matrix3d u;
   Eigen::Vector3d values;

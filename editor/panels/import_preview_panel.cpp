@@ -18,17 +18,20 @@ namespace standpoint {
 
 namespace {
 
-struct Choice {
+struct ImportChoice {
   const char* value;
   const char* label;
 };
-constexpr std::array kUnits = {Choice{"", "As in the file"}, Choice{"m", "Metre"}, Choice{"cm", "Centimetre"},
-                               Choice{"mm", "Millimetre"},   Choice{"in", "Inch"}, Choice{"ft", "Foot"}};
-constexpr std::array kUps = {Choice{"", "As in the file"}, Choice{"y", "Y points up"}, Choice{"z", "Z points up"}};
+constexpr std::array kUnits = {ImportChoice{"", "As in the file"}, ImportChoice{"m", "Metre"},
+                               ImportChoice{"cm", "Centimetre"},   ImportChoice{"mm", "Millimetre"},
+                               ImportChoice{"in", "Inch"},         ImportChoice{"ft", "Foot"}};
+constexpr std::array kUps = {ImportChoice{"", "As in the file"}, ImportChoice{"y", "Y points up"},
+                             ImportChoice{"z", "Z points up"}};
 
 template <std::size_t N>
-bool choose(const char* id, const std::array<Choice, N>& choices, std::string& value) {
-  const auto chosen = std::find_if(choices.begin(), choices.end(), [&](const Choice& c) { return value == c.value; });
+bool choose(const char* id, const std::array<ImportChoice, N>& choices, std::string& value) {
+  const auto chosen =
+      std::find_if(choices.begin(), choices.end(), [&](const ImportChoice& c) { return value == c.value; });
   bool changed = false;
   if (!ImGui::BeginCombo(id, chosen == choices.end() ? value.c_str() : chosen->label)) return false;
   for (const auto& c : choices)

@@ -10,7 +10,7 @@ namespace standpoint::geometry {
 namespace {
 
 constexpr double kFullCircle_rad = 2 * std::numbers::pi;
-constexpr int kMaxSegments = 4096;  // a radius in the wrong unit must not fill the memory
+constexpr int kMaxArcSegments = 4096;  // a radius in the wrong unit must not fill the memory
 
 std::vector<const Loop2*> loopsOf(const Region2& region) {
   std::vector<const Loop2*> loops{&region.outer};
@@ -96,8 +96,8 @@ int segmentCount(double radius_m, double sweep_rad, const Tessellation& tessella
   double step = 2 * std::acos(chord);
   if (tessellation.max_segment_angle_rad > 0) step = std::min(step, tessellation.max_segment_angle_rad);
   double count = std::ceil(sweep / step - 1e-9);
-  if (!(count >= 1)) count = std::isnan(count) || step > 0 ? 1 : kMaxSegments;
-  const int segments = static_cast<int>(std::min<double>(count, kMaxSegments));
+  if (!(count >= 1)) count = std::isnan(count) || step > 0 ? 1 : kMaxArcSegments;
+  const int segments = static_cast<int>(std::min<double>(count, kMaxArcSegments));
   return full ? std::max(4, (segments + 3) / 4 * 4) : segments;
 }
 

@@ -42,7 +42,7 @@ void addSurfaces(const std::filesystem::path& path, const PlyFileHeader& header,
   soup.images = std::move(images).images();
 }
 
-Result<ImportedModel> read(const std::filesystem::path& path, const ImportOptions& options, Progress& progress) {
+Result<ImportedModel> readAny(const std::filesystem::path& path, const ImportOptions& options, Progress& progress) {
   const std::string name = path.filename().string();
   TRY_ASSIGN(const auto bytes, FileBytes::open(path));
   TRY_ASSIGN(auto header, readPlyHeader(bytes, name));
@@ -73,16 +73,16 @@ Result<ImportedModel> read(const std::filesystem::path& path, const ImportOption
 Result<ImportedModel> readPly(const std::filesystem::path& path, const ImportOptions& options, Progress& progress) {
   progress.stage("Reading PLY");
   try {
-    return read(path, options, progress);
+    return readAny(path, options, progress);
   } catch (const std::bad_alloc&) {
     return failure(ErrorKind::unusable, "not enough memory", path.filename().string());
   }
 }
 
-constexpr const char* kExtensions[] = {".ply"};
+constexpr const char* kPlyExtensions[] = {".ply"};
 
 }  // namespace
 
-const Importer kPlyImporter = {"ply", "PLY meshes (Stanford), binary and text", kExtensions, &readPly, UpAxis::z};
+const Importer kPlyImporter = {"ply", "PLY meshes (Stanford), binary and text", kPlyExtensions, &readPly, UpAxis::z};
 
 }  // namespace standpoint

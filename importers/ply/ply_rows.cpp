@@ -9,7 +9,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr std::size_t kPiece = 4U << 20U;
+constexpr std::size_t kTextPiece = 4U << 20U;
 
 }  // namespace
 
@@ -107,8 +107,8 @@ Result<void> PlyRows::textValue(double& out) {
 }
 
 Result<void> PlyRows::refill() {
-  TRY_ASSIGN(auto text, textPiece(bytes_, next_piece_, kPiece));
-  next_piece_ += kPiece;
+  TRY_ASSIGN(auto text, textPiece(bytes_, next_piece_, kTextPiece));
+  next_piece_ += kTextPiece;
   text_ = std::move(text);
   cursor_.emplace(text_, line_);
   return {};

@@ -15,7 +15,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr double kLargest = 1e13;
+constexpr double kLargest_m = 1e13;
 constexpr std::initializer_list<const char*> kU = {"s", "u", "texture_u", "texture_s"},
                                              kV = {"t", "v", "texture_v", "texture_t"};
 
@@ -155,7 +155,7 @@ class SoupReader {
     return eachRow(element, [&](std::uint64_t i) -> Result<void> {
       Eigen::Vector3d p;
       for (int k = 0; k < 3; ++k) p[k] = row_.at(static_cast<std::size_t>(xyz[static_cast<std::size_t>(k)]));
-      if (!(p.cwiseAbs().maxCoeff() <= kLargest) || !p.allFinite()) {
+      if (!(p.cwiseAbs().maxCoeff() <= kLargest_m) || !p.allFinite()) {
         p.setConstant(NAN);
         if (bad_.size() < 1000) bad_.emplace_back(i, rows_.place(element, i));
       }

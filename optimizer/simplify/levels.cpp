@@ -18,7 +18,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr std::uint32_t kSamples = 256;
+constexpr std::uint32_t kGuessSamples = 256;
 constexpr std::uint32_t kMostMeasured =
     50'000;  // triangles; a larger form is not measured, as its tree would cost more than its log
 constexpr std::size_t kMostBoxed = 200'000;                 // triangles; what has more is not a small thing
@@ -38,7 +38,7 @@ struct Point {
 };
 
 // Rows: the largest face direction, the largest square to it, and their cross product.
-Matrix3d ownAxes(const Shape& shape) {
+Matrix3d faceAxes(const Shape& shape) {
   const auto directions = faceDirections(shape);
   Matrix3d axes = Matrix3d::Identity();
   if (directions.empty()) return axes;
@@ -65,7 +65,7 @@ std::uint32_t largestSurface(const Shape& shape) {
 
 // The box around the shape in its own axes, and both sides of the rectangle in the middle of its thinnest direction.
 std::vector<Shape> standIns(const Shape& shape) {
-  const Matrix3d axes = ownAxes(shape);
+  const Matrix3d axes = faceAxes(shape);
   Vector3d low = Vector3d::Constant(1e300), high = -low;
   for (const auto& p : shape.positions) {
     low = low.cwiseMin(axes * p);
@@ -133,7 +133,7 @@ std::vector<Point> measure(const Shape& shape, const TriangleTree& tree, const S
                            const Progress& progress) {
   auto left = static_cast<std::uint32_t>(shape.triangles.size());
   std::vector<Point> points{{left}};
-  const DeviationMeter meter(shape, tree, kSamples, seed);
+  const DeviationMeter meter(shape, tree, kGuessSamples, seed);
   const auto target = [](std::uint32_t count) {
     return static_cast<std::uint32_t>(count * (count <= kFineBelow ? kFineSpacing : kCoarseSpacing));
   };
@@ -146,7 +146,7 @@ std::vector<Point> measure(const Shape& shape, const TriangleTree& tree, const S
     if (left > next && i + 1 < made.log.size()) continue;
     if (progress.cancelled()) return points;
     const Shape& form = player.at(i + 1);
-    const auto deviation = meter.roughlyOf(form, kSamples);
+    const auto deviation = meter.roughlyOf(form, kGuessSamples);
     if (guard.refuses(form))
       ++refused;
     else

@@ -14,8 +14,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kMostVertices = 3'000'000;  // that are looked at for the maximum, each way
-constexpr int kSteps = 6;                         // along the edges of a long triangle
+constexpr std::size_t kMostSceneVertices = 3'000'000;  // that are looked at for the maximum, each way
+constexpr int kSteps = 6;                              // along the edges of a long triangle
 constexpr double kSceneSettled =
     1.04 * 1.04;                      // what can only be 4 % further than what was found is not looked at (farthest.h)
 constexpr std::size_t kFirstFew = 8;  // instances that are looked at before others are
@@ -146,7 +146,7 @@ double farthest(const PlacedSurfaces& from, const PlacedSurfaces& to, const std:
     vertices += from.vertices(i);
     order.push_back(i);
   }
-  const std::size_t stride = 1 + vertices / kMostVertices;
+  const std::size_t stride = 1 + vertices / kMostSceneVertices;
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return max_m[a] > max_m[b]; });
   std::vector<double> parts;
   for (std::size_t first = 0, count = kFirstFew; first < order.size();

@@ -18,11 +18,11 @@
 namespace standpoint {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr float kMiddleGrey = 0.18F;  // that an exposure brings the mean brightness to
 constexpr float kAdaptation = 0.6F;   // how much of that it does: a dark wall stays darker than a white one
 constexpr float kWarmth = 0.25F;      // more red and less blue, at the ends of a white balance
-constexpr double kBlend_rad = 3 * kPi / 180;
+constexpr double kBlend_rad = 3 * pi / 180;
 
 // How much a row counts for the exposure: its area, and what the metering makes of its place. Half of the weight lies
 // within 14 degrees of the horizon, or above 52 degrees.
@@ -46,7 +46,7 @@ std::vector<float> exposures(const std::vector<Light>& pixels, std::uint32_t wid
   const auto count = static_cast<std::size_t>(hdr ? 1 : std::max(1, shots));
   std::vector<double> sum(count, 0), weight(count, 0);
   for (std::uint32_t y = 0; y < height; ++y) {
-    const double area = meteredWeight(metering, (y + 0.5) * kPi / height);
+    const double area = meteredWeight(metering, (y + 0.5) * pi / height);
     for (std::uint32_t x = 0; x < width; ++x) {
       const std::size_t shot = x * count / width;
       sum[shot] += area * static_cast<double>(pixels[std::size_t{y} * width + x].min(1).mean());
@@ -60,7 +60,7 @@ std::vector<float> exposures(const std::vector<Light>& pixels, std::uint32_t wid
                            0.25F, 4.0F));
   std::vector<float> of_column(width);
   const double shot_wide = static_cast<double>(width) / static_cast<double>(count);
-  const double blend = std::min(kBlend_rad * width / (2 * kPi), 0.5 * shot_wide);
+  const double blend = std::min(kBlend_rad * width / (2 * pi), 0.5 * shot_wide);
   for (std::uint32_t x = 0; x < width; ++x) {
     const std::size_t shot = std::min(count - 1, static_cast<std::size_t>(x / shot_wide));
     const double from = x + 0.5 - static_cast<double>(shot) * shot_wide, to = shot_wide - from;
@@ -112,7 +112,7 @@ const std::array<std::uint8_t, 3>& Panorama::at(const Eigen::Vector3d& point) co
   const auto cell = [](double at, std::uint32_t size) {
     return static_cast<std::size_t>(std::clamp(at * size, 0.0, static_cast<double>(size) - 1));
   };
-  return pixels[cell(0.5 - elevation / kPi, height) * width + cell(0.5 - azimuth / (2 * kPi), width)];
+  return pixels[cell(0.5 - elevation / pi, height) * width + cell(0.5 - azimuth / (2 * pi), width)];
 }
 
 PictureMetering meteringOf(const Instrument& instrument, const SettingValues& values) {
@@ -164,7 +164,7 @@ Result<StationPicture> pictureOf(const Panorama& panorama, const ScanHeader& hea
   picture.name = header.name + " panorama";
   picture.media_type = "image/jpeg";
   picture.width = panorama.width, picture.height = panorama.height;
-  picture.pixel_width = 2 * kPi / panorama.width, picture.pixel_height = kPi / panorama.height;
+  picture.pixel_width = 2 * pi / panorama.width, picture.pixel_height = pi / panorama.height;
   picture.file_from_camera = {header.file_from_scanner.rotation, header.file_from_scanner * panorama.camera_m};
   picture.acquired_gps_s = acquired_gps_s;
   // libjpeg's own handler ends the program on an error; writing into memory, all that can fail is the memory itself.

@@ -8,8 +8,8 @@
 namespace standpoint {
 namespace {
 
-constexpr float kFarthest_m = 2000;
-constexpr int kMostPanes = 8;           // that a ray is followed through
+constexpr float kRayReach_m = 2000;
+constexpr int kMostRayPanes = 8;        // that a ray is followed through
 constexpr double kBehindPane_m = 1e-3;  // beyond the float error of the ray, within a pane
 constexpr double kFlash = 0.6;          // of a flash, on a wall that is near
 constexpr int kInPixel = 4;
@@ -80,14 +80,14 @@ void PanoramaRays::trace(std::uint32_t row, std::uint32_t first, Light* pixels) 
   std::fill_n(pixels, count, Light::Zero());
   RayPacket rays{};
   NearestHit hits[kPacket];
-  for (int pane = 0; pane < kMostPanes && beams.count > 0; ++pane) {
+  for (int pane = 0; pane < kMostRayPanes && beams.count > 0; ++pane) {
     for (int k = 0; k < beams.count; ++k) {
       const Eigen::Vector3d& direction = beams.direction[k];
       rays.set(k, origin_ + beams.way_m[k] * direction, direction);
     }
     std::uint64_t facets[kPacket];
     float ranges_m[kPacket];
-    scene_.intersect(rays, beams.count, kFarthest_m, facets, ranges_m);
+    scene_.intersect(rays, beams.count, kRayReach_m, facets, ranges_m);
     for (int k = 0; k < beams.count; ++k) hits[k] = {facets[k], ranges_m[k]};
     coincident_.choose(rays, beams.count, hits);
     shade(hits, beams);

@@ -15,9 +15,9 @@ namespace {
 constexpr int kRings = 4, kOnRing = kWingRays / kRings;
 constexpr double kWings = 8;  // radius, in w
 constexpr int kOnEdge = 8;    // places that stand for an edge
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
-std::array<SubRay, kWingRays> pattern() {
+std::array<SubRay, kWingRays> wingPattern() {
   std::array<SubRay, kWingRays> rays{};
   for (int ring = 0; ring < kRings; ++ring)
     for (int k = 0; k < kOnRing; ++k) {
@@ -34,7 +34,7 @@ std::array<SubRay, kWingRays> pattern() {
 }  // namespace
 
 const std::array<SubRay, kWingRays>& wingRays() {
-  static const auto kRays = pattern();
+  static const auto kRays = wingPattern();
   return kRays;
 }
 
@@ -68,7 +68,7 @@ ReflectorHalo::ReflectorHalo(const ScanPlan& plan) {
 // or below the instrument is in all columns.
 void ReflectorHalo::add(const ScanPlan& plan, const std::array<Eigen::Vector3d, 3>& corners) {
   const ScanSettings& s = plan.settings;
-  double nearest = corners[0].norm(), low = kPi, high = -kPi, min_turn = 0, max_turn = 0, steepest = 1;
+  double nearest = corners[0].norm(), low = pi, high = -pi, min_turn = 0, max_turn = 0, steepest = 1;
   const double first = std::atan2(-corners[0].y(), corners[0].x());  // clockwise seen from above
   for (int step = 0; step < 3 * kOnEdge; ++step) {  // an edge rises above its ends as a great circle does
     const auto from = static_cast<std::size_t>(step / kOnEdge);
@@ -77,7 +77,7 @@ void ReflectorHalo::add(const ScanPlan& plan, const std::array<Eigen::Vector3d, 
     nearest = std::min(nearest, place.norm());
     const double elevation = std::atan2(place.z(), std::hypot(place.x(), place.y()));
     low = std::min(low, elevation), high = std::max(high, elevation);
-    const double turn = std::remainder(std::atan2(-place.y(), place.x()) - first, 2 * kPi);
+    const double turn = std::remainder(std::atan2(-place.y(), place.x()) - first, 2 * pi);
     min_turn = std::min(min_turn, turn), max_turn = std::max(max_turn, turn);
     steepest = std::min(steepest, std::cos(elevation));
   }
@@ -90,13 +90,13 @@ void ReflectorHalo::add(const ScanPlan& plan, const std::array<Eigen::Vector3d, 
                   static_cast<std::uint32_t>(std::ceil(row(high + margin)))};
   if (rows.from >= rows.to) return;
   const double aside = margin / std::max(steepest, 1e-3);
-  const bool all = max_turn - min_turn + 2 * aside > kPi;
+  const bool all = max_turn - min_turn + 2 * aside > pi;
   const auto column = [&](double azimuth) {
     return std::clamp(all ? 0 : (azimuth - s.azimuth_from_rad) / plan.columnStep_rad(), 0.0,
                       static_cast<double>(s.columns));
   };
   for (int turn = -2; turn <= 2; ++turn) {  // the grid begins and ends anywhere within two turns
-    const double from = first + 2 * kPi * turn + min_turn - aside, to = first + 2 * kPi * turn + max_turn + aside;
+    const double from = first + 2 * pi * turn + min_turn - aside, to = first + 2 * pi * turn + max_turn + aside;
     const auto end = all ? s.columns : static_cast<std::uint32_t>(std::ceil(column(to)));
     for (auto c = static_cast<std::uint32_t>(std::floor(column(from))); c < end; ++c) columns_[c].push_back(rows);
     if (all) break;

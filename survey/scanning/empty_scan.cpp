@@ -6,13 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "survey/scene/bodies.h"
+
 namespace standpoint {
-
-namespace {
-
-double distanceTo(const Bounds& b, const Eigen::Vector3d& p) { return (p - p.cwiseMax(b.min).cwiseMin(b.max)).norm(); }
-
-}  // namespace
 
 std::string whyNothing(const RayScene& scene, const Pose& local_from_scanner, const Instrument& instrument,
                        const ScanSettings& settings) {

@@ -39,6 +39,10 @@ std::vector<Bounds> instanceBounds(const Environment& environment) {
   return all;
 }
 
+double distanceTo(const Bounds& box, const Eigen::Vector3d& place) {
+  return (place - place.cwiseMax(box.min).cwiseMin(box.max)).norm();
+}
+
 std::optional<std::uint32_t> bodyRound(const Environment& environment, const std::vector<Bounds>& instances,
                                        const Eigen::Vector3d& place) {
   for (std::uint32_t i = 0; i < instances.size();) {

@@ -14,7 +14,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr std::size_t kBlock = 1 << 16;
+constexpr std::size_t kReturnsAtOnce = 1 << 16;
 
 // Product, surface, and the index of what is assigned there: single faces may have a material of their own.
 using GroupKey = std::array<std::uint32_t, 3>;
@@ -35,11 +35,11 @@ Result<MeasuredReturns> measuredReturns(const CloudSample& sample, const Pose& l
   const auto& assignment = expectation.assignment();
   const SharedFaces shared(environment, assignment);
   MeasuredReturns result;
-  for (std::size_t from = 0; from < count; from += kBlock) {
+  for (std::size_t from = 0; from < count; from += kReturnsAtOnce) {
     TRY(progress.check());
     progress.advance(static_cast<double>(from) / static_cast<double>(count));
     // Every point has its own slot.
-    tbb::parallel_for(from, std::min(count, from + kBlock), [&](std::size_t i) {
+    tbb::parallel_for(from, std::min(count, from + kReturnsAtOnce), [&](std::size_t i) {
       const auto& station = sample.scans[sample.scan[i]].station;
       if (!station || !sample.position[i].allFinite() || !std::isfinite(sample.intensity[i])) return;
       met[i] = meetSurface(expectation, local_from_cloud * *station, local_from_cloud * sample.position[i], tolerance);

@@ -15,8 +15,6 @@ namespace standpoint {
 
 namespace {
 
-double distanceTo(const Bounds& b, const Eigen::Vector3d& p) { return (p - p.cwiseMax(b.min).cwiseMin(b.max)).norm(); }
-
 // The nearest point of an instance, no farther than `reach_m`, which shrinks.
 bool nearestOf(const Environment& environment, const Instance& instance, const Eigen::Vector3d& p, double& reach_m) {
   const auto& mesh = *environment.meshes[instance.mesh];

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/decompositions.h"
+
 #include <cmath>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
-
-#include "core/decompositions.h"
 
 namespace standpoint {
 namespace {
