@@ -6,6 +6,8 @@
 #include <set>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 namespace standpoint {
 
 namespace {
@@ -85,47 +87,6 @@ Result<nlohmann::json> parseJson(const std::string& text, const std::string& fil
   }
   if (!watch.wrong().empty()) return root.unusable(watch.wrong());
   return result;
-}
-
-Result<void> checkKeys(const nlohmann::json& value, const JsonPlace& at,
-                       std::initializer_list<std::string_view> known) {
-  if (!value.is_object()) return at.unusable("must be an object");
-  for (const auto& item : value.items())
-    if (std::find(known.begin(), known.end(), item.key()) == known.end()) {
-      std::string list;
-      for (const auto key : known) list += (list.empty() ? "" : ", ") + std::string(key);
-      return (at / item.key()).unusable("unknown key; valid keys: " + list);
-    }
-  return {};
-}
-
-Result<std::string> textOf(const nlohmann::json& value, const JsonPlace& at) {
-  if (!value.is_string()) return at.unusable("must be a text");
-  auto text = value.get<std::string>();
-  if (text.find_first_not_of(" \t\r\n") == std::string::npos) return at.unusable("is empty");
-  return text;
-}
-
-Result<std::string> readText(const nlohmann::json& object, const JsonPlace& at, const char* key) {
-  const auto found = object.find(key);
-  if (found == object.end()) return (at / key).unusable("is missing");
-  return textOf(*found, at / key);
-}
-
-Result<std::string> readId(const nlohmann::json& object, const JsonPlace& at) {
-  auto id = readText(object, at, "id");
-  if (id && id->find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != std::string::npos)
-    return (at / "id").unusable("must contain only a-z, 0-9 and _");
-  return id;
-}
-
-Result<double> readNumber(const nlohmann::json& value, const JsonPlace& at, double minimum, double maximum) {
-  if (!value.is_number()) return at.unusable("must be a number");
-  const auto number = value.get<double>();
-  if (!(number >= minimum && number <= maximum))
-    return at.unusable("is " + value.dump() + ", must lie between " + nlohmann::json(minimum).dump() + " and " +
-                       nlohmann::json(maximum).dump());
-  return number;
 }
 
 }  // namespace standpoint

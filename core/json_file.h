@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -31,11 +30,5 @@ constexpr std::uintmax_t kLargestJsonFile = 16U << 20U;  // of what people write
 Result<nlohmann::json> readJsonFile(const std::filesystem::path& file, std::uintmax_t max_bytes = kLargestJsonFile);
 Result<nlohmann::json> readJsonArray(const std::filesystem::path& file);
 Result<nlohmann::json> parseJson(const std::string& text, const std::string& file_name);
-
-Result<void> checkKeys(const nlohmann::json& value, const JsonPlace& at, std::initializer_list<std::string_view> known);
-Result<std::string> textOf(const nlohmann::json& value, const JsonPlace& at);  // not blank
-Result<std::string> readText(const nlohmann::json& object, const JsonPlace& at, const char* key);
-Result<std::string> readId(const nlohmann::json& object, const JsonPlace& at);  // of a-z, 0-9 and _
-Result<double> readNumber(const nlohmann::json& value, const JsonPlace& at, double minimum, double maximum);
 
 }  // namespace standpoint

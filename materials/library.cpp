@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <map>
 
+#include <nlohmann/json.hpp>
+
 #include "materials/library_entry.h"
 #include "materials/materials.h"
 
@@ -34,26 +36,23 @@ Result<std::vector<std::filesystem::path>> jsonFiles(const std::filesystem::path
 Result<LibraryFile> readFile(const std::filesystem::path& path) {
   TRY_ASSIGN(auto content, readJsonFile(path));
   LibraryFile file{path.filename().string(), std::move(content)};
-  const JsonPlace at{file.name, {}};
-  TRY(checkKeys(file.content, at, {"sources", "materials"}));
+  JsonFault fault(file.name);
+  JsonFields root(fault, file.content, "");
   for (const char* key : {"sources", "materials"})
-    if (file.content.contains(key) && !file.content[key].is_array()) return (at / key).unusable("must be a list");
+    if (const auto* list = root.raw(key); list != nullptr && !list->is_array()) root.needs(key, *list, "a list");
+  root.close();
+  TRY(fault.result());
   return file;
 }
 
 Result<void> readSources(const LibraryFile& file, SourceTable& sources) {
-  if (!file.content.contains("sources")) return {};
-  const auto& list = file.content["sources"];
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const auto at = JsonPlace{file.name, {}} / "sources" / i;
-    if (auto checked = checkKeys(list[i], at, {"id", "text", "licence"}); !checked) return checked;
-    TRY_ASSIGN(const auto id, readId(list[i], at));
-    TRY_ASSIGN(const auto text, readText(list[i], at, "text"));
-    TRY_ASSIGN(const auto licence, readText(list[i], at, "licence"));
-    if (!sources.try_emplace(id, FigureSource{text, licence}).second)
-      return (at / "id").unusable("the source '" + id + "' already exists");
-  }
-  return {};
+  JsonFault fault(file.name);
+  JsonFields(fault, file.content, "").list("sources", [&](JsonFields& f) {
+    const auto id = readId(f);
+    FigureSource source{f.text("text"), f.text("licence")};
+    if (!sources.try_emplace(id, std::move(source)).second) f.wrong("id", "the source '" + id + "' already exists");
+  });
+  return fault.result();
 }
 
 Result<void> readMaterials(const LibraryFile& file, const SourceTable& sources, EntryTable& entries) {
@@ -61,7 +60,9 @@ Result<void> readMaterials(const LibraryFile& file, const SourceTable& sources, 
   const auto& list = file.content["materials"];
   for (std::size_t i = 0; i < list.size(); ++i) {
     const auto at = JsonPlace{file.name, {}} / "materials" / i;
-    TRY_ASSIGN(auto material, readMaterial(list[i], at, sources));
+    JsonFault fault(at.file);
+    JsonFields fields(fault, list[i], at.pointer);
+    TRY_ASSIGN(auto material, readMaterial(fields, sources));
     const auto id = material.id;
     const auto [place, is_new] = entries.try_emplace(id, Entry{std::move(material), at});
     if (!is_new)

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <iterator>
-#include <tuple>
+
+#include <nlohmann/json.hpp>
 
 namespace standpoint {
 
@@ -35,45 +36,45 @@ constexpr const char* kSourced[] = {
     "complex_index", "thickness_m",     "transmittance", "panes",       "gap_m",
     "variation",     "texture_scale_m", "retro_gain"};
 
-Result<Spectrum> readSpectrum(const nlohmann::json& value, const JsonPlace& at) {
-  if (!value.is_array() || value.empty()) return at.unusable("must be a list of [wavelength_nm, fraction]");
-  Spectrum result;
-  for (std::size_t i = 0; i < value.size(); ++i) {
-    const auto here = at / i;
-    if (!value[i].is_array() || value[i].size() != 2) return here.unusable("must be [wavelength_nm, fraction]");
-    TRY_ASSIGN(const auto wavelength, readNumber(value[i][0], here / std::size_t{0}, 200, 20000));
-    TRY_ASSIGN(const auto fraction, readNumber(value[i][1], here / std::size_t{1}, 0, 1));
-    if (!result.empty() && wavelength <= result.back().first)
-      return (here / std::size_t{0}).unusable("wavelengths must increase");
-    result.emplace_back(wavelength, fraction);
+// Rows of numbers within these ranges, each wavelength above the one before; `shape` is one row in words.
+using Row = std::vector<double>;
+std::vector<Row> readRows(JsonFields& f, const char* key, const std::string& shape,
+                          const std::vector<std::pair<double, double>>& ranges) {
+  std::vector<Row> rows;
+  const auto* value = f.raw(key);
+  if (value == nullptr) return rows;
+  if (!value->is_array() || value->empty()) return f.needs(key, *value, "a list of " + shape), rows;
+  for (std::size_t i = 0; i < value->size(); ++i) {
+    const auto& entry = (*value)[i];
+    const auto here = f.pointer(key) + "/" + std::to_string(i);
+    if (!entry.is_array() || entry.size() != ranges.size()) return f.fault().needs(here, entry, shape), rows;
+    Row row;
+    for (std::size_t k = 0; k < ranges.size(); ++k)
+      row.push_back(numberAt(f.fault(), entry[k], here + "/" + std::to_string(k), ranges[k].first, ranges[k].second));
+    if (!rows.empty() && row[0] <= rows.back()[0]) f.fault().say(here + "/0", "wavelengths must increase");
+    rows.push_back(std::move(row));
   }
-  return result;
+  return rows;
 }
 
-Result<std::vector<ComplexIndex>> readComplexIndex(const nlohmann::json& value, const JsonPlace& at) {
-  if (!value.is_array() || value.empty()) return at.unusable("must be a list of [wavelength_nm, n, k]");
-  std::vector<ComplexIndex> result;
-  for (std::size_t i = 0; i < value.size(); ++i) {
-    const auto here = at / i;
-    if (!value[i].is_array() || value[i].size() != 3) return here.unusable("must be [wavelength_nm, n, k]");
-    ComplexIndex row;
-    for (const auto& [column, field, minimum, maximum] :
-         {std::tuple{std::size_t{0}, &ComplexIndex::wavelength_nm, 200.0, 20000.0},
-          {std::size_t{1}, &ComplexIndex::n, 0.001, 1000.0},
-          {std::size_t{2}, &ComplexIndex::k, 0.0, 1000.0}}) {
-      TRY_ASSIGN(const auto number, readNumber(value[i][column], here / column, minimum, maximum));
-      row.*field = number;
-    }
-    if (!result.empty() && row.wavelength_nm <= result.back().wavelength_nm)
-      return (here / std::size_t{0}).unusable("wavelengths must increase");
-    result.push_back(row);
-  }
-  return result;
+Spectrum readSpectrum(JsonFields& f, const char* key) {
+  Spectrum spectrum;
+  for (const auto& row : readRows(f, key, "[wavelength_nm, fraction]", {{200, 20000}, {0, 1}}))
+    spectrum.emplace_back(row[0], row[1]);
+  return spectrum;
+}
+
+std::vector<ComplexIndex> readComplexIndex(JsonFields& f) {
+  std::vector<ComplexIndex> index;
+  for (const auto& row :
+       readRows(f, "complex_index", "[wavelength_nm, n, k]", {{200, 20000}, {0.001, 1000}, {0, 1000}}))
+    index.push_back({row[0], row[1], row[2]});
+  return index;
 }
 
 // Writes the sources out for their references: "[usgs]" becomes the source's text, and its licence goes with it.
-Result<Citation> readCitation(const std::string& figure, const std::string& text, const JsonPlace& at,
-                              const SourceTable& sources) {
+Citation readCitation(JsonFields& texts, const char* figure, const SourceTable& sources) {
+  const auto text = texts.text(figure);
   Citation citation{figure, {}, {}};
   bool refers = false;
   for (std::size_t from = 0; from < text.size();) {
@@ -85,39 +86,32 @@ Result<Citation> readCitation(const std::string& figure, const std::string& text
       break;
     }
     const auto id = text.substr(open + 1, close - open - 1);
+    from = close + 1;
+    refers = true;
     const auto source = sources.find(id);
-    if (source == sources.end())
-      return at.unusable("refers to the source [" + id + "], which is not listed under \"sources\"");
+    if (source == sources.end()) {
+      texts.wrong(figure, "refers to the source [" + id + "], which is not listed under \"sources\"");
+      continue;
+    }
     citation.text += source->second.text;
     if (citation.licence.find(source->second.licence) == std::string::npos)
       citation.licence += (citation.licence.empty() ? "" : "; ") + source->second.licence;
-    refers = true;
-    from = close + 1;
   }
   if (!refers && !text.starts_with("unsourced"))
-    return at.unusable("has no source: add the [id] of an entry in \"sources\", or start with 'unsourced'");
+    texts.wrong(figure, "has no source: add the [id] of an entry in \"sources\", or start with 'unsourced'");
   return citation;
 }
 
-Result<void> readCitations(const nlohmann::json& entry, const JsonPlace& at, const SourceTable& sources,
-                           PhysicalMaterial& material) {
-  static const nlohmann::json kNone = nlohmann::json::object();
-  const auto here = at / "source";
-  const auto found = entry.find("source");
-  if (found == entry.end() && !isGap(material)) return here.unusable("is missing: every value requires a source");
-  const auto& texts = found == entry.end() ? kNone : *found;
-  if (!texts.is_object()) return here.unusable("must be an object with one text per value");
-  for (const auto& item : texts.items())
-    if (std::find(std::begin(kSourced), std::end(kSourced), item.key()) == std::end(kSourced) ||
-        !entry.contains(item.key()))
-      return (here / item.key()).unusable("is the source of a value that the entry does not have");
-  for (const char* key : kSourced) {
-    if (!entry.contains(key)) continue;
-    TRY_ASSIGN(auto text, readText(texts, here, key));
-    TRY_ASSIGN(auto citation, readCitation(key, text, here / key, sources));
-    material.sources.push_back(std::move(citation));
-  }
-  return {};
+void readCitations(JsonFields& f, const SourceTable& sources, PhysicalMaterial& material) {
+  const auto* found = f.raw("source");
+  if (found == nullptr && isGap(material)) return;
+  if (found == nullptr) return f.wrong("source", "is missing: every value requires a source");
+  JsonFields texts(f.fault(), *found, f.pointer("source"));
+  for (const auto& key : texts.keys())
+    if (std::find(std::begin(kSourced), std::end(kSourced), key) == std::end(kSourced) || !f.has(key))
+      texts.wrong(key, "is the source of a value that the entry does not have");
+  for (const char* key : kSourced)
+    if (f.has(key)) material.sources.push_back(readCitation(texts, key, sources));
 }
 
 // What no surface can do: send back and let through more than it gets.
@@ -162,54 +156,35 @@ Result<void> checkParts(const PhysicalMaterial& material, const JsonPlace& at) {
   return {};
 }
 
-Result<void> readGaps(const nlohmann::json& entry, const JsonPlace& at, PhysicalMaterial& material) {
-  const auto found = entry.find("gaps");
-  if (found == entry.end()) return {};
-  if (!found->is_array() || found->empty()) return (at / "gaps").unusable("must be a list of texts");
-  for (std::size_t i = 0; i < found->size(); ++i) {
-    TRY_ASSIGN(auto text, textOf((*found)[i], at / "gaps" / i));
-    material.gaps.push_back(std::move(text));
-  }
-  return {};
+void readGaps(JsonFields& f, PhysicalMaterial& material) {
+  const auto* gaps = f.raw("gaps");
+  if (gaps == nullptr) return;
+  if (!gaps->is_array() || gaps->empty()) return f.needs("gaps", *gaps, "a list of texts");
+  for (std::size_t i = 0; i < gaps->size(); ++i)
+    material.gaps.push_back(textAt(f.fault(), (*gaps)[i], f.pointer("gaps") + "/" + std::to_string(i)));
 }
 
-Result<void> readSpectra(const nlohmann::json& entry, const JsonPlace& at, PhysicalMaterial& material) {
-  for (const auto& [key, field] : {std::pair{"reflectance", &PhysicalMaterial::reflectance},
-                                   std::pair{"transmittance", &PhysicalMaterial::transmittance}}) {
-    if (!entry.contains(key)) continue;
-    TRY_ASSIGN(auto spectrum, readSpectrum(entry[key], at / key));
-    material.*field = std::move(spectrum);
-  }
-  if (!entry.contains("complex_index")) return {};
-  TRY_ASSIGN(auto index, readComplexIndex(entry["complex_index"], at / "complex_index"));
-  material.complex_index = std::move(index);
-  return {};
-}
-
-Result<void> readNumbers(const nlohmann::json& entry, const JsonPlace& at, PhysicalMaterial& material) {
+void readFigures(JsonFields& f, PhysicalMaterial& material) {
+  material.reflectance = readSpectrum(f, "reflectance");
+  material.transmittance = readSpectrum(f, "transmittance");
+  material.complex_index = readComplexIndex(f);
   for (const auto& figure : kFigures) {
-    if (!entry.contains(figure.key)) continue;
-    TRY_ASSIGN(const auto number, readNumber(entry[figure.key], at / figure.key, figure.minimum, figure.maximum));
-    material.*figure.field = number;
+    double& value = material.*figure.field;
+    value = f.numberOr(figure.key, value, figure.minimum, figure.maximum);
   }
-  if (!entry.contains("panes")) return {};
-  TRY_ASSIGN(const auto panes, readNumber(entry["panes"], at / "panes", 2, 4));
-  if (!entry["panes"].is_number_integer()) return (at / "panes").unusable("must be a whole number");
+  const double panes = f.numberOr("panes", material.panes, 2, 4);
   material.panes = static_cast<int>(panes);
-  return {};
+  if (material.panes != panes) f.wrong("panes", "must be a whole number");
 }
 
 // What the figures rest on: measured ones, a dry material's, or none at all.
-Result<void> readBasis(const nlohmann::json& entry, const JsonPlace& at, PhysicalMaterial& material) {
-  if (entry.contains("wet_of")) {
-    TRY_ASSIGN(auto dry, readText(entry, at, "wet_of"));
-    if (!isGap(material)) return (at / "wet_of").unusable("defines the reflectance: leave out other optical values");
-    material.wet_of = std::move(dry);
-    return {};
+void readBasis(JsonFields& f, PhysicalMaterial& material) {
+  material.wet_of = f.textOr("wet_of", "");
+  if (!material.wet_of.empty()) {
+    if (!isGap(material)) f.wrong("wet_of", "defines the reflectance: leave out other optical values");
+  } else if (isGap(material) && material.gaps.empty()) {
+    f.wrong("reflectance", "is missing; if there is no measurement, list it under \"gaps\"");
   }
-  if (isGap(material) && material.gaps.empty())
-    return (at / "reflectance").unusable("is missing; if there is no measurement, list it under \"gaps\"");
-  return {};
 }
 
 // Reflectance of a wetted diffuse surface: light enters through the film's face (0.02 is sent back) and leaves it
@@ -231,19 +206,27 @@ Result<void> wet(PhysicalMaterial& material, const PhysicalMaterial* dry, const 
   return checkEnergy(material, at);
 }
 
-Result<PhysicalMaterial> readMaterial(const nlohmann::json& entry, const JsonPlace& at, const SourceTable& sources) {
+std::string readId(JsonFields& fields) {
+  auto id = fields.text("id");
+  if (id.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != std::string::npos)
+    fields.wrong("id", "must contain only a-z, 0-9 and _");
+  return id;
+}
+
+Result<PhysicalMaterial> readMaterial(JsonFields& fields, const SourceTable& sources) {
   PhysicalMaterial material;
-  TRY(checkKeys(entry, at,
-                {"id", "label", "gaps", "wet_of", "reflectance", "roughness_rad", "gloss_slope", "index_of_refraction",
-                 "complex_index", "thickness_m", "transmittance", "panes", "gap_m", "variation", "texture_scale_m",
-                 "retro_gain", "source"}));
-  TRY_ASSIGN(const auto id, readId(entry, at));
-  TRY_ASSIGN(const auto label, readText(entry, at, "label"));
-  material.id = id;
-  material.label = label;
-  for (const auto read : {readGaps, readSpectra, readNumbers, readBasis}) TRY(read(entry, at, material));
-  for (const auto check : {checkParts, checkEnergy}) TRY(check(material, at));
-  TRY(readCitations(entry, at, sources, material));
+  material.id = readId(fields);
+  material.label = fields.text("label");
+  readGaps(fields, material);
+  readFigures(fields, material);
+  fields.skip("source");
+  fields.skip("wet_of");
+  fields.close();
+  readBasis(fields, material);
+  TRY(fields.fault().result());
+  for (const auto check : {checkParts, checkEnergy}) TRY(check(material, {fields.fault().file(), fields.pointer()}));
+  readCitations(fields, sources, material);
+  TRY(fields.fault().result());
   return material;
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "core/json_fields.h"
 #include "core/json_file.h"
 #include "core/physical_material.h"
 
@@ -15,8 +16,10 @@ struct FigureSource {
 };
 using SourceTable = std::map<std::string, FigureSource, std::less<>>;
 
+std::string readId(JsonFields& fields);  // of a-z, 0-9 and _
+
 // One entry of a library, all but what takes the other entries: the reflectance of a wet state.
-Result<PhysicalMaterial> readMaterial(const nlohmann::json& entry, const JsonPlace& at, const SourceTable& sources);
+Result<PhysicalMaterial> readMaterial(JsonFields& fields, const SourceTable& sources);
 
 // Gives a wet state its reflectance; `dry` is null when the library has none of that name.
 Result<void> wet(PhysicalMaterial& material, const PhysicalMaterial* dry, const JsonPlace& at);

@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <set>
 
+#include <nlohmann/json.hpp>
+
+#include "core/json_fields.h"
 #include "core/json_file.h"
 #include "materials/colour.h"
 #include "materials/materials.h"
@@ -14,101 +17,81 @@ namespace {
 constexpr std::uintmax_t kLargestRules = 1U << 20U;
 constexpr std::size_t kMostRules = 10'000;
 
-Result<void> checkColours(const std::string& globs, const JsonPlace& at) {
+void checkColours(JsonFields& f, const std::string& globs) {
   for (std::size_t begin = 0; begin < globs.size();) {
     const auto end = std::min(globs.find('|', begin), globs.size());
     const auto colour = globs.substr(begin, end - begin);
     if (std::find(kColourBands.begin(), kColourBands.end(), colour) == kColourBands.end()) {
       std::string known;
       for (const auto band : kColourBands) known += (known.empty() ? "" : ", ") + std::string(band);
-      return at.unusable("'" + colour + "' is not a colour; valid colours: " + known);
+      f.wrong("colour", "'" + colour + "' is not a colour; valid colours: " + known);
     }
     begin = end + 1;
   }
-  return {};
 }
 
 class RulesReader {
  public:
   RulesReader(std::string file, const std::vector<PhysicalMaterial>& library, WordLists words)
-      : root_{std::move(file), {}}, words_(std::move(words)) {
+      : fault_(std::move(file)), words_(std::move(words)) {
     for (const auto& material : library) ids_.insert(material.id);
   }
 
   Result<RuleSet> read(const nlohmann::json& content) {
     RuleSet set;
-    TRY(checkKeys(content, root_, {"words", "rules", "implausible", "then"}));
-    TRY(readWords(content));
-    if (!content.contains("rules")) return (root_ / "rules").unusable("is missing");
-    for (const char* key : {"rules", "implausible"})
-      if (content.contains(key) && !content[key].is_array()) return (root_ / key).unusable("must be a list");
-    const auto& list = content["rules"];
-    if (list.size() > kMostRules)
-      return (root_ / "rules").unusable("contains more than " + std::to_string(kMostRules) + " rules");
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      TRY_ASSIGN(auto rule, readRule(list[i], root_ / "rules" / i));
-      rule.place = "rule " + std::to_string(i) + " of " + root_.file;
-      set.rules.push_back(std::move(rule));
-    }
-    if (content.contains("implausible"))
-      for (std::size_t i = 0; i < content["implausible"].size(); ++i) {
-        TRY_ASSIGN(auto entry, readImplausible(content["implausible"][i], root_ / "implausible" / i));
-        set.implausible.push_back(std::move(entry));
-      }
+    JsonFields root(fault_, content, "");
+    root.each("words", [&](const std::string& name, const nlohmann::json& list, const std::string& pointer) {
+      readWords(name, list, pointer);
+    });
+    if (const auto* rules = root.required("rules"); rules != nullptr && rules->size() > kMostRules)
+      root.wrong("rules", "contains more than " + std::to_string(kMostRules) + " rules");
+    TRY(fault_.result());  // patterns need the words, and too many rules are not read
+    root.list("rules", [&](JsonFields& f) {
+      set.rules.push_back(readRule(f));
+      set.rules.back().place = "rule " + std::to_string(set.rules.size() - 1) + " of " + fault_.file();
+    });
+    root.list("implausible", [&](JsonFields& f) { set.implausible.push_back(readImplausible(f)); });
+    root.skip("then");
+    root.close();
+    TRY(fault_.result());
     set.words = std::move(words_);
     return set;
   }
 
  private:
-  Result<void> readWords(const nlohmann::json& content) {
-    const auto found = content.find("words");
-    if (found == content.end()) return {};
-    if (!found->is_object()) return (root_ / "words").unusable("must be an object of lists");
-    for (const auto& [name, list] : found->items()) {
-      const auto at = root_ / "words" / name;
-      if (name.empty() || name.find_first_of("{}|&!") != std::string::npos)
-        return at.unusable("must not contain { } | & !");
-      if (!list.is_array() || list.empty()) return at.unusable("must be a list of texts");
-      auto& words = words_[name];
-      words.clear();
-      for (std::size_t i = 0; i < list.size(); ++i) {
-        TRY_ASSIGN(auto word, textOf(list[i], at / i));
-        if (word.find_first_of("{}|&") != std::string::npos)
-          return (at / i).unusable("must be a single word; use { } | & only in patterns");
-        words.push_back(std::move(word));
-      }
+  void readWords(const std::string& name, const nlohmann::json& list, const std::string& pointer) {
+    if (name.empty() || name.find_first_of("{}|&!") != std::string::npos)
+      fault_.say(pointer, "must not contain { } | & !");
+    if (!list.is_array() || list.empty()) return fault_.needs(pointer, list, "a list of texts");
+    auto& words = words_[name];
+    words.clear();
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      words.push_back(textAt(fault_, list[i], pointer + "/" + std::to_string(i)));
+      if (words.back().find_first_of("{}|&") != std::string::npos)
+        fault_.say(pointer + "/" + std::to_string(i), "must be a single word; use { } | & only in patterns");
     }
-    return {};
   }
 
-  Result<std::string> readPattern(const nlohmann::json& entry, const JsonPlace& at, const char* key) const {
-    if (!entry.contains(key)) return std::string();
-    auto text = readText(entry, at, key);
-    if (!text) return text;
-    if (auto flaw = flawOf(*text, words_); !flaw.empty()) return (at / key).unusable(flaw);
+  std::string readPattern(JsonFields& f, const char* key) const {
+    auto text = f.textOr(key, "");
+    if (!text.empty())
+      if (const auto flaw = flawOf(text, words_); !flaw.empty()) f.wrong(key, flaw);
     return text;
   }
 
-  static Result<std::optional<ValueRange>> readRange(const nlohmann::json& entry, const JsonPlace& at,
-                                                     const char* key) {
-    const auto found = entry.find(key);
-    if (found == entry.end()) return std::optional<ValueRange>();
-    if (!found->is_array() || found->size() != 2) return (at / key).unusable("must be [from, to]");
-    TRY_ASSIGN(const auto from, readNumber((*found)[0], at / key / std::size_t{0}, 0, 1));
-    TRY_ASSIGN(const auto to, readNumber((*found)[1], at / key / std::size_t{1}, from, 1));
-    return std::optional(ValueRange{static_cast<float>(from), static_cast<float>(to)});
+  static std::optional<ValueRange> readRange(JsonFields& f, const char* key) {
+    const auto* value = f.raw(key);
+    if (value == nullptr) return std::nullopt;
+    if (!value->is_array() || value->size() != 2) {
+      f.needs(key, *value, "[from, to]");
+      return std::nullopt;
+    }
+    const double from = numberAt(f.fault(), (*value)[0], f.pointer(key) + "/0", 0, 1);
+    const double to = numberAt(f.fault(), (*value)[1], f.pointer(key) + "/1", from, 1);
+    return ValueRange{static_cast<float>(from), static_cast<float>(to)};
   }
 
-  Result<std::string> readAssigned(const nlohmann::json& entry, const JsonPlace& at) const {
-    auto assign = readText(entry, at, "assign");
-    if (assign && !ids_.contains(*assign)) return (at / "assign").unusable("'" + *assign + "' is not in the library");
-    return assign;
-  }
-
-  Result<AssignmentRule> readRule(const nlohmann::json& entry, const JsonPlace& at) const {
-    TRY(checkKeys(entry, at,
-                  {"ifc_class", "material", "name", "type", "storey", "group", "layer", "colour", "metallic",
-                   "roughness", "transmission", "assign", "hidden", "confidence"}));
+  AssignmentRule readRule(JsonFields& f) const {
     AssignmentRule rule;
     bool asks = false;
     for (const auto& [key, field] : {std::pair{"ifc_class", &AssignmentRule::ifc_class},
@@ -119,43 +102,36 @@ class RulesReader {
                                      {"group", &AssignmentRule::group},
                                      {"layer", &AssignmentRule::layer},
                                      {"colour", &AssignmentRule::colour}}) {
-      TRY_ASSIGN(auto pattern, readPattern(entry, at, key));
-      asks = asks || !pattern.empty();
-      rule.*field = std::move(pattern);
+      rule.*field = readPattern(f, key);
+      asks = asks || !(rule.*field).empty();
     }
-    TRY(checkColours(rule.colour, at / "colour"));
+    checkColours(f, rule.colour);
     for (const auto& [key, field] : {std::pair{"metallic", &AssignmentRule::metallic},
                                      {"roughness", &AssignmentRule::roughness},
                                      {"transmission", &AssignmentRule::transmission}}) {
-      TRY_ASSIGN(auto range, readRange(entry, at, key));
-      asks = asks || range.has_value();
-      rule.*field = range;
+      rule.*field = readRange(f, key);
+      asks = asks || (rule.*field).has_value();
     }
-    if (!asks) return at.unusable("has no pattern and would match everything");
-    TRY_ASSIGN(auto assign, readAssigned(entry, at));
-    rule.assign = std::move(assign);
-    if (const auto hidden = entry.find("hidden"); hidden != entry.end()) {
-      if (!hidden->is_boolean()) return (at / "hidden").unusable("must be true or false");
-      if (rule.material.empty()) return (at / "hidden").unusable("requires a pattern for the material");
-      rule.hidden = hidden->get<bool>();
-    }
-    if (entry.contains("confidence")) {
-      TRY_ASSIGN(const auto confidence, readNumber(entry["confidence"], at / "confidence", 0, 1));
-      rule.confidence = confidence;
-    }
+    rule.hidden = f.flagOr("hidden", rule.hidden);
+    if (f.has("hidden") && rule.material.empty()) f.wrong("hidden", "requires a pattern for the material");
+    rule.confidence = f.numberOr("confidence", rule.confidence, 0, 1);
+    rule.assign = f.text("assign");
+    if (!ids_.contains(rule.assign)) f.wrong("assign", "'" + rule.assign + "' is not in the library");
+    f.close();  // an unknown key may be the pattern that is not there
+    if (!asks) f.wrong("", "has no pattern and would match everything");
     return rule;
   }
 
-  Result<Implausible> readImplausible(const nlohmann::json& entry, const JsonPlace& at) const {
-    TRY(checkKeys(entry, at, {"ifc_class", "assigned", "why"}));
-    TRY_ASSIGN(auto ifc_class, readPattern(entry, at, "ifc_class"));
-    if (!entry.contains("assigned")) return (at / "assigned").unusable("is missing");
-    TRY_ASSIGN(auto assigned, readPattern(entry, at, "assigned"));
-    TRY_ASSIGN(auto why, readText(entry, at, "why"));
-    return Implausible{std::move(ifc_class), std::move(assigned), std::move(why)};
+  Implausible readImplausible(JsonFields& f) const {
+    Implausible entry;
+    entry.ifc_class = readPattern(f, "ifc_class");
+    f.required("assigned");
+    entry.assigned = readPattern(f, "assigned");
+    entry.why = f.text("why");
+    return entry;
   }
 
-  JsonPlace root_;
+  JsonFault fault_;
   WordLists words_;
   std::set<std::string> ids_;
 };

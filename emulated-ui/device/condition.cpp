@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/json_fields.h"
 #include "emulated-ui/device/numbers.h"
 
 namespace standpoint {
@@ -383,6 +384,12 @@ Result<void> Condition::check(const DomainLookup& domain) const {
   if (std::none_of(cases.begin(), cases.end(), [&](const Case& one) { return canHold(one, domain); }))
     return failure(ErrorKind::unusable, fmt::format("'{}' can never be true", text_));
   return {};
+}
+
+Condition conditionAt(JsonFields& fields, std::string_view key) {
+  auto parsed = Condition::parse(fields.textOr(key, "", "setups >= 1"));
+  if (!parsed) fields.wrong(key, parsed.error().message);
+  return std::move(parsed).value_or(Condition());
 }
 
 }  // namespace standpoint

@@ -12,6 +12,8 @@
 
 namespace standpoint {
 
+class JsonFields;
+
 // What is known of something under a name: a number, a word, or both.
 struct Fact {
   std::string text;
@@ -63,5 +65,7 @@ class Condition {
   std::string text_;
   std::shared_ptr<const Node> root_;
 };
+
+Condition conditionAt(JsonFields& fields, std::string_view key);  // empty when it is missing
 
 }  // namespace standpoint

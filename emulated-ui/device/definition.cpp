@@ -6,10 +6,11 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include "core/json_fields.h"
 #include "core/json_file.h"
-#include "emulated-ui/device/json_fields.h"
-#include "emulated-ui/device/nearest.h"
+#include "core/nearest_name.h"
 
 namespace standpoint {
 
@@ -35,9 +36,9 @@ WidgetRow widgetRow(JsonFields& f) {
   w.does = f.textOr("does", "");
   w.event = f.textOr("event", "");
   w.go = f.textOr("go", "");
-  w.when = f.condition("when");
-  w.enabled = f.condition("enabled");
-  w.warns = f.condition("warns");
+  w.when = conditionAt(f, "when");
+  w.enabled = conditionAt(f, "enabled");
+  w.warns = conditionAt(f, "warns");
   w.why_not = f.textOr("why_not", "");
   w.words = f.textOr("words", w.id);
   w.source = f.text("source");
@@ -49,9 +50,9 @@ WidgetRow widgetRow(JsonFields& f) {
 }
 
 void readBody(JsonFields& root, BodyRow& body) {
-  const auto* raw = root.raw("body");
-  if (raw == nullptr) return root.wrong("body", "missing");
-  JsonFields f(root.fault(), *raw, root.pointer() + "/body");
+  const auto* raw = root.required("body");
+  if (raw == nullptr) return;
+  JsonFields f(root.fault(), *raw, root.pointer("body"));
   body.battery_s = f.number("battery_s", 60, 1e6);
   body.battery_warning = f.numberOr("battery_warning", 0.1, 0, 1);
   body.battery_critical = f.numberOr("battery_critical", 0.03, 0, 1);
@@ -68,7 +69,7 @@ void readBody(JsonFields& root, BodyRow& body) {
   f.object("sleeps", [&](JsonFields& sleeps) {
     body.sleeps_by = sleeps.text("value");
     sleeps.object("minutes", [&](JsonFields& minutes) {
-      for (const auto& choice : minutes.keys()) body.sleeps_after_min[choice] = minutes.number(choice.c_str(), 0, 1440);
+      for (const auto& choice : minutes.keys()) body.sleeps_after_min[choice] = minutes.number(choice, 0, 1440);
     });
   });
   f.skip("sources");
@@ -192,7 +193,7 @@ DeviceEffect effectOf(JsonFields& f, const char* key) {
 Transition transitionRow(JsonFields& f, const PhaseNames& phases) {
   Transition t{.event = f.text("event")};
   t.from = phases.several(f, "from");
-  t.guard = f.condition("guard").text();
+  t.guard = conditionAt(f, "guard").text();
   t.to = phases.one(f, "to");
   t.show = f.textOr("show", "");
   t.ask = f.textOr("ask", "");
@@ -240,12 +241,12 @@ void readRoles(JsonFields& f, const PhaseNames& names, DeviceRoles& r) {
   r.start_anyway = f.textOr("start_anyway", r.start_anyway);
   f.list("first_questions", [&](JsonFields& t) { r.first_questions.push_back(transitionRow(t, names)); });
   f.list("last_questions", [&](JsonFields& t) { r.last_questions.push_back(transitionRow(t, names)); });
-  if (f.has("tilted")) r.tilted = f.condition("tilted").text();
-  if (f.has("near")) r.near = f.condition("near").text();
+  if (f.has("tilted")) r.tilted = conditionAt(f, "tilted").text();
+  if (f.has("near")) r.near = conditionAt(f, "near").text();
   text("card_needed", r.card_needed);
   r.links = f.flagOr("links", r.links);
   f.object("marks", [&](JsonFields& marks) {
-    for (const auto& source : marks.keys()) r.marks.push_back({source, marks.texts(source.c_str())});
+    for (const auto& source : marks.keys()) r.marks.push_back({source, marks.texts(source)});
   });
 }
 
@@ -296,7 +297,7 @@ Result<DeviceDefinition> readDefinition(const std::filesystem::path& file) {
   root.object("scan", [&](JsonFields& f) {
     d.scan.name = f.textOr("name", d.scan.name);
     d.scan.project_base = f.flagOr("project_base", false);
-    d.scan.levelled = f.condition("levelled");
+    d.scan.levelled = conditionAt(f, "levelled");
     const auto facts = d.scan.levelled.facts();
     if (std::find(facts.begin(), facts.end(), "levelled") != facts.end())
       f.wrong("levelled", "'levelled' is what this condition says: it cannot ask for itself");
@@ -313,7 +314,7 @@ Result<DeviceDefinition> readDefinition(const std::filesystem::path& file) {
   refuseTwins(fault, d.dialogs, "/dialogs");
   refuseTwins(fault, d.keys, "/keys");
   refuseTwins(fault, d.sensors, "/sensors");
-  if (fault.error()) return failure(*fault.error());
+  TRY(fault.result());
   return d;
 }
 

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <set>
 
+#include <nlohmann/json.hpp>
+
+#include "core/json_fields.h"
 #include "core/json_file.h"
-#include "emulated-ui/device/json_fields.h"
 
 namespace standpoint {
 
@@ -45,8 +47,7 @@ Result<void> Words::take(const std::filesystem::path& file, std::string device) 
     });
   });
   root.close();
-  if (fault.error()) return failure(*fault.error());
-  return {};
+  return fault.result();
 }
 
 const std::string* Words::find(const std::string& device, const std::string& key, const std::string& language) const {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "emulated-ui/device/nearest.h"
+#include "core/nearest_name.h"
 #include "emulated-ui/menus.h"
 
 namespace standpoint {

@@ -6,10 +6,11 @@
 #include <cstdlib>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "core/data_folder.h"
+#include "core/json_fields.h"
 #include "core/json_file.h"
-#include "emulated-ui/device/json_fields.h"
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/events.h"
 #include "project/verb.h"
@@ -23,16 +24,13 @@ using Kind = RehearsalAction::Kind;
 
 Spoken spoken(JsonFields& f, const char* key, bool required) {
   Spoken s;
-  const auto* raw = f.raw(key);
-  if (raw == nullptr) {
-    if (required) f.wrong(key, "missing");
-    return s;
-  }
+  const auto* raw = required ? f.required(key) : f.raw(key);
+  if (raw == nullptr) return s;
   if (!raw->is_object()) {
     f.needs(key, *raw, "an object with a text for each language, such as {\"en\": \"Scan.\"}");
     return s;
   }
-  JsonFields texts(f.fault(), *raw, f.pointer() + "/" + key);
+  JsonFields texts(f.fault(), *raw, f.pointer(key));
   texts.everyText([&](const std::string& language, const std::string& text) {
     if (text.find_first_not_of(" \t\r\n") != std::string::npos) s.texts[language] = text;  // a blank is no translation
   });
@@ -82,7 +80,7 @@ RehearsalAction action(JsonFields& f, bool prepares = false) {
     a.options = options == nullptr ? nlohmann::json::object() : *options;
     const bool field = isFieldVerb(a.name);
     if (!a.options.is_object())
-      f.needs("options", a.options, "an object, such as {\"add\": \"S1\", \"on\": [4.3, 1.6, 0]},");
+      f.needs("options", a.options, "an object, such as {\"add\": \"S1\", \"on\": [4.3, 1.6, 0]}");
     if (!field && !(prepares && a.name == "treat"))
       f.wrong("verb", fmt::format("'{}' is not allowed here; allowed: {}", a.name,
                                   prepares ? "station, target, plan, treat" : "station, target and plan"));
@@ -123,7 +121,7 @@ ExerciseRule rule(JsonFields& f) {
   if (r.when == "each" && !r.event.empty())
     if (const auto wrong = wrongEvent(r.event)) f.wrong("when", *wrong);
   if ((r.when == "each") == r.event.empty()) f.wrong("when", "'each' requires an event, such as \"each scan_started\"");
-  r.holds = f.condition("holds");
+  r.holds = conditionAt(f, "holds");
   if (r.holds.empty()) f.wrong("holds", "condition required");
   r.points = f.number("points", 0, 1000);
   r.must = f.flagOr("must", false);
@@ -163,7 +161,7 @@ Result<RehearsalAction> actionFrom(const nlohmann::json& json, const std::string
   JsonFields fields(fault, json, pointer);
   auto read = action(fields);
   fields.close();
-  if (fault.error()) return failure(*fault.error());
+  TRY(fault.result());
   return read;
 }
 
@@ -228,7 +226,7 @@ Result<Exercise> readExercise(const fs::path& file) {
   e.start = actions(f, "start");
   e.troubles = f.texts("troubles");
   f.list("events", [&](JsonFields& one) {
-    ExerciseEvent event{one.condition("when"), one.text("trouble", "battery_low")};
+    ExerciseEvent event{conditionAt(one, "when"), one.text("trouble", "battery_low")};
     if (event.when.empty()) one.wrong("when", "condition required");
     e.events.push_back(std::move(event));
   });
@@ -239,7 +237,7 @@ Result<Exercise> readExercise(const fs::path& file) {
     s.text = spoken(one, "text", true);
     s.hint = spoken(one, "hint", false);
     s.widget = one.textOr("widget", "", "start_scan");
-    s.done = one.condition("done");
+    s.done = conditionAt(one, "done");
     if (s.done.empty()) one.wrong("done", "condition required");
     s.points = one.numberOr("points", 1, 0, 1000);
     e.steps.push_back(std::move(s));
@@ -260,7 +258,7 @@ Result<Exercise> readExercise(const fs::path& file) {
   e.solution = actions(f, "solution");
   f.close();
   if (e.steps.empty() && e.rules.empty()) fault.say("/steps", "an exercise requires steps or rules");
-  if (fault.error()) return failure(*fault.error());
+  TRY(fault.result());
   return e;
 }
 

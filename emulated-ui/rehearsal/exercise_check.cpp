@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "emulated-ui/device/nearest.h"
+#include "core/nearest_name.h"
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/events.h"
 #include "emulated-ui/rehearsal/rehearsal.h"

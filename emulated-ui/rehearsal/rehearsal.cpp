@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "core/nearest_name.h"
 #include "emulated-ui/device/format.h"
-#include "emulated-ui/device/nearest.h"
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/field_proofs.h"
 #include "emulated-ui/sighting.h"

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/json_fields.h"
 #include "core/json_file.h"
 
 namespace standpoint {
@@ -15,61 +16,58 @@ using nlohmann::json;
 
 class MapReader {
  public:
-  explicit MapReader(std::string file) : root_{std::move(file), {}} {}
+  explicit MapReader(std::string file) : fault_(std::move(file)) {}
   Result<ClassMap> read(const json& content);
 
  private:
-  Result<std::size_t> classNamed(const json& value, const JsonPlace& at) const;
-  Result<void> takeClasses(const json& classes, const JsonPlace& at);
-  Result<void> takeRules(const json& rules, const JsonPlace& at);
+  std::size_t classNamed(const json& value, const std::string& pointer);
+  void takeClasses(JsonFields& root);
+  void takeRules(JsonFields& root);
 
-  JsonPlace root_;
+  JsonFault fault_;
   ClassMap map_;
 };
 
-Result<std::size_t> MapReader::classNamed(const json& value, const JsonPlace& at) const {
-  if (!value.is_string()) return at.unusable("must be the name of a class");
-  const auto name = value.get<std::string>();
+std::size_t MapReader::classNamed(const json& value, const std::string& pointer) {
   for (std::size_t i = 0; i < map_.classes.size(); ++i)
-    if (map_.classes[i].name == name) return i;
-  return at.unusable("'" + name + "' is not one of the classes");
+    if (value == map_.classes[i].name) return i;
+  if (value.is_string())
+    fault_.say(pointer, "'" + value.get<std::string>() + "' is not one of the classes");
+  else
+    fault_.needs(pointer, value, "the name of a class");
+  return 0;
 }
 
-Result<void> MapReader::takeClasses(const json& classes, const JsonPlace& at) {
-  if (!classes.is_object() || classes.empty()) return at.unusable("must be an object of names and ids");
-  for (const auto& [name, id] : classes.items()) {
+void MapReader::takeClasses(JsonFields& root) {
+  root.required("classes");
+  root.each("classes", [&](const std::string& name, const json& id, const std::string& pointer) {
     if (!id.is_number_unsigned() || id.get<std::uint64_t>() > 65535)
-      return (at / name).unusable("must be an id from 0 to 65535");
+      return fault_.needs(pointer, id, "an id from 0 to 65535");
     map_.classes.push_back({name, id.get<std::uint32_t>()});
-  }
+  });
+  if (map_.classes.empty()) root.wrong("classes", "must be an object of names and ids");
   std::stable_sort(map_.classes.begin(), map_.classes.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
-  return {};
 }
 
-Result<void> MapReader::takeRules(const json& rules, const JsonPlace& at) {
-  if (!rules.is_object()) return at.unusable("must be an object of IFC classes");
-  for (const auto& [ifc_class, value] : rules.items()) {
-    const auto place = at / ifc_class;
+void MapReader::takeRules(JsonFields& root) {
+  root.required("ifc");
+  root.each("ifc", [&](const std::string& ifc_class, const json& value, const std::string& pointer) {
     const bool pair = value.is_array() && value.size() == 2;
-    TRY_ASSIGN(const auto below, classNamed(pair ? value[0] : value, place));
-    TRY_ASSIGN(const auto above, classNamed(pair ? value[1] : value, place));
-    map_.rules.push_back({ifc_class, {below, above}});
-  }
-  return {};
+    map_.rules.push_back(
+        {ifc_class, {classNamed(pair ? value[0] : value, pointer), classNamed(pair ? value[1] : value, pointer)}});
+  });
 }
 
 Result<ClassMap> MapReader::read(const json& content) {
-  TRY(checkKeys(content, root_, {"name", "source", "unknown", "noise", "classes", "ifc"}));
-  for (const char* key : {"name", "unknown", "noise", "classes", "ifc"})
-    if (!content.contains(key)) return (root_ / key).unusable("is missing");
-  TRY_ASSIGN(auto name, readText(content, root_, "name"));
-  map_.name = std::move(name);
-  TRY(takeClasses(content["classes"], root_ / "classes"));
-  for (const auto& [key, member] : {std::pair("unknown", &ClassMap::unknown), std::pair("noise", &ClassMap::noise)}) {
-    TRY_ASSIGN(const auto found, classNamed(content[key], root_ / key));
-    map_.*member = found;
-  }
-  TRY(takeRules(content["ifc"], root_ / "ifc"));
+  JsonFields root(fault_, content, "");
+  map_.name = root.text("name");
+  root.skip("source");
+  takeClasses(root);
+  for (const auto& [key, member] : {std::pair("unknown", &ClassMap::unknown), std::pair("noise", &ClassMap::noise)})
+    if (const auto* name = root.required(key)) map_.*member = classNamed(*name, root.pointer(key));
+  takeRules(root);
+  root.close();
+  TRY(fault_.result());
   return map_;
 }
 

@@ -2,8 +2,10 @@
 #include "project/model/lod_rules.h"
 
 #include <algorithm>
-#include <array>
 
+#include <nlohmann/json.hpp>
+
+#include "core/json_fields.h"
 #include "core/json_file.h"
 #include "materials/materials.h"
 #include "optimizer/simplify/visibility.h"
@@ -12,89 +14,46 @@ namespace standpoint {
 
 namespace {
 
-using nlohmann::json;
-
-Result<std::vector<std::string>> readSelectors(const json& object, const JsonPlace& at) {
-  std::vector<std::string> selectors;
-  const auto found = object.find("products");
-  if (found == object.end()) return selectors;
-  const JsonPlace place = at / "products";
-  if (!found->is_array() || found->empty()) return place.unusable("must be a list of selectors");
-  for (std::size_t i = 0; i < found->size(); ++i) {
-    if (!(*found)[i].is_string() || (*found)[i].get<std::string>().empty())
-      return (place / i).unusable("must be a selector such as class:IfcWall*");
-    selectors.push_back((*found)[i].get<std::string>());
-  }
+std::vector<std::string> readSelectors(JsonFields& f) {
+  auto selectors = f.texts("products");
+  if (f.has("products") && (selectors.empty() || std::find(selectors.begin(), selectors.end(), "") != selectors.end()))
+    f.wrong("products", "must be a list of selectors such as class:IfcWall*");
   return selectors;
 }
 
-Result<void> readOptional(const json& object, const JsonPlace& at, const char* key, std::optional<double>& value) {
-  if (!object.contains(key)) return {};
-  TRY_ASSIGN(auto number, readNumber(object.at(key), at / key, 0, 1e6));
-  value = number;
-  return {};
-}
-
-Result<void> readFlag(const json& object, const JsonPlace& at, const char* key, bool& value) {
-  if (!object.contains(key)) return {};
-  if (!object.at(key).is_boolean()) return (at / key).unusable("must be true or false");
-  value = object.at(key).get<bool>();
-  return {};
-}
-
-Result<LodRule> readRule(const json& entry, const JsonPlace& at) {
-  TRY(checkKeys(entry, at,
-                {"reason", "products", "smaller_than_m", "thinner_than_m", "sees_sky_less_than", "drop", "keep",
-                 "max_deviation_m", "weight"}));
+LodRule readRule(JsonFields& f) {
   LodRule rule;
-  TRY_ASSIGN(auto reason, readText(entry, at, "reason"));
-  rule.reason = std::move(reason);
-  TRY_ASSIGN(auto selectors, readSelectors(entry, at));
-  rule.products = std::move(selectors);
-  for (const auto& [key, field] :
-       {std::pair{"smaller_than_m", &LodRule::smaller_than_m}, std::pair{"thinner_than_m", &LodRule::thinner_than_m},
-        std::pair{"sees_sky_less_than", &LodRule::sees_sky_less_than},
-        std::pair{"max_deviation_m", &LodRule::max_deviation_m}})
-    TRY(readOptional(entry, at, key, rule.*field));
-  for (const auto& [key, field] : {std::pair{"drop", &LodRule::drop}, std::pair{"keep", &LodRule::keep}})
-    TRY(readFlag(entry, at, key, rule.*field));
-  if (rule.drop && rule.keep) return at.unusable("cannot both drop and keep");
-  if (entry.contains("weight")) {
-    TRY_ASSIGN(auto weight, readNumber(entry.at("weight"), at / "weight", 0.001, 1000));
-    rule.weight = weight;
-  }
+  rule.reason = f.text("reason");
+  rule.products = readSelectors(f);
+  rule.smaller_than_m = f.optionalNumber("smaller_than_m", 0, 1e6);
+  rule.thinner_than_m = f.optionalNumber("thinner_than_m", 0, 1e6);
+  rule.sees_sky_less_than = f.optionalNumber("sees_sky_less_than", 0, 1e6);
+  rule.max_deviation_m = f.optionalNumber("max_deviation_m", 0, 1e6);
+  rule.drop = f.flagOr("drop", rule.drop);
+  rule.keep = f.flagOr("keep", rule.keep);
+  if (rule.drop && rule.keep) f.wrong("", "cannot both drop and keep");
+  rule.weight = f.numberOr("weight", rule.weight, 0.001, 1000);
   return rule;
 }
 
-Result<LodLevel> readLevel(const json& entry, const JsonPlace& at, const char* part) {
-  TRY(checkKeys(entry, at,
-                {"part", "level", "budget", "max_deviation_m", "hidden_faces", "farther_than_m", "products", "rules"}));
+LodLevel readLevel(JsonFields f, const char* part) {
   LodLevel level;
-  for (const auto& [key, field] : {std::pair{"part", &LodLevel::part}, std::pair{"level", &LodLevel::level}}) {
-    TRY_ASSIGN(auto text, readText(entry, at, key));
-    level.*field = std::move(text);
-  }
+  level.part = f.text("part");
+  level.level = f.text("level");
   if (level.part != part)
-    return (at / "part").unusable(std::string("must be ") + part + ": list the main part first, then the surroundings");
-  for (const char* key : {"budget", "max_deviation_m", "rules"})
-    if (!entry.contains(key)) return (at / key).unusable("is missing");
-  TRY_ASSIGN(auto budget, readNumber(entry.at("budget"), at / "budget", 0, 1e12));
-  level.budget = static_cast<std::uint64_t>(budget);
-  TRY_ASSIGN(auto deviation, readNumber(entry.at("max_deviation_m"), at / "max_deviation_m", 0, 1000));
-  level.max_deviation_m = deviation;
-  TRY(readOptional(entry, at, "farther_than_m", level.farther_than_m));
-  TRY(readFlag(entry, at, "hidden_faces", level.hidden_faces));
+    f.wrong("part", std::string("must be ") + part + ": list the main part first, then the surroundings");
+  level.budget = static_cast<std::uint64_t>(f.number("budget", 0, 1e12));
+  level.max_deviation_m = f.number("max_deviation_m", 0, 1000);
+  level.farther_than_m = f.optionalNumber("farther_than_m", 0, 1e6);
+  level.hidden_faces = f.flagOr("hidden_faces", level.hidden_faces);
   if (level.hidden_faces && level.part != "main")
-    return (at / "hidden_faces").unusable("is for the whole and belongs in the main part");
-  TRY_ASSIGN(auto selectors, readSelectors(entry, at));
-  level.products = std::move(selectors);
+    f.wrong("hidden_faces", "is for the whole and belongs in the main part");
+  level.products = readSelectors(f);
   if (level.part == "main" && (level.farther_than_m || !level.products.empty()))
-    return at.unusable("define it in the surroundings; the main part is everything else");
-  if (!entry.at("rules").is_array()) return (at / "rules").unusable("must be a list");
-  for (std::size_t i = 0; i < entry.at("rules").size(); ++i) {
-    TRY_ASSIGN(auto rule, readRule(entry.at("rules")[i], at / "rules" / i));
-    level.rules.push_back(std::move(rule));
-  }
+    f.wrong("", "define it in the surroundings; the main part is everything else");
+  f.required("rules");
+  f.list("rules", [&](JsonFields& rule) { level.rules.push_back(readRule(rule)); });
+  f.close();
   return level;
 }
 
@@ -152,13 +111,12 @@ std::vector<double> skyFractionsIfAsked(const Environment& environment, const st
 
 Result<std::vector<LodLevel>> readLodRules(const std::filesystem::path& file) {
   TRY_ASSIGN(const auto entries, readJsonArray(file));
-  const JsonPlace top{file.filename().string(), {}};
-  if (entries.size() != 2) return top.unusable("must contain two levels: main and surroundings");
-  std::vector<LodLevel> levels;
-  for (std::size_t i = 0; i < 2; ++i) {
-    TRY_ASSIGN(auto level, readLevel(entries[i], top / i, std::array{"main", "surroundings"}[i]));
-    levels.push_back(std::move(level));
-  }
+  JsonFault fault(file.filename().string());
+  if (entries.size() != 2) fault.say("", "must contain two levels: main and surroundings");
+  TRY(fault.result());
+  std::vector<LodLevel> levels{readLevel(JsonFields(fault, entries[0], "/0"), "main"),
+                               readLevel(JsonFields(fault, entries[1], "/1"), "surroundings")};
+  TRY(fault.result());
   return levels;
 }
 

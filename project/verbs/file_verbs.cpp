@@ -4,8 +4,10 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "core/data_folder.h"
+#include "core/json_fields.h"
 #include "core/json_file.h"
 #include "core/output_place.h"
 #include "importers/importers.h"
@@ -186,22 +188,21 @@ const Fields<JobOptions>& jobFields() {
 Result<Outcome> runJob(const Document& document, const JobOptions& options, Progress& progress) {
   const fs::path& file = options.job;
   TRY_ASSIGN(const auto steps, readJsonArray(file));
-  const JsonPlace root{file.filename().string(), {}};
   Outcome outcome{document, json::object(), {}, {}};
   json answers = json::array();
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    const auto place = root / i;
-    if (!steps[i].is_object()) return place.unusable("must be an object with a \"verb\"");
-    TRY_ASSIGN(const auto verb_name, readText(steps[i], place, "verb"));
+    JsonFault fault(file.filename().string());
+    JsonFields fields(fault, steps[i], fmt::format("/{}", i));
+    const auto verb_name = fields.text("verb", "scan");
     const Verb* verb = findVerb(verbs(), verb_name);
-    if (verb == nullptr || verb_name == "run")
-      return (place / "verb").unusable(fmt::format("unknown job verb '{}'", verb_name));
+    if (verb == nullptr || verb_name == "run") fields.wrong("verb", fmt::format("unknown job verb '{}'", verb_name));
+    TRY(fault.result());
     json step = steps[i];
     step.erase("verb");
     auto done = runOnDisk(*verb, step, progress);
     if (!done) {
       Error error = done.error();
-      error.source = place.file + " " + place.pointer + (error.source.empty() ? "" : " " + error.source);
+      error.source = fault.file() + " " + fields.pointer() + (error.source.empty() ? "" : " " + error.source);
       return failure(error);
     }
     for (auto issue : done->report.issues) {

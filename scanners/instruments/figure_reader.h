@@ -3,31 +3,27 @@
 
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
+#include <vector>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
-#include "core/result.h"
+#include "core/json_fields.h"
 #include "scanners/instruments/instrument.h"
 
 namespace standpoint {
 
 constexpr std::uintmax_t kLargestFile = 1U << 20U;  // bytes; no file of figures is larger
 
-// Reads figures with their sources from a JSON file, with one sticky error, the first; after it every answer is a
-// harmless default. Each error has the file and the JSON pointer.
+// Figures with their sources, on top of the look-ups of JsonFields.
 class FigureReader {
  public:
   using Json = nlohmann::json;
 
-  // An object of the file, with what has been read of it: what has not is an unknown key.
   struct Group {
-    const Json* object = nullptr;
-    std::string pointer;
-    std::string source;  // of its figures that state none themselves
+    JsonFields fields;
+    std::string source{};  // of its figures that state none themselves
     std::string note{};
-    std::set<std::string> seen{};
   };
 
   struct Domain {
@@ -35,19 +31,16 @@ class FigureReader {
     double scale = 1;  // from the file's unit to ours
   };
 
-  explicit FigureReader(std::string file) : file_(std::move(file)) {}
+  explicit FigureReader(std::string file) : fault_(std::move(file)) {}
 
-  const std::optional<Error>& error() const { return error_; }
+  const std::optional<Error>& error() const { return fault_.error(); }
   const std::map<std::string, Evidence>& evidence() const { return evidence_; }
-  void fail(const std::string& pointer, std::string message);
+  void fail(const std::string& pointer, const std::string& message) { fault_.say(pointer, message); }
 
   Group open(const Json& value, std::string pointer);
-  Group child(Group& parent, const std::string& key) { return open(member(parent, key), parent.pointer + "/" + key); }
-  void close(const Group& group);
-  const Json& member(Group& group, const std::string& key);
-  std::string text(Group& group, const std::string& key);
+  Group child(Group& parent, const std::string& key);
   // The list at `key`; empty after an error.
-  const Json& list(Group& group, const std::string& key, std::size_t most);
+  const Json& list(JsonFields& fields, const std::string& key, std::size_t most);
   // A word with its source: {value, source, note}; one of `words`.
   std::string word(Group& parent, const std::string& key, const std::vector<std::string>& words);
 
@@ -63,10 +56,9 @@ class FigureReader {
   void cite(const std::string& pointer, const std::string& mark, const std::string& note);
 
  private:
-  std::string file_;
+  JsonFault fault_;
   std::map<std::string, std::string> sources_;
   std::map<std::string, Evidence> evidence_;
-  std::optional<Error> error_;
 };
 
 }  // namespace standpoint

@@ -23,13 +23,13 @@ class InstrumentReader : FigureReader {
 
   Result<Instrument> read() {
     Group root = open(document_, "");
-    instrument_.id = text(root, "id");
-    instrument_.maker = text(root, "maker");
-    instrument_.model = text(root, "model");
+    instrument_.id = root.fields.text("id");
+    instrument_.maker = root.fields.text("maker");
+    instrument_.model = root.fields.text("model");
     readSources(root);
     instrument_.technology = word(root, "technology", {"time_of_flight", "phase_shift"});
     readOptics(root);
-    if (root.object->contains("moving"))
+    if (root.fields.has("moving"))
       readMoving(root);
     else
       readTripod(root);
@@ -39,9 +39,9 @@ class InstrumentReader : FigureReader {
     readWaveform(root);
     readCorrelated(root);
     readSaturation(root);
-    if (root.object->contains("filters")) readFilters(root);
+    if (root.fields.has("filters")) readFilters(root);
     readSettings(root);
-    close(root);
+    root.fields.close();
     if (!error()) checkWhole();
     if (error()) return failure(*error());
     instrument_.evidence = evidence();
@@ -54,16 +54,16 @@ class InstrumentReader : FigureReader {
     instrument_.wavelength_nm = figure(beam, "wavelength_nm", {200, 3000});
     instrument_.divergence_rad = figure(beam, "divergence_mrad", {0.001, 100, 1e-3});
     instrument_.exit_diameter_m = figure(beam, "exit_diameter_mm", {0.1, 1000, 1e-3});
-    close(beam);
+    beam.fields.close();
     Group range = child(root, "range");
     instrument_.min_range_m = figure(range, "min_m", {0, 100});
     instrument_.max_range_m = figure(range, "max_m", {1, 10000});
     instrument_.reference_reflectivity = figure(range, "reference_reflectivity", {0.001, 1});
     instrument_.range_bias_m = figure(range, "bias_mm", {0, 1000, 1e-3});
     instrument_.range_bias_ppm = figure(range, "bias_ppm", {0, 10000});
-    if (instrument_.technology == "phase_shift" && range.object->contains("unambiguous_m"))
+    if (instrument_.technology == "phase_shift" && range.fields.has("unambiguous_m"))
       instrument_.unambiguous_m = figure(range, "unambiguous_m", {0, 100000});
-    close(range);
+    range.fields.close();
   }
 
   void readAngles(Group& root) {
@@ -74,7 +74,7 @@ class InstrumentReader : FigureReader {
     }
     instrument_.angle_sigma_rad = figure(angles, "accuracy_arcsec", {0, 3600, kRadPerArcsec});
     instrument_.angle_jitter_rad = figure(angles, "jitter_arcsec", {0, 3600, kRadPerArcsec});
-    close(angles);
+    angles.fields.close();
   }
 
   void readTripod(Group& root) {
@@ -82,19 +82,19 @@ class InstrumentReader : FigureReader {
     instrument_.mirror_max_hz = figure(mirror, "max_hz", {0, 10000});
     instrument_.column_factor = figure(mirror, "column_factor", {1, 2});
     instrument_.overhead_s = figure(mirror, "overhead_s", {0, 3600});
-    close(mirror);
+    mirror.fields.close();
     Group stand = child(root, "stand");
     instrument_.trunnion_height_m = figure(stand, "trunnion_height_m", {0, 2});
     instrument_.tripod_height_m = figure(stand, "tripod_height_m", {0.1, 10});
-    close(stand);
-    if (root.object->contains("compensator")) readCompensator(root);
+    stand.fields.close();
+    if (root.fields.has("compensator")) readCompensator(root);
     Group imaging = child(root, "imaging");
     instrument_.imaging_seconds = figure(imaging, "seconds", {0, 3600});
     instrument_.camera.columns = static_cast<std::uint32_t>(count(imaging, "columns", {16, 32768})) / 2 * 2;
     instrument_.camera.shots = count(imaging, "shots", {1, 360});
     instrument_.camera.hdr = count(imaging, "hdr", {0, 1}) == 1;
     instrument_.camera.offset_up_m = figure(imaging, "offset_up_mm", {-500, 500, 1e-3});
-    close(imaging);
+    imaging.fields.close();
   }
 
   void readCompensator(Group& root) {
@@ -103,11 +103,11 @@ class InstrumentReader : FigureReader {
     compensator.kind = word(group, "kind", {"liquid", "inclinometer", "imu", "self_levelling"});
     compensator.range_rad = figure(group, "range_deg", {0, 90, kRadPerDeg});
     compensator.accuracy_rad = figure(group, "accuracy_arcsec", {0, 36000, kRadPerArcsec});
-    if (group.object->contains("reduced_range_deg")) {
+    if (group.fields.has("reduced_range_deg")) {
       compensator.reduced_range_rad = figure(group, "reduced_range_deg", {0, 90, kRadPerDeg});
       compensator.reduced_accuracy_rad = figure(group, "reduced_accuracy_arcsec", {0, 36000, kRadPerArcsec});
     }
-    close(group);
+    group.fields.close();
     instrument_.compensator = std::move(compensator);
   }
 
@@ -123,7 +123,7 @@ class InstrumentReader : FigureReader {
     head.second_rotation_hz = figure(group, "second_rotation_hz", {0, 10000});
     head.turn_rad = figure(group, "turn_deg", {1, 360, kRadPerDeg});
     head.cloud_accuracy_m = figure(group, "cloud_accuracy_mm", {0, 10000, 1e-3});
-    close(group);
+    group.fields.close();
     if (head.min_rotation_hz > head.max_rotation_hz)
       fail("/moving/most_rotation_hz", "must not be below least_rotation_hz");
     const auto& elevations = head.channel_elevations_rad;
@@ -145,8 +145,8 @@ class InstrumentReader : FigureReader {
     instrument_.amplitude.aperture_m = figure(signal, "receiver_aperture_mm", {0.1, 1000, 1e-3});
     instrument_.amplitude.jitter = figure(signal, "amplitude_jitter", {0, 0.5});
     instrument_.sun_noise = figure(signal, "sun_noise", {0, 1000});
-    if (signal.object->contains("near_range_curve")) readNearRangeCurve(signal);
-    close(signal);
+    if (signal.fields.has("near_range_curve")) readNearRangeCurve(signal);
+    signal.fields.close();
   }
 
   void readNearRangeCurve(Group& signal) {
@@ -155,7 +155,7 @@ class InstrumentReader : FigureReader {
     curve.below_m = figure(group, "below_m", {0.1, 1000});
     curve.amplitude_db = figures(group, "amplitude_db", {-1000, 1000}, 4);
     curve.far_db = figure(group, "far_db", {-1000, 1000});
-    close(group);
+    group.fields.close();
   }
 
   void readFilters(Group& root) {
@@ -164,21 +164,21 @@ class InstrumentReader : FigureReader {
     filters.deviation_m = figure(group, "deviation_mm", {0, 10000, 1e-3});
     filters.weak_factor = figure(group, "weak_factor", {0, 1000});
     filters.overload = count(group, "overload", {0, 1}) == 1;
-    close(group);
+    group.fields.close();
   }
 
   void readNoise(Group& root) {
-    const Json& entries = list(root, "range_noise", 100);
+    const Json& entries = list(root.fields, "range_noise", 100);
     for (std::size_t i = 0; i < entries.size(); ++i) {
       Group entry = open(entries[i], "/range_noise/" + std::to_string(i));
       RangeNoise noise;
       noise.range_m = figure(entry, "range_m", {0.1, 10000});
       noise.reflectivity = figure(entry, "reflectivity", {0.001, 1});
       noise.sigma_m = figure(entry, "sigma_mm", {0.001, 1000, 1e-3});
-      close(entry);
+      entry.fields.close();
       for (const auto& other : instrument_.range_noise)
         if (other.range_m == noise.range_m && other.reflectivity == noise.reflectivity)
-          fail(entry.pointer, "repeats an entry of the same range and reflectivity");
+          entry.fields.wrong("", "repeats an entry of the same range and reflectivity");
       instrument_.range_noise.push_back(noise);
     }
   }
@@ -192,7 +192,7 @@ class InstrumentReader : FigureReader {
     else
       waveform.pulse_width_s = figure(group, "pulse_width_ns", {0.01, 1000, 1e-9});
     waveform.max_returns = count(group, "most_returns", {1, 255});
-    close(group);
+    group.fields.close();
   }
 
   void readCorrelated(Group& root) {
@@ -208,7 +208,7 @@ class InstrumentReader : FigureReader {
     noise.elevation_wobble_rad = figure(group, "elevation_wobble_arcsec", {0, 3600, kRadPerArcsec});
     noise.azimuth_flicker_rad = figure(group, "azimuth_flicker_arcsec", {0, 3600, kRadPerArcsec});
     noise.clock_jitter_s = figure(group, "clock_jitter_ns", {0, 1e6, 1e-9});
-    close(group);
+    group.fields.close();
   }
 
   void readSaturation(Group& root) {
@@ -216,29 +216,29 @@ class InstrumentReader : FigureReader {
     instrument_.saturation.level_db = figure(group, "level_db", {-100, 100});
     instrument_.saturation.walk_m_per_decade = figure(group, "walk_mm_per_decade", {-1000, 1000, 1e-3});
     instrument_.saturation.pedestal = figure(group, "pedestal", {0, 0.1});
-    close(group);
+    group.fields.close();
   }
 
   void readSettings(Group& root) {
-    const Json& entries = list(root, "settings", 100);
+    const Json& entries = list(root.fields, "settings", 100);
     for (std::size_t i = 0; i < entries.size() && !error(); ++i)
       readSetting(open(entries[i], "/settings/" + std::to_string(i)));
   }
 
   void readSetting(Group group) {
     InstrumentSetting setting;
-    setting.key = text(group, "key");
-    setting.label = text(group, "label");
-    setting.unit = text(group, "unit");
-    setting.default_value = text(group, "standard");
-    cite(group.pointer, group.source, group.note);
+    setting.key = group.fields.text("key");
+    setting.label = group.fields.text("label");
+    setting.unit = group.fields.anyText("unit");
+    setting.default_value = group.fields.text("standard");
+    cite(group.fields.pointer(), group.source, group.note);
     for (const auto& other : instrument_.settings)
-      if (other.key == setting.key) fail(group.pointer + "/key", "\"" + setting.key + "\" is duplicated");
-    if (group.object->contains("choices"))
+      if (other.key == setting.key) group.fields.wrong("key", "\"" + setting.key + "\" is duplicated");
+    if (group.fields.has("choices"))
       readChoices(group, setting);
     else
       readNumber(group, setting);
-    close(group);
+    group.fields.close();
     instrument_.settings.push_back(std::move(setting));
   }
 
@@ -246,18 +246,18 @@ class InstrumentReader : FigureReader {
     static const std::set<std::string> kKnown = {"horizontal_from", "horizontal_to", "vertical_from", "vertical_to",
                                                  "nearest_m",       "farthest_m",    "line_step",     "frame_step"};
     if (!kKnown.contains(setting.key))
-      return fail(group.pointer + "/key",
-                  "only area edges, range limits and pattern steps can be numbers; other settings require choices");
+      return group.fields.wrong(
+          "key", "only area edges, range limits and pattern steps can be numbers; other settings require choices");
     const Domain domain = setting.key.ends_with("_m") ? Domain{0, 10000} : Domain{-360, 360};
     setting.minimum = figure(group, "minimum", domain);
     setting.maximum = figure(group, "maximum", domain);
     const Json default_value = Json::parse(setting.default_value, nullptr, false);
-    if (!error()) checked(group.pointer + "/standard", default_value, {setting.minimum, setting.maximum});
+    if (!error()) checked(group.fields.pointer("standard"), default_value, {setting.minimum, setting.maximum});
   }
 
   void readChoices(Group& group, InstrumentSetting& setting) {
-    const Json& entries = list(group, "choices", 100);
-    const std::string pointer = group.pointer + "/choices";
+    const Json& entries = list(group.fields, "choices", 100);
+    const std::string pointer = group.fields.pointer("choices");
     bool has_standard = false;
     for (std::size_t i = 0; i < entries.size() && !error(); ++i) {
       Group entry = open(entries[i], pointer + "/" + std::to_string(i));
@@ -266,9 +266,9 @@ class InstrumentReader : FigureReader {
       setting.choices.push_back(readChoice(entry));
       has_standard = has_standard || setting.choices.back().value == setting.default_value;
       for (std::size_t k = 0; k < i; ++k)
-        if (setting.choices[k].value == setting.choices[i].value) fail(entry.pointer + "/value", "is duplicated");
+        if (setting.choices[k].value == setting.choices[i].value) entry.fields.wrong("value", "is duplicated");
     }
-    if (!has_standard) fail(group.pointer + "/standard", "is not one of the choices");
+    if (!has_standard) group.fields.wrong("standard", "is not one of the choices");
   }
 
   SettingChoice readChoice(Group& entry) {
@@ -305,13 +305,12 @@ class InstrumentReader : FigureReader {
                                                            {"picture_flash", {0, 1}},
                                                            {"picture_metering", {0, 2}}};
     SettingChoice choice;
-    choice.value = text(entry, "value");
-    choice.label = text(entry, "label");
-    for (const auto& item : entry.object->items()) {
-      const auto effect = kEffects.find(item.key());
-      if (effect != kEffects.end()) choice.effects[item.key()] = figure(entry, item.key(), effect->second);
-    }
-    close(entry);
+    choice.value = entry.fields.text("value");
+    choice.label = entry.fields.text("label");
+    for (const auto& key : entry.fields.keys())
+      if (const auto effect = kEffects.find(key); effect != kEffects.end())
+        choice.effects[key] = figure(entry, key, effect->second);
+    entry.fields.close();
     return choice;
   }
 

@@ -3,6 +3,8 @@
 
 #include <numbers>
 
+#include <nlohmann/json.hpp>
+
 #include "core/json_file.h"
 #include "core/units.h"
 #include "scanners/instruments/figure_reader.h"
@@ -17,7 +19,7 @@ class StandReader : FigureReader {
 
   Result<TripodStand> read(const Json& document) {
     Group root = open(document, "");
-    text(root, "id");
+    root.fields.text("id");
     readSources(root);
     TripodStand stand;
     stand.clearance_m = figure(root, "clearance_m", {0.01, 5});
@@ -25,14 +27,14 @@ class StandReader : FigureReader {
     Group plate = child(root, "plate");
     stand.lowest_plate_m = figure(plate, "lowest_m", {0, 10});
     stand.highest_plate_m = figure(plate, "highest_m", {0.01, 10});
-    close(plate);
+    plate.fields.close();
     Group feet = child(root, "feet");
     stand.foot_radius_m = figure(feet, "radius_m", {0.01, 5});
     stand.foot_play_m = figure(feet, "play_m", {0.01, 5});
-    close(feet);
+    feet.fields.close();
     stand.steepest_rad = figure(root, "steepest_deg", {0, 89, kRadPerDeg});
     stand.wall_rad = figure(root, "wall_deg", {0, 90, kRadPerDeg});
-    close(root);
+    root.fields.close();
     if (!error() && stand.lowest_plate_m >= stand.highest_plate_m) fail("/plate/highest_m", "must be above lowest_m");
     if (error()) return failure(*error());
     return stand;

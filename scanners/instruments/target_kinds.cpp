@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <nlohmann/json.hpp>
+
 #include "core/json_file.h"
 #include "core/units.h"
 #include "scanners/instruments/figure_reader.h"
@@ -15,14 +17,12 @@ namespace {
 TargetArticle readArticle(FigureReader& in, const FigureReader::Json& value, const std::string& pointer) {
   auto group = in.open(value, pointer);
   TargetArticle article;
-  article.id = in.text(group, "id");
-  article.label = in.text(group, "label");
-  const std::string shape = in.text(group, "shape");
-  if (shape != "sphere" && shape != "checkerboard")
-    in.fail(pointer + "/shape", "must be \"sphere\" or \"checkerboard\"");
-  article.shape = shape == "sphere" ? TargetKind::sphere : TargetKind::checkerboard;
+  article.id = group.fields.text("id");
+  article.label = group.fields.text("label");
+  article.shape = group.fields.wordOf("shape", {"sphere", "checkerboard"}) == "sphere" ? TargetKind::sphere
+                                                                                       : TargetKind::checkerboard;
   article.size_m = in.figure(group, "size_mm", {10, 2000, 1e-3});
-  in.close(group);
+  group.fields.close();
   return article;
 }
 
@@ -34,15 +34,15 @@ TargetKinds readKinds(FigureReader& in, const FigureReader::Json& json) {
   kinds.rules.min_points = in.count(rules, "least_points", {10, 10000});
   kinds.rules.max_distance_m = in.figure(rules, "most_distance_m", {1, 1000});
   kinds.rules.max_incidence_rad = in.figure(rules, "most_incidence_deg", {10, 85, kRadPerDeg});
-  in.close(rules);
-  const auto& list = in.list(root, "kinds", 1000);
+  rules.fields.close();
+  const auto& list = in.list(root.fields, "kinds", 1000);
   for (std::size_t i = 0; i < list.size(); ++i) {
     kinds.articles.push_back(readArticle(in, list[i], "/kinds/" + std::to_string(i)));
     for (std::size_t k = 0; k < i; ++k)
       if (kinds.articles[k].id == kinds.articles[i].id)
         in.fail("/kinds/" + std::to_string(i) + "/id", "\"" + kinds.articles[i].id + "\" is duplicated");
   }
-  in.close(root);
+  root.fields.close();
   kinds.evidence = in.evidence();
   return kinds;
 }

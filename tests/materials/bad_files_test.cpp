@@ -133,7 +133,7 @@ TEST(BadRules, AreRefusedWithTheirPlace) {
         BadRule{R"({"metallic": [0.5, 0.2], "assign": "bark"})", "r.json /rules/1/metallic/1", "0.2"},
         BadRule{R"({"metallic": 1, "assign": "bark"})", "r.json /rules/1/metallic", "[from, to]"},
         BadRule{R"({"material": "x", "assign": "bark", "confidence": 2})", "r.json /rules/1/confidence",
-                "between 0.0 and 1.0"},
+                "a number from 0 to 1"},
         BadRule{R"({"class": "IfcWall", "assign": "bark"})", "r.json /rules/1/class", "unknown key"}}) {
     const auto rules = readAssignmentRules(folder.write("r.json", good + text + "]}"), shippedLibrary());
     ASSERT_FALSE(rules.has_value()) << text;

@@ -64,7 +64,7 @@ TEST(TargetKinds, SayWhatIsWrongWithTheirFileAndWhere) {
   EXPECT_THAT(refused(R"([{"id": "a", "label": "A", "shape": "sphere", "size_mm": {"value": 145, "source": "S9"}}])"),
               HasSubstr("S9"));
   EXPECT_THAT(refused(R"([{"id": "a", "label": "A", "shape": "sphere", "size_mm": {"value": -3, "source": "S1"}}])"),
-              HasSubstr("out of range"));
+              HasSubstr("a number from 10 to 2000, not the number -3"));
   EXPECT_THAT(refused("[]"), HasSubstr("/kinds"));
 }
 

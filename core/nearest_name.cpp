@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "emulated-ui/device/nearest.h"
+#include "core/nearest_name.h"
 
 #include <algorithm>
 #include <numeric>
