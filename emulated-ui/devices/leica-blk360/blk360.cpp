@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "emulated-ui/device/default_transitions.h"
 #include "emulated-ui/device/device.h"
 #include "emulated-ui/device/effects.h"
 #include "emulated-ui/device/settings.h"
+#include "emulated-ui/devices/leica-blk360/app.h"
+#include "emulated-ui/devices/leica-blk360/phases.h"
 
 // Leica BLK360, both generations: one key, a ring of light, and an app on a tablet that may be connected or not. The
 // key scans with a stored configuration after a self-timer; what the generations call their states and errors stands in
@@ -15,17 +15,6 @@ namespace standpoint::leica_blk360 {
 
 namespace {
 
-namespace phase {
-
-const PhaseId off{"off"}, starting{"starting"}, ready{"ready"}, connected{"connected"}, standby{"standby"},
-    self_timer{"self_timer"}, shooting{"shooting"}, scanning{"scanning"}, finishing{"finishing"}, storing{"storing"},
-    error{"error"}, fatal{"fatal"}, formatting{"formatting"}, transferring{"transferring"},
-    shutting_down{"shutting_down"};
-
-}  // namespace phase
-
-using Event = EngineEvent;
-
 const Phases kIdle = {phase::ready, phase::connected};
 const Phases kMeasuring = {phase::shooting, phase::scanning};
 const Phases kBusy = {phase::self_timer, phase::shooting, phase::scanning};
@@ -33,15 +22,6 @@ const Phases kHolding = {phase::self_timer, phase::shooting, phase::scanning,
                          phase::finishing,  phase::storing,  phase::error};
 constexpr const char* kStandaloneJob = "Standalone";  // where scans without the app go [P]
 constexpr double kOperatorGone_s = 5;                 // who presses the key needs so long to get out of sight [P]
-constexpr double kFatal_c = 10;                       // beyond the limits: critical [P]
-
-bool isG1(const Device& d) { return d.type().instrument.id == "leica-blk360-g1"; }
-
-std::string standardButton(const Device& d) { return settingsText(resolveSettings(d.type().instrument, {})->values); }
-std::string button(const Device& d) {
-  const auto stored = d.entry("button");
-  return stored.empty() ? standardButton(d) : stored;
-}
 
 // --- errors and results, in the words of the generation ---
 
@@ -177,132 +157,11 @@ void emptied(Device& d) {
   result(d, "Aborted", "none");
 }
 
-Result<void> storeButton(Device& d, const std::string&) {
-  d.change().entries["button"] = settingsText(d.state().settings);
-  d.change().values["self_timer"] = d.value("timer");
-  d.note("button_stored", d.value("timer"));
-  return {};
-}
-
-Result<void> addTag(Device& d, const std::string&) {
-  const auto* setup = d.shownSetup();
-  const auto text = d.entry("tag");
-  if (setup == nullptr) return failure(ErrorKind::usage, d.word("no_setup"));
-  if (text.empty()) return failure(ErrorKind::usage, d.word("tag_empty"));
-  const auto at = d.entry("measured_from");
-  d.change().values["tag." + d.project()->name + "/" + setup->name + "." + text] = at;
-  d.note("tagged", text);
-  return {};
-}
-
-std::vector<WidgetOption> tagRows(const Device& d) {
-  std::vector<WidgetOption> rows;
-  const auto* setup = d.shownSetup();
-  if (setup == nullptr) return rows;
-  const auto stem = "tag." + d.project()->name + "/" + setup->name + ".";
-  for (const auto& [id, at] : d.state().values)
-    if (id.starts_with(stem))
-      rows.push_back({id.substr(stem.size()), id.substr(stem.size()) + (at.empty() ? "" : "  (" + at + ")"), true, {}});
-  return rows;
-}
-
-std::string accuracyOf(const StoredSetup& s) {
-  if (!s.link) return "Unset";
-  return s.link->joined && s.link->error_m < 0.01 ? "Accurate" : "Inaccurate";
-}
-
-std::vector<WidgetOption> linkRows(const Device& d) {
-  std::vector<WidgetOption> rows;
-  if (const auto* p = d.project())
-    for (std::size_t i = 1; i < p->setups.size(); ++i) {
-      const auto& s = p->setups[i];
-      const double quality = s.link && s.link->joined ? s.link->overlap * 100 : 0;
-      rows.push_back({std::to_string(i),
-                      fmt::format("{} – {}  {}  {:.0f} %", p->setups[i - 1].name, s.name, accuracyOf(s), quality),
-                      true,
-                      {}});
-    }
-  return rows;
-}
-
-// Everything hangs together when each setup but the first has its link.
-Result<void> optimise(Device& d, const std::string&) {
-  const auto* p = d.project();
-  if (p == nullptr || p->setups.size() < 2) return failure(ErrorKind::usage, d.word("link_needs_two"));
-  for (std::size_t i = 1; i < p->setups.size(); ++i)
-    if (!p->setups[i].link || !p->setups[i].link->joined)
-      return failure(ErrorKind::usage, p->setups[i].name + ": " + d.word("link_missing"));
-  d.change().entries["bundle"] = p->name;
-  d.note("optimised", std::to_string(p->setups.size()));
-  return {};
-}
-
-Result<void> send(Device& d, const std::string&) {
-  if (d.value("server").empty()) return failure(ErrorKind::usage, d.word("no_server"));
-  for (const char* id : {"server", "port"})  // the office's listens where the file says
-    if (d.value(id) != findValue(d.type().definition, id)->default_value)
-      return failure(ErrorKind::usage, d.word("no_answer"));
-  if (!d.state().around.wlan) return failure(ErrorKind::usage, d.word("wlan_lost"));
-  TransferOrder order{{}, "wlan"};
-  for (const auto& p : d.state().projects)
-    for (const auto& s : p.setups)
-      if (!s.transferred) order.files.push_back(s.file);
-  if (order.files.empty()) return failure(ErrorKind::usage, d.word("nothing_to_transfer"));
-  d.give(std::move(order));
-  return {};
-}
-
 // Who presses the key and stays is in the scan. The first generation keeps the way from the setup before in its data.
 void prepare(const Device& d, ScanOrder& order) {
   if (isG1(d) && d.value("tracking") == "on" && d.state().around.tracking && d.newestSetup() != nullptr)
     order.notes.emplace_back("way", d.newestSetup()->name);
   if (d.entry("by") == "key" && d.number("value.self_timer") < kOperatorGone_s) order.operator_in_view = true;
-}
-
-// --- facts ---
-
-std::string temperatureLevel(const Device& d) {
-  const auto& body = d.type().definition.body;
-  const double t = d.state().around.temperature_c;
-  if (t > body.hottest_c + kFatal_c) return isG1(d) ? "Temp_Critical" : "CritHigh";
-  if (t > body.hottest_c) return isG1(d) ? "Temp_High" : "ErrHigh";
-  if (t > body.hottest_c - 3) return isG1(d) ? "Ok" : "WarnHigh";
-  if (t < body.coldest_c) return isG1(d) ? "Temp_Low" : "WarnLow";
-  return "Ok";
-}
-
-std::string deviceState(const Device& d) {
-  if (d.in({phase::ready, phase::connected, phase::standby})) return "Idle";
-  if (d.in(phase::error)) return "Error";
-  if (d.in(phase::fatal)) return "FatalError";
-  if (d.in(phase::shutting_down)) return "ShuttingDown";
-  return d.in(phase::off) ? "Invalid" : "Busy";
-}
-
-std::string operation(const Device& d) {
-  const bool busy = d.in({phase::self_timer, phase::shooting, phase::scanning, phase::finishing, phase::storing});
-  if (d.in(phase::formatting)) return "FormattingStorage";
-  if (busy && d.entry("by") == "key") return "Standalone";
-  if (d.in(phase::shooting)) return "PanoramaShoot";
-  return d.in(phase::scanning) ? "PointCloudScan" : "None";
-}
-
-std::string storageState(const Device& d) {
-  const double left = d.number("card.scans_left");
-  return left < 1 ? "Crit" : left < 5 ? "Low" : "OK";
-}
-
-// What the app tells to do about an error.
-std::string errorAction(const Device& d) {
-  const auto error = d.entry("error");
-  if (error.empty()) return "none";
-  if (error == "CritHigh" || error == "Temp_Critical") return "Reboot";
-  return "Acknowledge";
-}
-
-Fact entryFact(const Device& d, const char* id, const char* none) {
-  const auto text = d.entry(id);
-  return wordFact(text.empty() ? none : text);
 }
 
 void addStart(std::vector<Transition>& rows, const EventId& event, DeviceEffect by, const char* mark) {
@@ -605,107 +464,6 @@ std::vector<Transition> transitions() {
   for (const auto& part : {capture(), troubles(), errors(), linksAndFiles()})
     rows.insert(rows.end(), part.begin(), part.end());
   return withDefaults(std::move(rows), kRoles);
-}
-
-const FactDomain kYesNo{{"yes", "no"}};
-const FactDomain kNumber{{}, true, 0, 1e16};
-
-ScanSettings buttonSettings(const Device& d) {
-  return resolveSettings(d.type().instrument, settingsFromText(button(d))).value_or(ScanSettings{});
-}
-
-std::vector<FactRow> facts() {
-  return {
-      {.name = "generation",
-       .domain = {{"g1", "g2"}},
-       .value = [](const Device& d) { return wordFact(isG1(d) ? "g1" : "g2"); },
-       .about = "of the BLK360"},
-      {.name = "device.state",
-       .domain = {{"Invalid", "Idle", "Busy", "Error", "FatalError", "ShuttingDown"}},
-       .value = [](const Device& d) { return wordFact(deviceState(d)); },
-       .about = "name in the manufacturer's programming interface [S10]"},
-      {.name = "operation",
-       .domain = {{"None", "Standalone", "PanoramaShoot", "PointCloudScan", "FormattingStorage"}},
-       .value = [](const Device& d) { return wordFact(operation(d)); },
-       .about = "name in the manufacturer's programming interface [S10]"},
-      {.name = "data.state",
-       .domain = {{"none", "InProgress", "Partial", "Complete"}},
-       .value = [](const Device& d) { return entryFact(d, "data", "none"); },
-       .about = "of the newest scan [S10]"},
-      {.name = "capture",
-       .domain = {{"none", "InProgress", "Completed", "Cancelled", "Aborted"}},
-       .value = [](const Device& d) { return entryFact(d, "capture", "none"); },
-       .about = "of the newest scan [S11]"},
-      {.name = "error",
-       .value = [](const Device& d) { return entryFact(d, "error", "none"); },
-       .about = "displayed error, by the manufacturer's name"},
-      {.name = "error.action",
-       .domain = {{"none", "Acknowledge", "Reboot", "SoftwareUpdate", "Service"}},
-       .value = [](const Device& d) { return wordFact(errorAction(d)); },
-       .about = "remedy [S11]"},
-      {.name = "temperature.level",
-       .domain = {{"Ok", "Temp_Low", "Temp_High", "Temp_Critical", "WarnLow", "WarnHigh", "ErrHigh", "CritHigh"}},
-       .value = [](const Device& d) { return wordFact(temperatureLevel(d)); },
-       .about = "by the generation's names"},
-      {.name = "temperature.critical",
-       .domain = kYesNo,
-       .value =
-           [](const Device& d) {
-             return yesNo(d.state().around.temperature_c > d.type().definition.body.hottest_c + kFatal_c);
-           },
-       .about = "far above the limit"},
-      {.name = "storage.state",
-       .domain = {{"OK", "Low", "Crit"}},
-       .value = [](const Device& d) { return wordFact(storageState(d)); },
-       .about = "Crit: the next scan does not fit [S11]"},
-      {.name = "partial",
-       .domain = kYesNo,
-       .value = [](const Device& d) { return yesNo(d.state().running.has_value()); },
-       .about = "part of the scan is waiting to be stored"},
-      {.name = "vis.accuracy",
-       .domain = {{"Unset", "Inaccurate", "Accurate"}},
-       .value =
-           [](const Device& d) {
-             return wordFact(d.newestSetup() == nullptr ? "Unset" : accuracyOf(*d.newestSetup()));
-           },
-       .about = "of the newest link [S11]"},
-      {.name = "vis.quality",
-       .unit = FactUnit::fraction,
-       .domain = {{}, true, 0, 1},
-       .value =
-           [](const Device& d) {
-             return numberFact(d.newestSetup() != nullptr && d.newestSetup()->link && d.newestSetup()->link->joined
-                                   ? d.newestSetup()->link->overlap
-                                   : 0);
-           },
-       .about = "of the newest link [S11]"},
-      {.name = "button.bytes",
-       .unit = FactUnit::bytes,
-       .domain = kNumber,
-       .value =
-           [](const Device& d) {
-             const auto s = buttonSettings(d);
-             return numberFact(static_cast<double>(s.columns) * s.rows * d.type().definition.body.bytes_per_point);
-           },
-       .about = "scan started by the key"},
-      {.name = "button.seconds",
-       .unit = FactUnit::seconds,
-       .domain = kNumber,
-       .value =
-           [](const Device& d) {
-             const auto s = buttonSettings(d);
-             return numberFact(s.scan_seconds + s.imaging_seconds);
-           },
-       .about = "scan started by the key"},
-      {.name = "button.imaging",
-       .domain = kYesNo,
-       .value = [](const Device& d) { return yesNo(buttonSettings(d).imaging); },
-       .about = "whether a scan started by the key takes images"},
-      {.name = "bundle",
-       .domain = kYesNo,
-       .value = [](const Device& d) { return yesNo(d.project() != nullptr && d.entry("bundle") == d.project()->name); },
-       .about = "whether the links of the job are optimised"},
-  };
 }
 
 }  // namespace
