@@ -42,7 +42,11 @@ std::string choiceWord(const Device& device, const std::string& key, const std::
 
 std::string choiceLabel(const Device& device, const InstrumentSetting& setting, const std::string& value) {
   for (const auto& choice : setting.choices)
-    if (choice.value == value) return choiceWord(device, setting.key + "=" + value, choice.label);
+    if (choice.value == value) {
+      // A plain On or Off is the same word on every device.
+      const bool plain = device.type().words->text(device.type().definition.id, value, "en") == choice.label;
+      return choiceWord(device, setting.key + "=" + value, plain ? device.word(value) : choice.label);
+    }
   return value;
 }
 

@@ -129,6 +129,14 @@ TEST_F(Focus, SaysInTheDevicesLanguageWhatAPressMovedBesides) {
   EXPECT_EQ(d->state().moved_along, "Qualität von 2x auf 3x geändert: 1/16 lässt 2x nicht zu.");
 }
 
+TEST_F(Focus, SaysOnAndOffInTheDevicesLanguage) {
+  start();
+  ASSERT_TRUE(d.press({"parameters", "colour=off"}));
+  EXPECT_EQ(d.shows("colour"), "Off");
+  d->change().language = "de";
+  EXPECT_EQ(d.shows("colour"), "Aus");
+}
+
 TEST_F(Focus, SpinsUpScansPhotographsAndSavesUnderItsBaseName) {
   ready();
   ASSERT_TRUE(d.press({"parameters", "colour=on", "back", "start_scan"}));
