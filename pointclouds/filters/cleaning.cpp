@@ -150,7 +150,7 @@ Error placed(Error error, const std::filesystem::path& in, const ChosenFilter& f
 
 Result<void> apply(const CloudFormat& format, const std::filesystem::path& in, const std::vector<FilterScan>& scans,
                    const ChosenFilter& chosen, std::uint8_t number, Fates& fates, Progress& progress) {
-  auto filter = chosen.kind->make(chosen.values);
+  auto filter = chosen.make();
   if (!filter) return failure(placed(filter.error(), in, chosen));
   if (auto known = (*filter)->know(scans); !known) return failure(placed(known.error(), in, chosen));
   for (bool again = true; again;) {
@@ -179,7 +179,7 @@ Result<Cleaning> cleanCloud(const std::filesystem::path& in, const std::filesyst
   const CloudFormat* const to = cloudFormatFor(out);
   if (!to || !to->writer) return failure(ErrorKind::usage, "unsupported point-cloud format for writing", out.string());
   for (const ChosenFilter& chosen : filters)
-    if (auto made = chosen.kind->make(chosen.values); !made)
+    if (auto made = chosen.make(); !made)
       return failure(ErrorKind::usage, made.error().message, "--filters " + chosen.text);
   TRY_ASSIGN(const auto info, format->info(in));
   std::vector<FilterScan> scans;

@@ -1,25 +1,71 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The makers behind the table of point_filters.cpp. Values are complete and within their domains; what contradicts
-// itself is an error without a place.
+// The makers behind the table of point_filters.cpp, which says what their options are called outside and how large they
+// can be. What contradicts itself is an error without a place.
 
 #include "pointclouds/filters/point_filter.h"
 
 namespace standpoint {
 
-using MadeFilter = Result<std::unique_ptr<PointFilter>>;
+// One of two words.
+enum class Side { inside, outside };
+enum class NeighbourSearch { grid, distance };
 
-MadeFilter makeRangeGate(const FilterValues& values);
-MadeFilter makeIntensityGate(const FilterValues& values);
-MadeFilter makeIncidenceGate(const FilterValues& values);
-MadeFilter makeFractionFilter(const FilterValues& values);
-MadeFilter makeEveryFilter(const FilterValues& values);
-MadeFilter makeBoxFilter(const FilterValues& values);
-MadeFilter makeSphereFilter(const FilterValues& values);
-MadeFilter makeVoxelFilter(const FilterValues& values);
-MadeFilter makeDuplicateFilter(const FilterValues& values);
-MadeFilter makeOutlierFilter(const FilterValues& values);
-MadeFilter makeMixedFilter(const FilterValues& values);
+struct DuplicateOptions {
+  double distance_m = 0.002;
+};
+MadeFilter makeDuplicateFilter(const DuplicateOptions& options);
+
+struct OutlierOptions {
+  std::uint64_t neighbours = 8;  // of each point
+  double sigmas = 3;             // of the distances' logarithm
+};
+MadeFilter makeOutlierFilter(const OutlierOptions& options);
+
+struct MixedOptions {
+  double angle_deg = 10;              // between beam and surface
+  double jump_m = 0.01;               // at least, of range
+  std::uint64_t neighbours = 16;      // of each point of a cloud without a grid
+  std::optional<NeighbourSearch> by;  // nothing: as the scan is
+};
+MadeFilter makeMixedFilter(const MixedOptions& options);
+
+struct GateOptions {
+  std::optional<double> from, to;  // m, degrees, or as intensities are stored in the file
+};
+MadeFilter makeRangeGate(const GateOptions& options);
+MadeFilter makeIntensityGate(const GateOptions& options);
+MadeFilter makeIncidenceGate(const GateOptions& options);
+
+struct VoxelOptions {
+  double cell_m = 0;
+};
+MadeFilter makeVoxelFilter(const VoxelOptions& options);
+
+struct FractionOptions {
+  double keep = 1;  // 0..1
+  std::uint64_t seed = 1;
+};
+MadeFilter makeFractionFilter(const FractionOptions& options);
+
+struct EveryOptions {
+  std::uint64_t n = 1;
+};
+MadeFilter makeEveryFilter(const EveryOptions& options);
+
+struct BoxOptions {
+  Eigen::Vector3d from{0, 0, 0}, to{0, 0, 0};  // file frame
+  Side keep = Side::inside;
+};
+MadeFilter makeBoxFilter(const BoxOptions& options);
+
+struct SphereOptions {
+  double radius_m = 0;
+  std::optional<std::string> station;  // name of a scan in the file
+  std::optional<Eigen::Vector3d> at;   // file frame
+  Side keep = Side::inside;
+};
+MadeFilter makeSphereFilter(const SphereOptions& options);
 
 }  // namespace standpoint

@@ -46,11 +46,11 @@ struct Interval {
   bool has(double value) const { return value >= from && value <= to; }
 };
 
-Result<Interval> intervalFrom(const FilterValues& values) {
+Result<Interval> intervalFrom(const GateOptions& options) {
+  if (!options.from && !options.to) return failure(ErrorKind::usage, "a gate requires 'from' or 'to'");
   Interval interval;
-  if (values.has("from")) interval.from = values.number("from");
-  if (values.has("to")) interval.to = values.number("to");
-  if (!values.has("from") && !values.has("to")) return failure(ErrorKind::usage, "a gate requires 'from' or 'to'");
+  interval.from = options.from.value_or(interval.from);
+  interval.to = options.to.value_or(interval.to);
   if (interval.from > interval.to)
     return failure(ErrorKind::usage, "'from' is larger than 'to': no points would remain");
   return interval;
@@ -133,45 +133,38 @@ struct SphereJudge {
 
 }  // namespace
 
-MadeFilter makeRangeGate(const FilterValues& values) {
-  TRY_ASSIGN(const auto interval, intervalFrom(values));
+MadeFilter makeRangeGate(const GateOptions& options) {
+  TRY_ASSIGN(const auto interval, intervalFrom(options));
   return gate(RangeJudge{interval});
 }
 
-MadeFilter makeIntensityGate(const FilterValues& values) {
-  TRY_ASSIGN(const auto interval, intervalFrom(values));
+MadeFilter makeIntensityGate(const GateOptions& options) {
+  TRY_ASSIGN(const auto interval, intervalFrom(options));
   return gate(IntensityJudge{interval});
 }
 
-MadeFilter makeIncidenceGate(const FilterValues& values) {
-  TRY_ASSIGN(auto interval, intervalFrom(values));
+MadeFilter makeIncidenceGate(const GateOptions& options) {
+  TRY_ASSIGN(auto interval, intervalFrom(options));
   return gate(IncidenceJudge{{interval.from * std::numbers::pi / 180, interval.to * std::numbers::pi / 180}});
 }
 
-MadeFilter makeFractionFilter(const FilterValues& values) {
-  return gate(FractionJudge{values.number("keep"), static_cast<std::uint64_t>(values.number("seed"))});
+MadeFilter makeFractionFilter(const FractionOptions& options) {
+  return gate(FractionJudge{options.keep, options.seed});
 }
 
-MadeFilter makeEveryFilter(const FilterValues& values) {
-  return gate(EveryJudge{static_cast<std::uint64_t>(values.number("n"))});
-}
+MadeFilter makeEveryFilter(const EveryOptions& options) { return gate(EveryJudge{options.n}); }
 
-MadeFilter makeBoxFilter(const FilterValues& values) {
-  const Bounds box{values.triple("from"), values.triple("to")};
+MadeFilter makeBoxFilter(const BoxOptions& options) {
+  const Bounds box{options.from, options.to};
   if ((box.min.array() > box.max.array()).any())
     return failure(ErrorKind::usage, "'from' exceeds 'to': the box is empty");
-  return gate(BoxJudge{box, values.word("keep") == "inside"});
+  return gate(BoxJudge{box, options.keep == Side::inside});
 }
 
-MadeFilter makeSphereFilter(const FilterValues& values) {
-  if (values.has("at") == values.has("station"))
+MadeFilter makeSphereFilter(const SphereOptions& options) {
+  if (options.at.has_value() == options.station.has_value())
     return failure(ErrorKind::usage, "a sphere requires 'station' or 'at'");
-  SphereJudge judge{values.number("radius"), values.word("keep") == "inside", {}, {}};
-  if (values.has("at"))
-    judge.centre = values.triple("at");
-  else
-    judge.station = values.word("station");
-  return gate(std::move(judge));
+  return gate(SphereJudge{options.radius_m, options.keep == Side::inside, options.station.value_or(""), options.at});
 }
 
 }  // namespace standpoint

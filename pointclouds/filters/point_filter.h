@@ -2,11 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
-#include <map>
+#include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -49,47 +47,14 @@ class PointFilter {
   virtual bool endPass(Remaining&) { return false; }  // true: another pass, please
 };
 
-// A value that a filter takes: "angle=10". Lengths in metres, angles in degrees.
-struct FilterKey {
-  enum class Kind { number, integer, triple, word };
-  const char* name;
-  Kind kind;
-  const char* help;
-  const char* default_value = nullptr;  // null: none
-  bool required = false;
-  double minimum = std::numeric_limits<double>::lowest(), maximum = std::numeric_limits<double>::max();
-  std::vector<const char*> words = {};
-};
+using MadeFilter = Result<std::unique_ptr<PointFilter>>;
 
-class FilterValues {
- public:
-  bool has(const std::string& key) const { return text_.contains(key); }
-  double number(const std::string& key) const { return numbers_.at(key)[0]; }
-  Eigen::Vector3d triple(const std::string& key) const { return numbers_.at(key); }
-  const std::string& word(const std::string& key) const { return text_.at(key); }
-  Result<void> set(const FilterKey& key, const std::string& text);  // errors without a place
+std::string filterList();  // of point_filters.cpp: names and keys, for help
 
- private:
-  std::map<std::string, std::string> text_;
-  std::map<std::string, Eigen::Vector3d> numbers_;
-};
-
-struct FilterKind {
-  const char* name;  // "mixed"
-  const char* description;
-  std::vector<FilterKey> keys;
-  Result<std::unique_ptr<PointFilter>> (*make)(const FilterValues&);
-};
-
-// The table of filters; a new one is a function and one line in point_filters.cpp.
-std::span<const FilterKind> filterKinds();
-std::string filterList();  // names, keys and what they are, for help
-
-// "mixed" or "range:from=0.5,to=30"; an error says what there is instead.
+// "mixed" or "range:from=0.5,to=30" with its options read; an error says what there is instead.
 struct ChosenFilter {
   std::string text;
-  const FilterKind* kind = nullptr;
-  FilterValues values;
+  std::function<MadeFilter()> make;
 };
 Result<ChosenFilter> filterFrom(const std::string& text);
 

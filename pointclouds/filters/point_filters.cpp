@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "pointclouds/files/number_text.h"
 #include "pointclouds/filters/filters.h"
@@ -8,200 +10,219 @@
 namespace standpoint {
 namespace {
 
-using K = FilterKey::Kind;
-constexpr double kFar = 1e9;
+struct FieldLimits {
+  bool required = false;
+  double minimum = std::numeric_limits<double>::lowest(), maximum = std::numeric_limits<double>::max();
+};
 
-const std::vector<FilterKind>& table() {
+// How a value is written, by the type of its member; errors without a place.
+Result<void> readValue(const char* key, const FieldLimits& limits, const std::string& text, double& into,
+                       bool whole = false) {
+  const auto value = numberFrom<double>(text);
+  if (!value || !std::isfinite(*value) || (whole && *value != std::floor(*value)))
+    return failure(ErrorKind::usage,
+                   std::string("'") + key + "' must be a " + (whole ? "whole " : "") + "number, not '" + text + "'");
+  if (*value < limits.minimum || *value > limits.maximum)
+    return failure(ErrorKind::usage, std::string("'") + key + "' must be from " + numberText(limits.minimum) + " to " +
+                                         numberText(limits.maximum) + ", not " + text);
+  into = *value;
+  return {};
+}
+
+Result<void> readValue(const char* key, const FieldLimits& limits, const std::string& text, std::uint64_t& into) {
+  double number = 0;
+  TRY(readValue(key, limits, text, number, true));
+  into = static_cast<std::uint64_t>(number);
+  return {};
+}
+
+Result<void> readValue(const char* key, const FieldLimits& limits, const std::string& text, Eigen::Vector3d& into) {
+  if (std::count(text.begin(), text.end(), '/') != 2)
+    return failure(ErrorKind::usage, std::string("'") + key + "' must be three numbers X/Y/Z, not '" + text + "'");
+  std::size_t from = 0;
+  for (double& number : into) {
+    const std::size_t slash = std::min(text.find('/', from), text.size());
+    TRY(readValue(key, limits, text.substr(from, slash - from), number));
+    from = slash + 1;
+  }
+  return {};
+}
+
+Result<void> readValue(const char* key, const FieldLimits&, const std::string& text, std::string& into) {
+  if (text.empty()) return failure(ErrorKind::usage, std::string("'") + key + "' must be a name");
+  into = text;
+  return {};
+}
+
+template <class E>
+Result<void> readWord(const char* key, const std::array<const char*, 2>& words, const std::string& text, E& into) {
+  const auto found = std::find(words.begin(), words.end(), text);
+  if (found == words.end())
+    return failure(ErrorKind::usage, std::string("'") + key + "' must be " + words[0] + " or " + words[1]);
+  into = static_cast<E>(found - words.begin());
+  return {};
+}
+
+Result<void> readValue(const char* key, const FieldLimits&, const std::string& text, Side& into) {
+  return readWord(key, {"inside", "outside"}, text, into);
+}
+
+Result<void> readValue(const char* key, const FieldLimits&, const std::string& text, NeighbourSearch& into) {
+  return readWord(key, {"grid", "distance"}, text, into);
+}
+
+template <class T>
+Result<void> readValue(const char* key, const FieldLimits& limits, const std::string& text, std::optional<T>& into) {
+  return readValue(key, limits, text, into.emplace());
+}
+
+// A member of the options O under the name that people write. Its default is what a default-constructed O holds.
+template <class O>
+struct FilterField {
+  template <class T>
+  FilterField(const char* key, T O::*member, FieldLimits limits = {})
+      : name(key), required(limits.required), set([key, member, limits](O& options, const std::string& text) {
+          return readValue(key, limits, text, options.*member);
+        }) {}
+
+  const char* name;
+  bool required;
+  std::function<Result<void>(O&, const std::string&)> set;
+};
+
+using KeyTexts = std::vector<std::pair<std::string, std::string>>;
+
+struct FilterKind {
+  template <class O>
+  FilterKind(const char* kind, std::vector<FilterField<O>> fields, MadeFilter (*make)(const O&)) : name(kind) {
+    for (const auto& field : fields) {
+      names.emplace_back(field.name);
+      keys += (keys.empty() ? "" : ", ") + std::string(field.name);
+    }
+    read = [fields = std::move(fields), make](const KeyTexts& texts) -> Result<std::function<MadeFilter()>> {
+      O options;
+      for (const auto& field : fields) {
+        const auto said =
+            std::find_if(texts.begin(), texts.end(), [&](const auto& t) { return t.first == field.name; });
+        if (said != texts.end())
+          TRY(field.set(options, said->second));
+        else if (field.required)
+          return failure(ErrorKind::usage, std::string("'") + field.name + "' is missing");
+      }
+      return std::function<MadeFilter()>([options, make] { return make(options); });
+    };
+  }
+
+  const char* name;  // "mixed"
+  std::string keys;
+  std::vector<std::string> names;
+  std::function<Result<std::function<MadeFilter()>>(const KeyTexts&)> read;
+};
+
+// A new filter is a function and one row.
+const std::vector<FilterKind>& filterKinds() {
+  constexpr double kFar = 1e9;
   static const std::vector<FilterKind> kinds = {
-      {"duplicates",
-       "points closer than a distance to a kept point, across all scans; keeps the point with the smaller range",
-       {{.name = "distance", .kind = K::number, .help = "m", .default_value = "0.002", .minimum = 1e-5, .maximum = 10}},
-       makeDuplicateFilter},
-      {"outliers",
-       "points whose neighbours in the same scan are farther away than usual at their range",
-       {{.name = "neighbours",
-         .kind = K::integer,
-         .help = "of each point",
-         .default_value = "8",
-         .minimum = 1,
-         .maximum = 256},
-        {.name = "sigmas",
-         .kind = K::number,
-         .help = "of the distances' logarithm",
-         .default_value = "3",
-         .minimum = 0,
-         .maximum = 100}},
-       makeOutlierFilter},
-      {"mixed",
-       "points between two surfaces, where the range jumps on both sides and the apparent surface is parallel to the "
-       "beam",
-       {{.name = "angle",
-         .kind = K::number,
-         .help = "deg between beam and surface",
-         .default_value = "10",
-         .minimum = 0.01,
-         .maximum = 60},
-        {.name = "jump",
-         .kind = K::number,
-         .help = "minimum, in m of range",
-         .default_value = "0.01",
-         .minimum = 0,
-         .maximum = 100},
-        {.name = "neighbours",
-         .kind = K::integer,
-         .help = "of each point of a cloud without a grid",
-         .default_value = "16",
-         .minimum = 6,
-         .maximum = 256},
-        {.name = "by",
-         .kind = K::word,
-         .help = "neighbour search (default: chosen by scan)",
-         .words = {"grid", "distance"}}},
-       makeMixedFilter},
-      {"range",
-       "keep a range of distances from the scanner",
-       {{.name = "from", .kind = K::number, .help = "m", .minimum = 0, .maximum = kFar},
-        {.name = "to", .kind = K::number, .help = "m", .minimum = 0, .maximum = kFar}},
-       makeRangeGate},
-      {"intensity",
-       "keep a range of intensities, as stored in the file",
-       {{.name = "from", .kind = K::number, .help = ""}, {.name = "to", .kind = K::number, .help = ""}},
-       makeIntensityGate},
-      {"incidence",
-       "keep a range of angles of incidence; requires scans with ground truth",
-       {{.name = "from", .kind = K::number, .help = "deg", .minimum = 0, .maximum = 90},
-        {.name = "to", .kind = K::number, .help = "deg", .minimum = 0, .maximum = 90}},
-       makeIncidenceGate},
-      {"voxel",
-       "one point per cell of a grid in the file frame, closest to the cell centre",
-       {{.name = "cell", .kind = K::number, .help = "m", .required = true, .minimum = 1e-4, .maximum = 1e6}},
-       makeVoxelFilter},
-      {"share",
-       "a random fraction of the points",
-       {{.name = "keep", .kind = K::number, .help = "0..1", .required = true, .minimum = 0, .maximum = 1},
-        {.name = "seed",
-         .kind = K::integer,
-         .help = "random seed",
-         .default_value = "1",
-         .minimum = 0,
-         .maximum = 9007199254740991.0}},
-       makeFractionFilter},
-      {"every",
-       "every n-th point",
-       {{.name = "n", .kind = K::integer, .help = "", .required = true, .minimum = 1, .maximum = 1e15}},
-       makeEveryFilter},
-      {"box",
-       "an axis-aligned box in the file frame",
-       {{.name = "from", .kind = K::triple, .help = "X/Y/Z, m", .required = true},
-        {.name = "to", .kind = K::triple, .help = "X/Y/Z, m", .required = true},
-        {.name = "keep",
-         .kind = K::word,
-         .help = "side to keep",
-         .default_value = "inside",
-         .words = {"inside", "outside"}}},
-       makeBoxFilter},
-      {"sphere",
-       "a sphere around a station or position",
-       {{.name = "radius", .kind = K::number, .help = "m", .required = true, .minimum = 0, .maximum = kFar},
-        {.name = "station", .kind = K::word, .help = "name of a scan in the file"},
-        {.name = "at", .kind = K::triple, .help = "X/Y/Z in the file frame, m"},
-        {.name = "keep",
-         .kind = K::word,
-         .help = "side to keep",
-         .default_value = "inside",
-         .words = {"inside", "outside"}}},
-       makeSphereFilter},
-  };
+      // points closer than a distance to a kept point, across all scans; keeps the point with the smaller range
+      FilterKind("duplicates",
+                 std::vector<FilterField<DuplicateOptions>>{
+                     {"distance", &DuplicateOptions::distance_m, {.minimum = 1e-5, .maximum = 10}}},
+                 makeDuplicateFilter),
+      // points whose neighbours in the same scan are farther away than usual at their range
+      FilterKind("outliers",
+                 std::vector<FilterField<OutlierOptions>>{
+                     {"neighbours", &OutlierOptions::neighbours, {.minimum = 1, .maximum = 256}},
+                     {"sigmas", &OutlierOptions::sigmas, {.minimum = 0, .maximum = 100}}},
+                 makeOutlierFilter),
+      // points between two surfaces: the range jumps on both sides and the apparent surface is parallel to the beam
+      FilterKind("mixed",
+                 std::vector<FilterField<MixedOptions>>{
+                     {"angle", &MixedOptions::angle_deg, {.minimum = 0.01, .maximum = 60}},
+                     {"jump", &MixedOptions::jump_m, {.minimum = 0, .maximum = 100}},
+                     {"neighbours", &MixedOptions::neighbours, {.minimum = 6, .maximum = 256}},
+                     {"by", &MixedOptions::by}},
+                 makeMixedFilter),
+      FilterKind("range",
+                 std::vector<FilterField<GateOptions>>{{"from", &GateOptions::from, {.minimum = 0, .maximum = kFar}},
+                                                       {"to", &GateOptions::to, {.minimum = 0, .maximum = kFar}}},
+                 makeRangeGate),
+      FilterKind("intensity",
+                 std::vector<FilterField<GateOptions>>{{"from", &GateOptions::from}, {"to", &GateOptions::to}},
+                 makeIntensityGate),
+      // of a scan with ground truth
+      FilterKind("incidence",
+                 std::vector<FilterField<GateOptions>>{{"from", &GateOptions::from, {.minimum = 0, .maximum = 90}},
+                                                       {"to", &GateOptions::to, {.minimum = 0, .maximum = 90}}},
+                 makeIncidenceGate),
+      // one point per cell of a grid in the file frame, closest to the cell centre
+      FilterKind("voxel",
+                 std::vector<FilterField<VoxelOptions>>{
+                     {"cell", &VoxelOptions::cell_m, {.required = true, .minimum = 1e-4, .maximum = 1e6}}},
+                 makeVoxelFilter),
+      // a random fraction of the points
+      FilterKind("share",
+                 std::vector<FilterField<FractionOptions>>{
+                     {"keep", &FractionOptions::keep, {.required = true, .minimum = 0, .maximum = 1}},
+                     {"seed", &FractionOptions::seed, {.minimum = 0, .maximum = 9007199254740991.0}}},
+                 makeFractionFilter),
+      FilterKind("every",
+                 std::vector<FilterField<EveryOptions>>{
+                     {"n", &EveryOptions::n, {.required = true, .minimum = 1, .maximum = 1e15}}},
+                 makeEveryFilter),
+      FilterKind("box",
+                 std::vector<FilterField<BoxOptions>>{{"from", &BoxOptions::from, {.required = true}},
+                                                      {"to", &BoxOptions::to, {.required = true}},
+                                                      {"keep", &BoxOptions::keep}},
+                 makeBoxFilter),
+      // around a station or a place
+      FilterKind("sphere",
+                 std::vector<FilterField<SphereOptions>>{
+                     {"radius", &SphereOptions::radius_m, {.required = true, .minimum = 0, .maximum = kFar}},
+                     {"station", &SphereOptions::station},
+                     {"at", &SphereOptions::at},
+                     {"keep", &SphereOptions::keep}},
+                 makeSphereFilter)};
   return kinds;
 }
 
-Result<double> numberOf(const FilterKey& key, const std::string& text) {
-  const auto value = numberFrom<double>(text);
-  const bool whole = key.kind == FilterKey::Kind::integer;
-  if (!value || !std::isfinite(*value) || (whole && *value != std::floor(*value)))
-    return failure(ErrorKind::usage, std::string("'") + key.name + "' must be a " + (whole ? "whole " : "") +
-                                         "number, not '" + text + "'");
-  if (*value < key.minimum || *value > key.maximum)
-    return failure(ErrorKind::usage, std::string("'") + key.name + "' must be from " + numberText(key.minimum) +
-                                         " to " + numberText(key.maximum) + ", not " + text);
-  return *value;
-}
-
-std::string keyList(const FilterKind& kind) {
-  std::string list;
-  for (const FilterKey& key : kind.keys) list += (list.empty() ? "" : ", ") + std::string(key.name);
-  return list;
+// "from=0.5,to=30"; errors without a place.
+Result<KeyTexts> keyTexts(const FilterKind& kind, const std::string& text) {
+  KeyTexts texts;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', from), text.size());
+    const std::string word = text.substr(from, comma - from);
+    const std::size_t equals = std::min(word.find('='), word.size());
+    const std::string key = word.substr(0, equals);
+    if (equals == word.size() || std::find(kind.names.begin(), kind.names.end(), key) == kind.names.end())
+      return failure(ErrorKind::usage, "'" + word + "' must be KEY=VALUE; valid keys: " + kind.keys);
+    if (std::any_of(texts.begin(), texts.end(), [&](const auto& t) { return t.first == key; }))
+      return failure(ErrorKind::usage, "'" + key + "' is given twice");
+    texts.emplace_back(key, word.substr(equals + 1));
+    from = comma + 1;
+  }
+  return texts;
 }
 
 }  // namespace
 
-Result<void> FilterValues::set(const FilterKey& key, const std::string& text) {
-  text_[key.name] = text;
-  if (key.kind == FilterKey::Kind::word) {
-    if (key.words.empty() ? !text.empty() : std::find(key.words.begin(), key.words.end(), text) != key.words.end())
-      return {};
-    std::string list;
-    for (const char* word : key.words) list += (list.empty() ? "" : " or ") + std::string(word);
-    return failure(ErrorKind::usage, std::string("'") + key.name + "' must be " + (list.empty() ? "a name" : list));
-  }
-  Eigen::Vector3d numbers = Eigen::Vector3d::Zero();
-  std::size_t from = 0;
-  const int wanted = key.kind == FilterKey::Kind::triple ? 3 : 1;
-  for (int i = 0; i < wanted; ++i) {
-    const std::size_t slash = i + 1 < wanted ? text.find('/', from) : text.size();
-    if (slash == std::string::npos)
-      return failure(ErrorKind::usage,
-                     std::string("'") + key.name + "' must be three numbers X/Y/Z, not '" + text + "'");
-    TRY_ASSIGN(const auto number, numberOf(key, text.substr(from, slash - from)));
-    numbers[i] = number;
-    from = slash + 1;
-  }
-  numbers_[key.name] = numbers;
-  return {};
-}
-
-std::span<const FilterKind> filterKinds() { return table(); }
-
 std::string filterList() {
   std::string list;
-  for (const FilterKind& kind : filterKinds()) {
-    list += (list.empty() ? "" : "; ") + std::string(kind.name);
-    if (!kind.keys.empty()) list += " (" + keyList(kind) + ")";
-  }
+  for (const FilterKind& kind : filterKinds())
+    list += (list.empty() ? "" : "; ") + std::string(kind.name) + " (" + kind.keys + ")";
   return list;
 }
 
 Result<ChosenFilter> filterFrom(const std::string& text) {
   const std::size_t colon = std::min(text.find(':'), text.size());
   const std::string name = text.substr(0, colon);
-  const auto kind =
-      std::find_if(filterKinds().begin(), filterKinds().end(), [&](const auto& k) { return name == k.name; });
-  if (kind == filterKinds().end())
+  const auto& kinds = filterKinds();
+  const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return name == k.name; });
+  if (kind == kinds.end())
     return failure(ErrorKind::usage, "unknown filter '" + name + "'; available: " + filterList(), "--filters");
-  ChosenFilter chosen{text, &*kind, {}};
-  for (std::size_t from = colon + 1; from <= text.size() && colon < text.size();) {
-    const std::size_t comma = std::min(text.find(',', from), text.size());
-    const std::string word = text.substr(from, comma - from);
-    const std::size_t equals = word.find('=');
-    const auto key = std::find_if(kind->keys.begin(), kind->keys.end(), [&](const FilterKey& k) {
-      return equals != std::string::npos && word.substr(0, equals) == k.name;
-    });
-    if (key == kind->keys.end())
-      return failure(ErrorKind::usage, "'" + word + "' must be KEY=VALUE; valid keys: " + keyList(*kind),
-                     "--filters " + text);
-    if (chosen.values.has(key->name))
-      return failure(ErrorKind::usage, std::string("'") + key->name + "' is given twice", "--filters " + text);
-    if (auto set = chosen.values.set(*key, word.substr(equals + 1)); !set)
-      return failure(ErrorKind::usage, set.error().message, "--filters " + text);
-    from = comma + 1;
-  }
-  for (const FilterKey& key : kind->keys) {
-    if (chosen.values.has(key.name)) continue;
-    if (key.required)
-      return failure(ErrorKind::usage, std::string("'") + key.name + "' is missing", "--filters " + text);
-    if (key.default_value) TRY(chosen.values.set(key, key.default_value));
-  }
-  return chosen;
+  auto texts = colon < text.size() ? keyTexts(*kind, text.substr(colon + 1)) : KeyTexts();
+  auto make = texts ? kind->read(*texts) : failure(texts.error());
+  if (!make) return failure(ErrorKind::usage, make.error().message, "--filters " + text);
+  return ChosenFilter{text, *std::move(make)};
 }
 
 }  // namespace standpoint

@@ -90,17 +90,17 @@ class OutlierFilter final : public ScanFilter {
 // very flatly; but it goes on in a straight line to both sides.
 class MixedFilter final : public ScanFilter {
  public:
-  MixedFilter(double angle_rad, double jump_m, std::size_t neighbours, std::string by)
-      : sine_(std::sin(angle_rad)),
-        cosine_(std::cos(angle_rad)),
-        jump_m_(jump_m),
-        neighbours_(neighbours),
-        by_(std::move(by)) {}
+  explicit MixedFilter(const MixedOptions& options)
+      : sine_(std::sin(options.angle_deg * std::numbers::pi / 180)),
+        cosine_(std::cos(options.angle_deg * std::numbers::pi / 180)),
+        jump_m_(options.jump_m),
+        neighbours_(options.neighbours),
+        by_(options.by) {}
 
   Result<void> beginScan(const ScanHeader& header) override {
     if (auto begun = ScanFilter::beginScan(header); !begun) return begun;
     if (!has_station_) return failure(ErrorKind::unusable, "no scanner position: beams are unknown", header.name);
-    if (by_ == "grid" && !grid_)
+    if (by_ == NeighbourSearch::grid && !grid_)
       return failure(ErrorKind::unusable, "no grid of rows and columns; leave out 'by', or use by=distance",
                      header.name);
     return {};
@@ -110,7 +110,7 @@ class MixedFilter final : public ScanFilter {
   static constexpr int kReach = 2;  // cells: a beam wider than the grid's step leaves two mixed points side by side
 
   std::vector<std::uint8_t> wrong(ScanPoints& points) const override {
-    return grid_ && by_ != "distance" ? byGrid(points) : byDistance(points);
+    return grid_ && by_ != NeighbourSearch::distance ? byGrid(points) : byDistance(points);
   }
 
   std::vector<std::uint8_t> byGrid(ScanPoints& points) const {
@@ -198,20 +198,15 @@ class MixedFilter final : public ScanFilter {
 
   double sine_, cosine_, jump_m_;
   std::size_t neighbours_;
-  std::string by_;
+  std::optional<NeighbourSearch> by_;
 };
 
 }  // namespace
 
-MadeFilter makeOutlierFilter(const FilterValues& values) {
-  return std::make_unique<OutlierFilter>(static_cast<std::size_t>(values.number("neighbours")),
-                                         values.number("sigmas"));
+MadeFilter makeOutlierFilter(const OutlierOptions& options) {
+  return std::make_unique<OutlierFilter>(options.neighbours, options.sigmas);
 }
 
-MadeFilter makeMixedFilter(const FilterValues& values) {
-  return std::make_unique<MixedFilter>(values.number("angle") * std::numbers::pi / 180, values.number("jump"),
-                                       static_cast<std::size_t>(values.number("neighbours")),
-                                       values.has("by") ? values.word("by") : "");
-}
+MadeFilter makeMixedFilter(const MixedOptions& options) { return std::make_unique<MixedFilter>(options); }
 
 }  // namespace standpoint

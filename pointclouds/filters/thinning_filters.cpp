@@ -137,10 +137,10 @@ class DuplicateFilter final : public PointFilter {
 
 }  // namespace
 
-MadeFilter makeVoxelFilter(const FilterValues& values) { return std::make_unique<VoxelFilter>(values.number("cell")); }
+MadeFilter makeVoxelFilter(const VoxelOptions& options) { return std::make_unique<VoxelFilter>(options.cell_m); }
 
-MadeFilter makeDuplicateFilter(const FilterValues& values) {
-  return std::make_unique<DuplicateFilter>(values.number("distance"));
+MadeFilter makeDuplicateFilter(const DuplicateOptions& options) {
+  return std::make_unique<DuplicateFilter>(options.distance_m);
 }
 
 }  // namespace standpoint
