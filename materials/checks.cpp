@@ -157,10 +157,11 @@ void AssignmentChecks::implausible(const SurfaceOfProduct& pair, const PhysicalM
         place->second = static_cast<int>(i);
     }
   if (place->second < 0) return;
+  const auto& found = implausible_[static_cast<std::size_t>(place->second)];
   tell("implausible", true, pair, &material, [&](FindingCollector::Cause& c) {
     c.what = surfaceText(pair) + " of";
     c.then = " has the material " + material.id;
-    c.why = implausible_[static_cast<std::size_t>(place->second)].why;
+    c.why = found.why;
     c.remedies = {{"Assign another material", selectorOf(pair), ""}};
   });
 }

@@ -78,7 +78,8 @@ Result<std::vector<PhysicalMaterial>> finished(EntryTable entries, const std::ve
   for (const auto& material : shipped) dry.insert_or_assign(material.id, material);
   for (const auto& [id, entry] : entries) dry.insert_or_assign(id, entry.material);
   std::vector<PhysicalMaterial> library;
-  for (auto& [id, entry] : entries) {
+  for (auto& [id, read] : entries) {
+    Entry entry = std::move(read);
     if (!entry.material.wet_of.empty()) {
       const auto found = dry.find(entry.material.wet_of);
       TRY(wet(entry.material, found == dry.end() ? nullptr : &found->second, entry.at));

@@ -74,8 +74,8 @@ Result<json> checkOptions(const Verb& verb, const json& options) {
   if (!options.is_object()) return failure(ErrorKind::usage, "options must be a JSON object", verb.name);
   json complete = json::object();
   for (const auto& [key, value] : options.items()) {
-    const auto found =
-        std::find_if(verb.parameters.begin(), verb.parameters.end(), [&](const Parameter& p) { return key == p.name; });
+    const auto found = std::find_if(verb.parameters.begin(), verb.parameters.end(),
+                                    [&key = key](const Parameter& p) { return key == p.name; });
     if (found == verb.parameters.end()) {
       std::vector<const char*> names;
       for (const auto& p : verb.parameters) names.push_back(p.name);

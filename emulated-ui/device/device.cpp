@@ -375,7 +375,7 @@ void Device::targetsDone(std::vector<FittedTarget> targets) {
 }
 
 // What was picked comes under the ID that was typed, in the place of an earlier sight of that ID.
-void Device::sightDone(FittedTarget target) {
+void Device::sightDone(const FittedTarget& target) {
   note("sighted", target.found ? target.name : "");
   if (target.found) {
     auto& all = state_.sighted;
@@ -403,7 +403,7 @@ void Device::acceptOrientation() {
   if (!o.local) oriented_ = o;
 }
 
-void Device::previewDone(const std::string& file, std::shared_ptr<const ScanPreview> preview) {
+void Device::previewDone(const std::string& file, const std::shared_ptr<const ScanPreview>& preview) {
   for (auto& p : state_.projects)
     for (auto& setup : p.setups)
       if (setup.file == file) setup.preview = preview;

@@ -71,8 +71,8 @@ class Device {
   void scanDone(StoredSetup setup);
   void linkDone(const LinkResult& link);
   void targetsDone(std::vector<FittedTarget> targets);
-  void previewDone(const std::string& file, std::shared_ptr<const ScanPreview> preview);
-  void sightDone(FittedTarget target);
+  void previewDone(const std::string& file, const std::shared_ptr<const ScanPreview>& preview);
+  void sightDone(const FittedTarget& target);
   void transferDone(const std::vector<std::string>& files);
   void orderFailed(const std::string& message);
   // True once after the device has stored a scan: from then on the setup exists.

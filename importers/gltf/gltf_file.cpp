@@ -204,9 +204,9 @@ namespace {
 // Fresh memory costs as much as the reading: a page of 2 MB is had for the price of one of 4 KB.
 void askForLargePages(std::uint8_t* first, std::size_t size) {
   constexpr std::uintptr_t kLarge = std::uintptr_t{1} << 21U;
-  const auto from = (reinterpret_cast<std::uintptr_t>(first) + kLarge - 1) / kLarge * kLarge;
-  const auto to = (reinterpret_cast<std::uintptr_t>(first) + size) / kLarge * kLarge;
-  if (from < to) ::madvise(reinterpret_cast<void*>(from), to - from, MADV_HUGEPAGE);  // a wish only
+  const auto begin = reinterpret_cast<std::uintptr_t>(first);
+  const auto from = (begin + kLarge - 1) / kLarge * kLarge, to = (begin + size) / kLarge * kLarge;
+  if (from < to) ::madvise(first + (from - begin), to - from, MADV_HUGEPAGE);  // a wish only
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ std::uint32_t Assembly::plainMesh(const PlacedBody& placed, const ProductMateria
   }
   std::vector<std::uint32_t> used;
   for (const auto& [tag, index] : surface_of_tag) used.push_back(index);
-  Key key{placed.body.get(), std::move(used), {}};
+  Key key{placed.body.get(), std::move(used), std::vector<double>()};
   if (const auto it = meshes_.find(key); it != meshes_.end()) return it->second;
   m.positions = body.positions;
   m.triangles = body.triangles;

@@ -101,8 +101,8 @@ Result<ImportedModel> readImported(const std::filesystem::path& path, const Impo
   StlSoup out;
   const bool binary = isBinaryStl(bytes);
   TRY(binary ? readBinary(bytes, name, out, report, progress) : readStlText(bytes, name, out, report, progress));
+  const auto lines = out.takeLines();
   auto soup = std::move(out).soup();
-  const auto lines = std::move(out).lines();
   soup.place = [&](std::size_t face) {
     return binary ? "triangle " + std::to_string(face + 1) : "line " + std::to_string(lines[face]);
   };

@@ -21,7 +21,7 @@ class StlSoup {
   void endFacet(std::size_t line);
 
   FaceSoup soup() &&;
-  std::vector<std::size_t> lines() && { return std::move(lines_); }
+  std::vector<std::size_t> takeLines() { return std::move(lines_); }
 
  private:
   std::uint32_t weld(const Eigen::Vector3d& p);

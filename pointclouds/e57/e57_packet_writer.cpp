@@ -21,7 +21,7 @@ std::size_t roundedUpTo4(std::size_t n) { return (n + 3) / 4 * 4; }
 
 unsigned bitsFor(std::uint64_t largest) { return std::max(1u, static_cast<unsigned>(std::bit_width(largest))); }
 
-PacketWriter::PacketWriter(std::vector<unsigned> stream_bits) : packet_(kLargestPacket) {
+PacketWriter::PacketWriter(const std::vector<unsigned>& stream_bits) : packet_(kLargestPacket) {
   std::size_t bits = 0;
   for (const unsigned b : stream_bits) bits += b;
   std::size_t start = 6 + 2 * stream_bits.size();

@@ -21,7 +21,7 @@ constexpr std::uint64_t largestOf(unsigned bits) { return (std::uint64_t{1} << b
 class PacketWriter {
  public:
   // Bits per record of each stream: 32 or 64 for a float, else what bitsFor() says (at most 63).
-  explicit PacketWriter(std::vector<unsigned> stream_bits);
+  explicit PacketWriter(const std::vector<unsigned>& stream_bits);
 
   Result<void> begin(PagedWriter& out);
   // How many records fit before the packet is full. Put at most so many into every stream, then advance by them.

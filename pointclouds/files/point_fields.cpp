@@ -25,8 +25,8 @@ bool FieldPlaces::all(F first, F last) const {
   return true;
 }
 
-FieldTaker::FieldTaker(FieldPlaces places, ScanHeader& scan, bool placed)
-    : places_(std::move(places)),
+FieldTaker::FieldTaker(const FieldPlaces& places, ScanHeader& scan, bool placed)
+    : places_(places),
       placed_(placed),
       colour_(scan.has_colour = places_.all(F::red, F::blue) || places_[F::packed_colour]),
       labels_(scan.has_labels = places_.all(F::label, F::product) && !scan.products.empty() && !scan.materials.empty()),

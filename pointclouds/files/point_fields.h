@@ -51,7 +51,7 @@ class FieldTaker {
  public:
   // Sets what `scan` has by the fields that are there: labels need its tables, a grid its rows and columns. `placed`:
   // the numbers are in the file's frame, and the scan's pose leads back.
-  FieldTaker(FieldPlaces places, ScanHeader& scan, bool placed);
+  FieldTaker(const FieldPlaces& places, ScanHeader& scan, bool placed);
   // An error when an index lies outside its table or grid; without a place.
   Result<void> take(const std::vector<double>& numbers, FoundPoints& to);
   void list(const std::string& source, Report& report) const;  // what was mended

@@ -54,10 +54,12 @@ class Pipeline {
       // MB.
       const auto tokens = static_cast<std::size_t>(arena.max_concurrency() + 2);
       tbb::parallel_pipeline(
-          tokens, tbb::make_filter<void, Work>(tbb::filter_mode::serial_in_order,
-                                               [&](tbb::flow_control& flow) { return next(flow); }) &
-                      tbb::make_filter<Work, Work>(tbb::filter_mode::parallel, [&](Work work) { return trace(work); }) &
-                      tbb::make_filter<Work, void>(tbb::filter_mode::serial_in_order, [&](Work work) { write(work); }));
+          tokens,
+          tbb::make_filter<void, Work>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& flow) {
+            return next(flow);
+          }) & tbb::make_filter<Work, Work>(tbb::filter_mode::parallel, [&](Work work) {
+            return trace(std::move(work));
+          }) & tbb::make_filter<Work, void>(tbb::filter_mode::serial_in_order, [&](const Work& work) { write(work); }));
     });
     if (error_) return failure(*error_);
     TRY(progress_.check());

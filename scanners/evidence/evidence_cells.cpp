@@ -28,7 +28,6 @@ std::uint64_t keyOf(const MeasuredReturn& r) {
 
 EvidenceCell cellOf(const std::vector<MeasuredReturn>& returns, const Keyed* first, const Keyed* last) {
   std::vector<float> figures;
-  EvidenceCell cell;
   double log_range = 0, log_cosine = 0;
   for (const Keyed* k = first; k != last; ++k) {
     const auto& r = returns[k->index];

@@ -95,7 +95,8 @@ Result<SurveyPlan> planSurvey(const Job& job, std::shared_ptr<const RayScene> sc
   TRY_ASSIGN(auto samples, sampleSurfaces(*scene, request.samples, request.seed, progress));
   SurveyPlan plan;
   plan.samples = std::move(samples);
-  const Expectation expectation(scene, std::move(assignment), ReturnLaw(request.instrument, request.settings));
+  const Expectation expectation(std::move(scene), std::move(assignment),
+                                ReturnLaw(request.instrument, request.settings));
   progress.stage("Forecast", 0.2, 0.7);
   for (const auto index : request.stations) {
     TRY(progress.check());

@@ -27,7 +27,8 @@ Regions partsOfCrossing(const geometry::Loop2& outline) {
     const std::size_t n = loop.size();
     for (std::size_t i = 0; i + 2 < n && !split; ++i)
       for (std::size_t j = i + 2; j < n && !split; ++j) {
-        const Eigen::Vector2d a = loop[i], u = loop[i + 1] - a, b = loop[j], v = loop[(j + 1) % n] - b;
+        const Eigen::Vector2d &a = loop[i], &b = loop[j];
+        const Eigen::Vector2d u = loop[i + 1] - a, v = loop[(j + 1) % n] - b;
         const double det = cross(u, v), s = cross(b - a, v) / det, t = cross(b - a, u) / det;
         if (!(s > 1e-9 && s < 1 - 1e-9 && t > 1e-9 && t < 1 - 1e-9)) continue;
         geometry::Loop2 inner(loop.begin() + static_cast<std::ptrdiff_t>(i) + 1,
