@@ -9,11 +9,13 @@
 #include <concepts>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <Eigen/Core>
@@ -75,6 +77,35 @@ struct AnswerValue<std::vector<T>> {
   static std::vector<std::string> names() { return AnswerValue<T>::names(); }
 };
 
+// An object whose keys are data, such as names of targets; `names` are those of its values.
+template <class T>
+struct AnswerValue<std::map<std::string, T>> {
+  static nlohmann::json write(const std::map<std::string, T>& values) {
+    nlohmann::json object = nlohmann::json::object();
+    for (const auto& [key, value] : values) object[key] = AnswerValue<T>::write(value);
+    return object;
+  }
+  static std::vector<std::string> names() { return AnswerValue<T>::names(); }
+};
+
+// Of a verb that answers one of several things.
+template <class... T>
+struct AnswerValue<std::variant<T...>> {
+  static nlohmann::json write(const std::variant<T...>& value) {
+    return std::visit([](const auto& one) { return AnswerValue<std::remove_cvref_t<decltype(one)>>::write(one); },
+                      value);
+  }
+  static std::vector<std::string> names() {
+    std::vector<std::string> all;
+    const auto add = [&all](std::vector<std::string> more) {
+      for (auto& name : more)
+        if (std::find(all.begin(), all.end(), name) == all.end()) all.push_back(std::move(name));
+    };
+    (add(AnswerValue<T>::names()), ...);
+    return all;
+  }
+};
+
 template <HasAnswerFields A>
 struct AnswerValue<A> {
   static nlohmann::json write(const A& answer) {
@@ -103,6 +134,9 @@ inline std::optional<std::string> nullWhereEmpty(const std::string& text) {
 }
 
 }  // namespace answers
+
+template <class T>
+concept IsOptional = std::same_as<T, std::optional<typename T::value_type>>;
 
 // The key is left out where there is nothing (an optional) or no row (a vector).
 struct LeftOut {};
@@ -144,6 +178,20 @@ struct AnswerField {
           if (!(a.*member)) return std::nullopt;
           const auto converted = convert(*(a.*member));
           return AnswerValue<std::remove_const_t<decltype(converted)>>::write(converted);
+        }),
+        below(AnswerValue<std::remove_cvref_t<std::invoke_result_t<Convert, const T&>>>::names()) {}
+
+  // Left out where the conversion has nothing to say.
+  template <class B, class T, class Convert>
+  requires std::derived_from<A, B> && IsOptional<std::invoke_result_t<Convert, const T&>> AnswerField(const char* key,
+                                                                                                      T B::*member,
+                                                                                                      Convert convert,
+                                                                                                      LeftOut)
+      : name(key),
+        written([member, convert](const A& a) -> std::optional<nlohmann::json> {
+          const auto converted = convert(a.*member);
+          using Converted = typename std::remove_const_t<decltype(converted)>::value_type;
+          return converted ? std::optional(AnswerValue<Converted>::write(*converted)) : std::nullopt;
         }),
         below(AnswerValue<std::remove_cvref_t<std::invoke_result_t<Convert, const T&>>>::names()) {}
 

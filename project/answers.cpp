@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "project/answers.h"
-
 #include <charconv>
 
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "project/answers.h"
 
 namespace standpoint {
 
@@ -19,10 +18,43 @@ std::optional<Eigen::Vector3d> nullWhereZero(const Eigen::Vector3d& v) {
   return v.isZero() ? std::nullopt : std::optional(v);
 }
 
+std::optional<Eigen::Vector3d> nothingWhereOnes(const Eigen::Vector3d& v) {
+  return v == Eigen::Vector3d::Ones() ? std::nullopt : std::optional(v);
+}
+
 }  // namespace
 
 const AnswerFields<Pose>& answerFields(const Pose*) {
   static const AnswerFields<Pose> fields = {{"rotation", &Pose::rotation, wxyz}, {"translation", &Pose::translation}};
+  return fields;
+}
+
+const AnswerFields<MapConversion>& answerFields(const MapConversion*) {
+  using A = MapConversion;
+  static const AnswerFields<A> fields = {{"eastings", &A::eastings_m},
+                                         {"northings", &A::northings_m},
+                                         {"height", &A::orthogonal_height_m},
+                                         {"abscissa", &A::x_axis_abscissa},
+                                         {"ordinate", &A::x_axis_ordinate},
+                                         {"scale", &A::scale},
+                                         {"factors", &A::factors, nothingWhereOnes, kLeftOut}};
+  return fields;
+}
+
+const AnswerFields<GeographicPosition>& answerFields(const GeographicPosition*) {
+  using A = GeographicPosition;
+  static const AnswerFields<A> fields = {
+      {"latitude_deg", &A::latitude_deg}, {"longitude_deg", &A::longitude_deg}, {"elevation", &A::elevation_m}};
+  return fields;
+}
+
+const AnswerFields<Georeference>& answerFields(const Georeference*) {
+  using A = Georeference;
+  static const AnswerFields<A> fields = {{"shift", &A::shift_m},
+                                         {"crs", &A::crs, answers::nullWhereEmpty},
+                                         {"map_conversion", &A::map_from_file, kLeftOut},
+                                         {"site", &A::site, kLeftOut},
+                                         {"true_north_deg", &A::true_north_rad, answers::degrees, kLeftOut}};
   return fields;
 }
 
@@ -61,12 +93,20 @@ Eigen::Vector3d vectorFrom(const json& array) {
   return {array.at(0).get<double>(), array.at(1).get<double>(), array.at(2).get<double>()};
 }
 
-json toJson(const Bounds& bounds_local, const Eigen::Vector3d& shift_m) {
-  if (bounds_local.empty()) return nullptr;
-  return {toJson(bounds_local.min + shift_m), toJson(bounds_local.max + shift_m)};
+json toJson(const Bounds& bounds) {
+  if (bounds.empty()) return nullptr;
+  return {toJson(bounds.min), toJson(bounds.max)};
 }
 
-json toJson(const SurfaceFit& fit) { return AnswerValue<SurfaceFit>::write(fit); }
+Bounds fileBounds(const Bounds& local, const Eigen::Vector3d& shift_m) {
+  return local.empty() ? Bounds() : Bounds{local.min + shift_m, local.max + shift_m};
+}
+
+json toJson(const Bounds& bounds_local, const Eigen::Vector3d& shift_m) {
+  return toJson(fileBounds(bounds_local, shift_m));
+}
+
+json identity(const Product& product) { return AnswerValue<ProductIdentity>::write(identityOf(product)); }
 
 json poseToJson(const Pose& pose) { return AnswerValue<Pose>::write(pose); }
 
@@ -75,8 +115,6 @@ Pose poseFrom(const json& j) {
   return {Eigen::Quaterniond(q.at(0), q.at(1), q.at(2), q.at(3)), vectorFrom(j.at("translation"))};
 }
 
-json identity(const Product& product) { return AnswerValue<ProductIdentity>::write(identityOf(product)); }
-
 json toJson(const Report& report) {
   json issues = json::array();
   for (const auto& i : report.issues)
@@ -84,22 +122,7 @@ json toJson(const Report& report) {
   return issues;
 }
 
-json georeferenceToJson(const Georeference& g) {
-  json object = {{"shift", toJson(g.shift_m)}, {"crs", g.crs.empty() ? json(nullptr) : json(g.crs)}};
-  if (g.map_from_file)
-    object["map_conversion"] = {
-        {"eastings", g.map_from_file->eastings_m},        {"northings", g.map_from_file->northings_m},
-        {"height", g.map_from_file->orthogonal_height_m}, {"abscissa", g.map_from_file->x_axis_abscissa},
-        {"ordinate", g.map_from_file->x_axis_ordinate},   {"scale", g.map_from_file->scale}};
-  if (g.map_from_file && g.map_from_file->factors != Eigen::Vector3d::Ones())
-    object["map_conversion"]["factors"] = toJson(g.map_from_file->factors);
-  if (g.site)
-    object["site"] = {{"latitude_deg", g.site->latitude_deg},
-                      {"longitude_deg", g.site->longitude_deg},
-                      {"elevation", g.site->elevation_m}};
-  if (g.true_north_rad) object["true_north_deg"] = *g.true_north_rad / kRadPerDeg;
-  return object;
-}
+json georeferenceToJson(const Georeference& georeference) { return AnswerValue<Georeference>::write(georeference); }
 
 Result<Georeference> georeferenceFrom(const json& object) {
   try {

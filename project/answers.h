@@ -18,11 +18,11 @@
 namespace standpoint {
 
 nlohmann::json toJson(const Eigen::Vector3d& v);
-Eigen::Vector3d vectorFrom(const nlohmann::json& array);                            // of three numbers
-nlohmann::json toJson(const Bounds& bounds_local, const Eigen::Vector3d& shift_m);  // file frame; null when empty
+Eigen::Vector3d vectorFrom(const nlohmann::json& array);  // of three numbers
+nlohmann::json toJson(const Bounds& bounds);              // null when empty
 nlohmann::json toJson(const Report& report);
-nlohmann::json toJson(const SurfaceFit& fit);
 nlohmann::json poseToJson(const Pose& pose);
+nlohmann::json toJson(const Bounds& bounds_local, const Eigen::Vector3d& shift_m);  // file frame; null when empty
 Pose poseFrom(const nlohmann::json& pose);
 nlohmann::json identity(const Product& product);  // id, GlobalId, class, name
 nlohmann::json georeferenceToJson(const Georeference& georeference);
@@ -31,10 +31,14 @@ Result<Georeference> georeferenceFrom(const nlohmann::json& object);
 // Parts of typed answers.
 template <>
 struct AnswerValue<Bounds> {  // in the frame that they are shown in; null when empty
-  static nlohmann::json write(const Bounds& bounds) { return toJson(bounds, Eigen::Vector3d::Zero()); }
+  static nlohmann::json write(const Bounds& bounds) { return toJson(bounds); }
   static std::vector<std::string> names() { return {}; }
 };
+Bounds fileBounds(const Bounds& local, const Eigen::Vector3d& shift_m);  // in the model's file frame
 const AnswerFields<Pose>& answerFields(const Pose*);
+const AnswerFields<MapConversion>& answerFields(const MapConversion*);
+const AnswerFields<GeographicPosition>& answerFields(const GeographicPosition*);
+const AnswerFields<Georeference>& answerFields(const Georeference*);
 const AnswerFields<FreeMotion>& answerFields(const FreeMotion*);
 const AnswerFields<SurfaceFit>& answerFields(const SurfaceFit*);
 

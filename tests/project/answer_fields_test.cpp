@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "project/answer_fields.h"
-
 #include <set>
 
 #include <gtest/gtest.h>
 
 #include "core/units.h"
+#include "project/answer_fields.h"
 #include "project/survey/survey_verbs.h"
 #include "tests/project/support.h"
 
@@ -30,6 +29,28 @@ const AnswerFields<Sample>& answerFields(const Sample*) {
 TEST(AnswerFields, AreWrittenInTheUnitsOfTheTableWithNullOrNothingWhereThereIsNothing) {
   EXPECT_EQ(AnswerValue<Sample>::write(Sample()).dump(),
             R"({"angle_deg":90.0,"crs":null,"places":[{"adds_m2":0.5,"at":[1.0,2.0,3.0]}],"points":7,"unknown":null})");
+}
+
+struct Several {
+  std::string note, crs = "EPSG:1";
+  std::map<std::string, PlanProposal> by_name = {{"b", {{1, 2, 3}, 0.5}}};
+  std::variant<PlanProposal, std::string> either = "neither";
+};
+const AnswerFields<Several>& answerFields(const Several*) {
+  using A = Several;
+  static const AnswerFields<A> fields = {{"note", &A::note, answers::nullWhereEmpty, kLeftOut},
+                                         {"crs", &A::crs, answers::nullWhereEmpty, kLeftOut},
+                                         {"by_name", &A::by_name},
+                                         {"either", &A::either}};
+  return fields;
+}
+
+TEST(AnswerFields, OfSeveralKindsAreWrittenAsWhatTheyHold) {
+  EXPECT_EQ(AnswerValue<Several>::write(Several()).dump(),
+            R"({"by_name":{"b":{"adds_m2":0.5,"at":[1.0,2.0,3.0]}},"crs":"EPSG:1","either":"neither"})");
+  EXPECT_EQ(AnswerValue<Several>::names(),
+            (std::vector<std::string>{"note", "crs", "by_name", "by_name/at", "by_name/adds_m2", "either", "either/at",
+                                      "either/adds_m2"}));
 }
 
 TEST(AnswerFields, NameWhatIsBelowThem) {
