@@ -14,32 +14,28 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-// A share that is not asked of nothing.
-json fractionOf(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? json(nullptr) : json(static_cast<double>(part) / static_cast<double>(whole));
+// A fraction that is not asked of nothing.
+std::optional<double> fractionOf(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? std::nullopt : std::optional(static_cast<double>(part) / static_cast<double>(whole));
 }
 
-json takenJson(const Taken& t) { return {{"in", t.in}, {"removed", t.taken}, {"share", fractionOf(t.taken, t.in)}}; }
+CleanCount countOf(const Taken& t) { return {t.in, t.taken, fractionOf(t.taken, t.in)}; }
 
-json figuresJson(const FilterFigures& f) {
-  json row = {
-      {"filter", f.filter}, {"in", f.points.in}, {"removed", f.points.taken}, {"out", f.points.in - f.points.taken}};
+CleanFilter filterRow(const FilterFigures& f) {
+  CleanFilter row{f.filter, f.points.in, f.points.taken, f.points.in - f.points.taken, {}, {}, {}, {}};
   if (f.has_truth) {
-    json flags = json::object();
-    for (std::size_t bit = 0; bit < f.flags.size(); ++bit)
-      flags[flagNames()[bit]] = {{"in", f.flags[bit].in},
-                                 {"removed", f.flags[bit].taken},
-                                 {"recall", fractionOf(f.flags[bit].taken, f.flags[bit].in)},
-                                 {"precision", fractionOf(f.flags[bit].taken, f.with_truth.taken)}};
-    row["truth"] = std::move(flags);
-    row["mixed_by_over_1cm"] = takenJson(f.plainly_mixed);
-    row["good"] = takenJson(f.good);
+    row.truth.emplace();
+    for (std::size_t bit = 0; bit < f.flags.size(); ++bit) {
+      const auto& [in, taken] = f.flags[bit];
+      (*row.truth)[flagNames()[bit]] = {in, taken, fractionOf(taken, in), fractionOf(taken, f.with_truth.taken)};
+    }
+    row.plainly_mixed = countOf(f.plainly_mixed);
+    row.good = countOf(f.good);
   }
   if (f.has_labels) {
-    json classes = json::object();
+    row.classes.emplace();
     for (const auto& [name, taken] : f.good_of_class)
-      if (taken.in > 0) classes[name] = takenJson(taken);
-    row["classes"] = std::move(classes);
+      if (taken.in > 0) (*row.classes)[name] = countOf(taken);
   }
   return row;
 }
@@ -136,7 +132,43 @@ const Fields<CleanOptions>& cleanFields() {
   return fields;
 }
 
-Result<Outcome> runClean(const Document& document, const CleanOptions& options, Progress& progress) {
+const AnswerFields<CleanCount>& answerFields(const CleanCount*) {
+  using A = CleanCount;
+  static const AnswerFields<A> fields = {{"in", &A::in}, {"removed", &A::removed}, {"share", &A::fraction}};
+  return fields;
+}
+
+const AnswerFields<CleanCause>& answerFields(const CleanCause*) {
+  using A = CleanCause;
+  static const AnswerFields<A> fields = {
+      {"in", &A::in}, {"removed", &A::removed}, {"recall", &A::recall}, {"precision", &A::precision}};
+  return fields;
+}
+
+const AnswerFields<CleanFilter>& answerFields(const CleanFilter*) {
+  using A = CleanFilter;
+  static const AnswerFields<A> fields = {
+      {"filter", &A::filter},         {"in", &A::in},
+      {"removed", &A::removed},       {"out", &A::out},
+      {"truth", &A::truth, kLeftOut}, {"mixed_by_over_1cm", &A::plainly_mixed, kLeftOut},
+      {"good", &A::good, kLeftOut},   {"classes", &A::classes, kLeftOut}};
+  return fields;
+}
+
+const AnswerFields<CleanFigures>& answerFields(const CleanFigures*) {
+  using A = CleanFigures;
+  static const AnswerFields<A> fields = {
+      {"points_in", &A::points_in}, {"points_out", &A::points_out}, {"filters", &A::filters}};
+  return fields;
+}
+
+const AnswerFields<CleanAnswer>& answerFields(const CleanAnswer* answer) {
+  static const auto fields =
+      withBases<CleanAnswer>({{"files", &CleanAnswer::files}}, answerFields(static_cast<const CleanFigures*>(answer)));
+  return fields;
+}
+
+Result<Answered<CleanAnswer>> runClean(const Document& document, const CleanOptions& options, Progress& progress) {
   const fs::path &in = options.in, &report = options.report;
   std::error_code error;
   if (!fs::exists(in, error)) return failure(ErrorKind::file_system, "file not found", in.string());
@@ -145,15 +177,15 @@ Result<Outcome> runClean(const Document& document, const CleanOptions& options, 
   TRY(checkFolderOf(options.output, "--output"));
   if (!report.empty()) TRY(checkFolderOf(report, "--report"));
   TRY_ASSIGN(auto cleaning, cleanCloud(in, options.output, options.filters, progress));
-  Outcome outcome{document, json::object(), std::move(cleaning.report), {}};
-  json rows = json::array(), files = json::array();
-  for (const FilterFigures& f : cleaning.filters) rows.push_back(figuresJson(f));
-  for (const auto& file : cleaning.files) files.push_back(file.string());
-  outcome.answer = {
-      {"points_in", cleaning.points_in}, {"points_out", cleaning.points_out}, {"filters", std::move(rows)}};
+  Answered<CleanAnswer> outcome{document, {}, std::move(cleaning.report)};
+  auto& answer = outcome.answer;
+  answer.points_in = cleaning.points_in;
+  answer.points_out = cleaning.points_out;
+  for (const auto& filter : cleaning.filters) answer.filters.push_back(filterRow(filter));
+  answer.files = cleaning.files;
   if (!report.empty())
-    TRY(writeReport(report, report.extension() == ".csv" ? csv(cleaning) : outcome.answer.dump(2) + "\n"));
-  outcome.answer["files"] = std::move(files);
+    TRY(writeReport(report, report.extension() == ".csv" ? csv(cleaning)
+                                                         : AnswerValue<CleanFigures>::write(answer).dump(2) + "\n"));
   outcome.description =
       fmt::format("Cleaned {}: kept {} of {} points", in.filename().string(), cleaning.points_out, cleaning.points_in);
   outcome.text = table(cleaning);

@@ -1,34 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pointclouds/statistics/statistics.h"
-#include "project/answers.h"
 #include "project/verbs/file_verbs.h"
 
 namespace standpoint {
-
-namespace {
-
-using nlohmann::json;
-
-json statisticsJson(const Distribution& d) {
-  return {{"samples", d.samples}, {"mean", d.mean},     {"sigma", d.sigma},
-          {"p5", d.p5},           {"median", d.median}, {"p95", d.p95}};
-}
-
-json statisticsJson(const CloudStatistics& s) {
-  json materials = json::array();
-  for (const auto& m : s.materials)
-    materials.push_back({{"material", m.material}, {"points", m.points}, {"mean", m.mean}, {"sigma", m.sigma}});
-  return {{"scans", s.scans},
-          {"points", s.points},
-          {"bounds", {toJson(s.low), toJson(s.high)}},
-          {"plane_noise_m", statisticsJson(s.plane_noise_m)},
-          {"roughness_m", statisticsJson(s.roughness_m)},
-          {"intensity", statisticsJson(s.intensity)},
-          {"materials", std::move(materials)},
-          {"occupied_cells", s.occupied_cells}};
-}
-
-}  // namespace
 
 const Fields<CompareOptions>& compareFields() {
   using O = CompareOptions;
@@ -37,16 +10,50 @@ const Fields<CompareOptions>& compareFields() {
   return fields;
 }
 
-Result<Outcome> runCompare(const Document& document, const CompareOptions& options, Progress& progress) {
+const AnswerFields<Distribution>& answerFields(const Distribution*) {
+  using A = Distribution;
+  static const AnswerFields<A> fields = {{"samples", &A::samples}, {"mean", &A::mean},     {"sigma", &A::sigma},
+                                         {"p5", &A::p5},           {"median", &A::median}, {"p95", &A::p95}};
+  return fields;
+}
+
+const AnswerFields<MaterialIntensity>& answerFields(const MaterialIntensity*) {
+  using A = MaterialIntensity;
+  static const AnswerFields<A> fields = {
+      {"material", &A::material}, {"points", &A::points}, {"mean", &A::mean}, {"sigma", &A::sigma}};
+  return fields;
+}
+
+const AnswerFields<ComparedCloud>& answerFields(const ComparedCloud*) {
+  using A = ComparedCloud;
+  static const AnswerFields<A> fields = {{"scans", &A::scans},
+                                         {"points", &A::points},
+                                         {"bounds", &A::bounds_m},
+                                         {"plane_noise_m", &A::plane_noise_m},
+                                         {"roughness_m", &A::roughness_m},
+                                         {"intensity", &A::intensity},
+                                         {"materials", &A::materials},
+                                         {"occupied_cells", &A::occupied_cells}};
+  return fields;
+}
+
+const AnswerFields<CompareAnswer>& answerFields(const CompareAnswer*) {
+  using A = CompareAnswer;
+  static const AnswerFields<A> fields = {
+      {"a", &A::a}, {"b", &A::b}, {"a_covered_by_b", &A::a_covered_by_b}, {"b_covered_by_a", &A::b_covered_by_a}};
+  return fields;
+}
+
+Result<Answered<CompareAnswer>> runCompare(const Document& document, const CompareOptions& options,
+                                           Progress& progress) {
   progress.stage("Compare");
-  TRY_ASSIGN(auto comparison, compareClouds(options.a, options.b, {}, progress));
-  Outcome outcome{document, json::object(), comparison.report, {}};
-  outcome.answer = {{"a", statisticsJson(comparison.a)},
-                    {"b", statisticsJson(comparison.b)},
-                    {"a_covered_by_b", comparison.a_covered_by_b},
-                    {"b_covered_by_a", comparison.b_covered_by_a}};
-  outcome.description = "Compared two clouds";
-  return outcome;
+  TRY_ASSIGN(const auto comparison, compareClouds(options.a, options.b, {}, progress));
+  const auto &a = comparison.a, &b = comparison.b;
+  return Answered<CompareAnswer>{
+      document,
+      {{a, {a.low, a.high}}, {b, {b.low, b.high}}, comparison.a_covered_by_b, comparison.b_covered_by_a},
+      comparison.report,
+      "Compared two clouds"};
 }
 
 }  // namespace standpoint

@@ -16,7 +16,6 @@
 #include "importers/gltf/gltf_writer.h"
 #include "importers/helios/helios_writer.h"
 #include "importers/obj/obj_writer.h"
-#include "project/answers.h"
 #include "project/model/optimize_verb.h"
 #include "project/storage/project_json.h"
 #include "project/verbs/file_verbs.h"
@@ -25,7 +24,6 @@ namespace standpoint {
 
 namespace {
 
-using nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr double kNoLimit = 1000;  // m: a level of detail is bought with deviation, which is measured and written
@@ -59,7 +57,7 @@ Result<std::vector<std::uint64_t>> budgetsOf(const std::vector<std::string>& tex
 struct Levels {
   std::vector<std::unique_ptr<Environment>> environments;
   std::vector<GltfLevel> levels;
-  json answer = json::array();
+  std::vector<ExportLevel> answer;
 };
 
 Result<Levels> makeLevels(const Document& document, const std::vector<std::uint64_t>& budgets, Report& report,
@@ -83,9 +81,7 @@ Result<Levels> makeLevels(const Document& document, const std::vector<std::uint6
     if (!lighter.budget_reached)
       report.warn("--levels",
                   fmt::format("cannot reach {} triangles; the level has {}", budget, lighter.all.triangles_after));
-    result.answer.push_back({{"triangles", lighter.all.triangles_after},
-                             {"max_deviation_m", lighter.all.max_deviation_m},
-                             {"mean_deviation_m", lighter.all.mean_deviation_m}});
+    result.answer.push_back({lighter.all.triangles_after, lighter.all.max_deviation_m, lighter.all.mean_deviation_m});
     result.levels.push_back(std::move(level));
   }
   return result;
@@ -109,7 +105,7 @@ std::vector<const PhysicalMaterial*> physicalSurfaces(const Document& document,
 }
 
 Result<void> exportGltf(const Document& document, Environment& scene, const fs::path& file,
-                        const ExportOptions& options, Outcome& outcome, Progress& progress) {
+                        const ExportOptions& options, Answered<ExportAnswer>& outcome, Progress& progress) {
   GltfCompanions companions;
   TRY_ASSIGN(const auto budgets, budgetsOf(options.levels, triangleCount(scene)));
   TRY_ASSIGN(auto levels, makeLevels(document, budgets, outcome.report, progress));
@@ -117,7 +113,7 @@ Result<void> exportGltf(const Document& document, Environment& scene, const fs::
   std::vector<Environment*> all = {&scene};
   for (const auto& environment : levels.environments) all.push_back(environment.get());
   companions.physical = physicalSurfaces(document, all, LooksOfSplit::kept);
-  if (!levels.answer.empty()) outcome.answer["levels"] = std::move(levels.answer);
+  outcome.answer.levels = std::move(levels.answer);
   Environment shapes;
   if (options.collision) {
     if (!document.collision)
@@ -125,7 +121,7 @@ Result<void> exportGltf(const Document& document, Environment& scene, const fs::
                      "--collision");
     shapes = collisionEnvironment(*document.collision);
     companions.collision = collisionOf(*document.collision, shapes, *options.collision);
-    outcome.answer["collision_shapes"] = shapes.instances.size();
+    outcome.answer.collision_shapes = shapes.instances.size();
   }
   return exportEnvironmentGltf(scene, *document.georeference, file, progress, companions);
 }
@@ -167,7 +163,24 @@ const Fields<ExportOptions>& exportFields() {
   return fields;
 }
 
-Result<Outcome> runExport(const Document& document, const ExportOptions& options, Progress& progress) {
+const AnswerFields<ExportLevel>& answerFields(const ExportLevel*) {
+  using A = ExportLevel;
+  static const AnswerFields<A> fields = {{"triangles", &A::triangles},
+                                         {"max_deviation_m", &A::max_deviation_m},
+                                         {"mean_deviation_m", &A::mean_deviation_m}};
+  return fields;
+}
+
+const AnswerFields<ExportAnswer>& answerFields(const ExportAnswer*) {
+  using A = ExportAnswer;
+  static const AnswerFields<A> fields = {{"file", &A::file},
+                                         {"triangles", &A::triangles},
+                                         {"levels", &A::levels, kLeftOut},
+                                         {"collision_shapes", &A::collision_shapes, kLeftOut}};
+  return fields;
+}
+
+Result<Answered<ExportAnswer>> runExport(const Document& document, const ExportOptions& options, Progress& progress) {
   const fs::path& file = options.output;
   progress.stage("Export " + file.filename().string());
   const auto extension = lowerExtension(file);
@@ -187,7 +200,7 @@ Result<Outcome> runExport(const Document& document, const ExportOptions& options
   TRY(checkFolderOf(file, "--output"));
   Environment scene = sceneOf(*document.environment());
   dropUnusedMeshes(scene);
-  Outcome outcome{document, {{"file", file.string()}, {"triangles", triangleCount(scene)}}, {}, {}};
+  Answered<ExportAnswer> outcome{document, {file, triangleCount(scene), {}, {}}};
   TRY(gltf                 ? exportGltf(document, scene, file, options, outcome, progress)
       : helios || physical ? exportPhysical(document, scene, file, helios, outcome.report, progress)
                            : writeEnvironmentObj(scene, *document.georeference, file, progress));

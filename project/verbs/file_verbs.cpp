@@ -24,56 +24,55 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-json survey(const Job& job) {
-  std::size_t scans = 0;
-  std::uint64_t points = 0;
+InfoSurvey surveyInfo(const Job& job) {
+  InfoSurvey survey{job.stations.size(), job.targets.size(), 0, 0};
   for (const auto& station : job.stations)
     for (const auto& scan : station.scans) {
-      ++scans;
-      points += scan.points;
+      ++survey.scans;
+      survey.points += scan.points;
     }
-  return {{"stations", job.stations.size()}, {"targets", job.targets.size()}, {"scans", scans}, {"points", points}};
+  return survey;
 }
 
-// What a project holds and how far it is: the model, what was made of it, and the survey. Numbers in the file's own
-// frame.
-json projectInfo(const Document& document) {
-  json answer = {{"format", "project"}, {"name", document.name}, {"sources", document.sources}};
-  if (document.georeference) answer["georeference"] = georeferenceToJson(*document.georeference);
+ProjectInfo projectInfo(const Document& document) {
+  ProjectInfo info;
+  info.name = document.name;
+  info.sources = document.sources;
+  if (document.georeference) info.georeference = *document.georeference;
   if (document.imported) {
     const auto& products = document.imported->products;
-    answer["products"] = products.size();
-    answer["products_excluded"] =
-        std::count_if(products.begin(), products.end(), [](const Product& p) { return p.excluded; });
-    answer["triangles_imported"] = sceneTriangleCount(*document.imported);
-    answer["triangles"] = sceneTriangleCount(*document.environment());
+    info.products = products.size();
+    info.products_excluded = static_cast<std::size_t>(
+        std::count_if(products.begin(), products.end(), [](const Product& p) { return p.excluded; }));
+    info.triangles_imported = sceneTriangleCount(*document.imported);
+    info.triangles = sceneTriangleCount(*document.environment());
     const Eigen::Vector3d shift = document.georeference ? document.georeference->shift_m : Eigen::Vector3d::Zero();
-    answer["bounds"] = toJson(bounds(*document.environment()), shift);
+    info.bounds_m = fileBounds(bounds(*document.environment()), shift);
   }
-  answer["max_deviation_m"] = document.simplified ? json(document.simplified->all.max_deviation_m) : json(nullptr);
-  answer["collision_shapes"] = document.collision ? json(document.collision->shapes.size()) : json(nullptr);
-  answer["walkable_m2"] = document.collision ? json(document.collision->walkable_area_m2) : json(nullptr);
-  answer["material_coverage"] = document.materials ? json(document.materials->result.report.coverage) : json(nullptr);
-  answer["survey"] = survey(document.job ? *document.job : Job{});
-  answer["underlays"] = document.underlays.size();
-  return answer;
+  if (document.simplified) info.max_deviation_m = document.simplified->all.max_deviation_m;
+  if (document.collision) {
+    info.collision_shapes = document.collision->shapes.size();
+    info.walkable_m2 = document.collision->walkable_area_m2;
+  }
+  if (document.materials) info.material_coverage = document.materials->result.report.coverage;
+  if (document.job) info.survey = surveyInfo(*document.job);
+  info.underlays = document.underlays.size();
+  return info;
 }
 
-json scanInfo(const ScanInfo& scan) {
+CloudScanInfo scanInfo(const ScanInfo& scan) {
   const auto& h = scan.header;
-  return {{"name", h.name},
-          {"guid", h.guid},
-          {"points", scan.points},
-          {"rows", h.rows},
-          {"columns", h.columns},
-          {"vendor", h.sensor_vendor},
-          {"model", h.sensor_model},
-          {"colour", h.has_colour},
-          {"labels", h.has_labels},
-          {"translation", toJson(h.file_from_scanner.translation)},
-          {"rotation",
-           {h.file_from_scanner.rotation.w(), h.file_from_scanner.rotation.x(), h.file_from_scanner.rotation.y(),
-            h.file_from_scanner.rotation.z()}}};
+  return {h.file_from_scanner, h.name,          h.guid,         scan.points,  h.rows,
+          h.columns,           h.sensor_vendor, h.sensor_model, h.has_colour, h.has_labels};
+}
+
+CloudFileInfo cloudInfo(const CloudInfo& cloud) {
+  CloudFileInfo info{cloud.format, 0, {}, cloud.crs};
+  for (const auto& scan : cloud.scans) {
+    info.scans.push_back(scanInfo(scan));
+    info.points += scan.points;
+  }
+  return info;
 }
 
 Result<void> mustExist(const fs::path& file) {
@@ -83,7 +82,8 @@ Result<void> mustExist(const fs::path& file) {
 }
 
 // IN into a labelled set, a folder.
-Result<Outcome> convertTo(const ConvertOptions& options, Outcome outcome, Progress& progress) {
+Result<Answered<ConvertAnswer>> convertTo(const ConvertOptions& options, Answered<ConvertAnswer> outcome,
+                                          Progress& progress) {
   const fs::path &in = options.in, &out = options.out;
   if (!options.as.empty()) return failure(ErrorKind::usage, "use --as for a file, --dataset for a folder", "convert");
   const auto& name = options.dataset;
@@ -94,7 +94,7 @@ Result<Outcome> convertTo(const ConvertOptions& options, Outcome outcome, Progre
                                                   : options.classes));
   TRY_ASSIGN(auto report, convertToDataset(in, out, *set, std::move(map), progress));
   outcome.report = std::move(report);
-  outcome.answer["files"] = {out.string()};
+  outcome.answer.files = {out};
   outcome.description = "Converted " + in.filename().string() + " to " + set->description;
   return outcome;
 }
@@ -122,17 +122,20 @@ const Fields<ConvertOptions>& convertFields() {
   return fields;
 }
 
-Result<Outcome> runConvert(const Document& document, const ConvertOptions& options, Progress& progress) {
+const AnswerFields<ConvertAnswer>& answerFields(const ConvertAnswer*) {
+  static const AnswerFields<ConvertAnswer> fields = {{"files", &ConvertAnswer::files}};
+  return fields;
+}
+
+Result<Answered<ConvertAnswer>> runConvert(const Document& document, const ConvertOptions& options,
+                                           Progress& progress) {
   const fs::path& in = options.in;
   TRY(mustExist(in));
   progress.stage("Convert " + in.filename().string());
-  Outcome outcome{document, json::object(), {}, {}};
+  Answered<ConvertAnswer> outcome{document};
   if (!options.dataset.empty()) return convertTo(options, std::move(outcome), progress);
   TRY(checkFolderOf(options.out, "OUT"));
-  TRY_ASSIGN(auto files, convertCloud(in, options.out, options.as, outcome.report, progress));
-  json names = json::array();
-  for (const auto& f : files) names.push_back(f.string());
-  outcome.answer["files"] = std::move(names);
+  TRY_ASSIGN(outcome.answer.files, convertCloud(in, options.out, options.as, outcome.report, progress));
   outcome.description = "Converted " + in.filename().string();
   return outcome;
 }
@@ -143,38 +146,83 @@ const Fields<InfoOptions>& infoFields() {
   return fields;
 }
 
-Result<Outcome> runInfo(const Document& document, const InfoOptions& options, Progress& progress) {
+const AnswerFields<InfoSurvey>& answerFields(const InfoSurvey*) {
+  using A = InfoSurvey;
+  static const AnswerFields<A> fields = {
+      {"stations", &A::stations}, {"targets", &A::targets}, {"scans", &A::scans}, {"points", &A::points}};
+  return fields;
+}
+
+const AnswerFields<ProjectInfo>& answerFields(const ProjectInfo*) {
+  using A = ProjectInfo;
+  static const AnswerFields<A> fields = {{"format", &A::format},
+                                         {"name", &A::name},
+                                         {"sources", &A::sources},
+                                         {"georeference", &A::georeference, kLeftOut},
+                                         {"products", &A::products, kLeftOut},
+                                         {"products_excluded", &A::products_excluded, kLeftOut},
+                                         {"triangles_imported", &A::triangles_imported, kLeftOut},
+                                         {"triangles", &A::triangles, kLeftOut},
+                                         {"bounds", &A::bounds_m, kLeftOut},
+                                         {"max_deviation_m", &A::max_deviation_m},
+                                         {"collision_shapes", &A::collision_shapes},
+                                         {"walkable_m2", &A::walkable_m2},
+                                         {"material_coverage", &A::material_coverage},
+                                         {"survey", &A::survey},
+                                         {"underlays", &A::underlays}};
+  return fields;
+}
+
+const AnswerFields<CloudScanInfo>& answerFields(const CloudScanInfo* info) {
+  using A = CloudScanInfo;
+  static const auto fields = withBases<A>({{"name", &A::name},
+                                           {"guid", &A::guid},
+                                           {"points", &A::points},
+                                           {"rows", &A::rows},
+                                           {"columns", &A::columns},
+                                           {"vendor", &A::vendor},
+                                           {"model", &A::model},
+                                           {"colour", &A::colour},
+                                           {"labels", &A::labels}},
+                                          answerFields(static_cast<const Pose*>(info)));
+  return fields;
+}
+
+const AnswerFields<CloudFileInfo>& answerFields(const CloudFileInfo*) {
+  using A = CloudFileInfo;
+  static const AnswerFields<A> fields = {
+      {"format", &A::format}, {"points", &A::points}, {"scans", &A::scans}, {"crs", &A::crs, answers::nullWhereEmpty}};
+  return fields;
+}
+
+const AnswerFields<ModelInfo>& answerFields(const ModelInfo*) {
+  using A = ModelInfo;
+  static const AnswerFields<A> fields = {{"products", &A::products},
+                                         {"triangles", &A::triangles},
+                                         {"bounds", &A::bounds_m},
+                                         {"georeference", &A::georeference}};
+  return fields;
+}
+
+Result<Answered<InfoAnswer>> runInfo(const Document& document, const InfoOptions& options, Progress& progress) {
   const fs::path& file = options.file;
   TRY(mustExist(file));
   progress.stage("Read " + file.filename().string());
-  Outcome outcome{document, json::object(), {}, {}};
   if (fs::is_directory(file)) {
-    TRY_ASSIGN(auto project, loadProject(file, progress));
-    outcome.answer = projectInfo(project);
-    return outcome;
+    TRY_ASSIGN(const auto project, loadProject(file, progress));
+    return Answered<InfoAnswer>{document, projectInfo(project)};
   }
   if (const auto* format = readableCloudFormat(file)) {
-    TRY_ASSIGN(auto info, format->info(file));
-    json scans = json::array();
-    std::uint64_t points = 0;
-    for (const auto& s : info.scans) {
-      scans.push_back(scanInfo(s));
-      points += s.points;
-    }
-    outcome.answer = {{"format", info.format},
-                      {"points", points},
-                      {"scans", std::move(scans)},
-                      {"crs", info.crs.empty() ? json(nullptr) : json(info.crs)}};
-    outcome.report = info.report;
-    return outcome;
+    TRY_ASSIGN(const auto cloud, format->info(file));
+    return Answered<InfoAnswer>{document, cloudInfo(cloud), cloud.report};
   }
-  TRY_ASSIGN(auto model, importFile(file, {}, progress));
-  outcome.answer = {{"products", model.environment.products.size()},
-                    {"triangles", triangleCount(model.environment)},
-                    {"bounds", toJson(bounds(model.environment), model.georeference.shift_m)},
-                    {"georeference", georeferenceToJson(model.georeference)}};
-  outcome.report = model.report;
-  return outcome;
+  TRY_ASSIGN(const auto model, importFile(file, {}, progress));
+  const auto& environment = model.environment;
+  return Answered<InfoAnswer>{
+      document,
+      ModelInfo{environment.products.size(), triangleCount(environment),
+                fileBounds(bounds(environment), model.georeference.shift_m), model.georeference},
+      model.report};
 }
 
 const Fields<JobOptions>& jobFields() {
@@ -185,11 +233,21 @@ const Fields<JobOptions>& jobFields() {
   return fields;
 }
 
-Result<Outcome> runJob(const Document& document, const JobOptions& options, Progress& progress) {
+json AnswerValue<JobStep>::write(const JobStep& step) {
+  json answer = step.answer;
+  answer["verb"] = step.verb;
+  return answer;
+}
+
+const AnswerFields<JobAnswer>& answerFields(const JobAnswer*) {
+  static const AnswerFields<JobAnswer> fields = {{"steps", &JobAnswer::steps}};
+  return fields;
+}
+
+Result<Answered<JobAnswer>> runJob(const Document& document, const JobOptions& options, Progress& progress) {
   const fs::path& file = options.job;
   TRY_ASSIGN(const auto steps, readJsonArray(file));
-  Outcome outcome{document, json::object(), {}, {}};
-  json answers = json::array();
+  Answered<JobAnswer> outcome{document};
   for (std::size_t i = 0; i < steps.size(); ++i) {
     JsonFault fault(file.filename().string());
     JsonFields fields(fault, steps[i], fmt::format("/{}", i));
@@ -209,11 +267,8 @@ Result<Outcome> runJob(const Document& document, const JobOptions& options, Prog
       issue.source = verb_name + " " + issue.source;
       outcome.report.issues.push_back(std::move(issue));
     }
-    json answer = std::move(done->answer);
-    answer["verb"] = verb_name;
-    answers.push_back(std::move(answer));
+    outcome.answer.steps.push_back({verb_name, std::move(done->answer)});
   }
-  outcome.answer["steps"] = std::move(answers);
   outcome.description = "Ran " + file.filename().string();
   return outcome;
 }

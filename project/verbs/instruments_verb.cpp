@@ -8,30 +8,19 @@ namespace standpoint {
 
 namespace {
 
-using nlohmann::json;
-
-json settingsOf(const Instrument& instrument) {
-  json settings = json::object();
-  for (const auto& s : instrument.settings) {
-    json choices = json::array();
-    for (const auto& c : s.choices) choices.push_back(c.value);
-    settings[s.key] = s.choices.empty() ? json{{"from", s.minimum}, {"to", s.maximum}, {"unit", s.unit}} : choices;
-  }
-  return settings;
-}
-
-json rowOf(const KnownInstrument& known) {
+InstrumentRow rowOf(const KnownInstrument& known) {
   const auto& i = known.instrument;
-  return {{"id", i.id},
-          {"maker", i.maker},
-          {"model", i.model},
-          {"technology", i.technology},
-          {"wavelength_nm", i.wavelength_nm},
-          {"max_range_m", i.max_range_m},
-          {"moving", i.moving.has_value()},
-          {"own", known.own},
-          {"file", known.file.string()},
-          {"settings", settingsOf(i)}};
+  InstrumentRow row{i.id,      i.maker,    i.model, i.technology, i.wavelength_nm, i.max_range_m, i.moving.has_value(),
+                    known.own, known.file, {}};
+  for (const auto& s : i.settings) {
+    std::vector<std::string> choices;
+    for (const auto& c : s.choices) choices.push_back(c.value);
+    if (choices.empty())
+      row.settings[s.key] = InstrumentRange{s.minimum, s.maximum, s.unit};
+    else
+      row.settings[s.key] = std::move(choices);
+  }
+  return row;
 }
 
 }  // namespace
@@ -43,23 +32,60 @@ const Fields<InstrumentsOptions>& instrumentsFields() {
   return fields;
 }
 
-Result<Outcome> runInstruments(const Document& document, const InstrumentsOptions& options, Progress&) {
-  Outcome outcome{document, json::object(), {}, {}};
+const AnswerFields<InstrumentRange>& answerFields(const InstrumentRange*) {
+  using A = InstrumentRange;
+  static const AnswerFields<A> fields = {{"from", &A::from}, {"to", &A::to}, {"unit", &A::unit}};
+  return fields;
+}
+
+const AnswerFields<InstrumentRow>& answerFields(const InstrumentRow*) {
+  using A = InstrumentRow;
+  static const AnswerFields<A> fields = {{"id", &A::id},
+                                         {"maker", &A::maker},
+                                         {"model", &A::model},
+                                         {"technology", &A::technology},
+                                         {"wavelength_nm", &A::wavelength_nm},
+                                         {"max_range_m", &A::max_range_m},
+                                         {"moving", &A::moving},
+                                         {"own", &A::own},
+                                         {"file", &A::file},
+                                         {"settings", &A::settings}};
+  return fields;
+}
+
+const AnswerFields<InstrumentCopy>& answerFields(const InstrumentCopy*) {
+  using A = InstrumentCopy;
+  static const AnswerFields<A> fields = {{"id", &A::id}, {"from", &A::from}, {"file", &A::file}};
+  return fields;
+}
+
+const AnswerFields<InstrumentsAnswer>& answerFields(const InstrumentsAnswer*) {
+  using A = InstrumentsAnswer;
+  static const AnswerFields<A> fields = {{"copied", &A::copied, kLeftOut},
+                                         {"own_folder", &A::own_folder},
+                                         {"schema", &A::schema},
+                                         {"instruments", &A::instruments}};
+  return fields;
+}
+
+Result<Answered<InstrumentsAnswer>> runInstruments(const Document& document, const InstrumentsOptions& options,
+                                                   Progress&) {
+  Answered<InstrumentsAnswer> outcome{document};
+  auto& answer = outcome.answer;
   const auto &id = options.copy, &new_id = options.as;
   if (id.empty() != new_id.empty())
     return failure(ErrorKind::usage, "--copy ID and --as NEW must be used together", id.empty() ? "--copy" : "--as");
   if (!id.empty()) {
     TRY_ASSIGN(auto file, copyInstrument(id, new_id));
-    outcome.answer["copied"] = {{"id", new_id}, {"from", id}, {"file", file.string()}};
+    answer.copied = InstrumentCopy{new_id, id, file};
     outcome.description = fmt::format("Copied {} to {}", id, file.string());
   }
   TRY_ASSIGN(const auto known, instrumentsWithFiles());
-  outcome.answer["own_folder"] = ownInstrumentsFolder().string();
-  outcome.answer["schema"] = (shippedInstrumentsFolder() / "schema.json").string();
-  outcome.answer["instruments"] = json::array();
+  answer.own_folder = ownInstrumentsFolder();
+  answer.schema = shippedInstrumentsFolder() / "schema.json";
   std::string ids;
   for (const auto& k : known) {
-    outcome.answer["instruments"].push_back(rowOf(k));
+    answer.instruments.push_back(rowOf(k));
     ids += (ids.empty() ? "" : ", ") + k.instrument.id;
   }
   if (outcome.description.empty()) outcome.description = fmt::format("{} instruments: {}", known.size(), ids);
