@@ -247,8 +247,12 @@ bool Session::adoptImport(Outcome outcome) {
 
 bool Session::startAdding(Outcome outcome, std::string title) {
   if (!whyNot("add").empty()) return false;
-  auto rest = [snapshot = document(), read = std::move(outcome)](Progress& progress) {
-    return addImported(snapshot, read, progress);
+  auto rest = [snapshot = document(), read = std::move(outcome)](Progress& progress) -> Result<Outcome> {
+    const auto* answer = answerAs<ImportAnswer>(read.typed);
+    TRY_ASSIGN(
+        auto added,
+        addImported(snapshot, {read.document, answer == nullptr ? ImportAnswer() : *answer, read.report}, progress));
+    return outcomeOf(std::move(added));
   };
   launch(*verb("add"), json::object(), std::move(title), std::move(rest));
   return true;

@@ -12,53 +12,37 @@ namespace standpoint {
 
 namespace {
 
-using nlohmann::json;
-
-json geographicAnswer(const GeographicPosition& g, const char* from) {
-  return {
-      {"latitude_deg", g.latitude_deg}, {"longitude_deg", g.longitude_deg}, {"height", g.elevation_m}, {"from", from}};
-}
-
 // Where the model's centre is on the Earth. A model without map conversion whose CRS is named has map coordinates
 // itself.
-Result<void> locate(const Document& document, const Georeference& g, json& answer, Report& report) {
+void locate(const Document& document, GeoreferenceAnswer& answer, Report& report) {
   const Bounds b = bounds(*document.imported);
-  const Eigen::Vector3d file_m =
-      (b.empty() ? Eigen::Vector3d::Zero() : Eigen::Vector3d(0.5 * (b.min + b.max))) + g.shift_m;
-  answer["reference_point"] = toJson(file_m);
-  std::optional<GeographicPosition> position;
-  if (!g.crs.empty()) {
-    const Eigen::Vector3d map_m = g.map_from_file ? mapFromFile(*g.map_from_file, file_m) : file_m;
-    answer["map"] = toJson(map_m);
-    auto factors = geographic(g.crs, map_m);
+  answer.reference_m = (b.empty() ? Eigen::Vector3d::Zero() : Eigen::Vector3d(0.5 * (b.min + b.max))) + answer.shift_m;
+  if (!answer.crs.empty()) {
+    answer.map_m = answer.map_from_file ? mapFromFile(*answer.map_from_file, answer.reference_m) : answer.reference_m;
+    const auto factors = geographic(answer.crs, *answer.map_m);
     if (factors) {
-      position = factors->geographic;
-      answer["geographic"] = geographicAnswer(*position, "crs");
-      answer["grid_convergence_deg"] = factors->grid_convergence_deg;
-      answer["scale_factor"] = factors->scale_factor;
+      const auto& position = factors->geographic;
+      answer.geographic = {position.latitude_deg, position.longitude_deg, position.elevation_m, "crs"};
+      answer.grid_convergence_deg = factors->grid_convergence_deg;
+      answer.scale_factor = factors->scale_factor;
     } else {
-      report.warn(g.crs, factors.error().message);
+      report.warn(answer.crs, factors.error().message);
     }
   }
-  if (!position && g.site) {
-    position = g.site;
-    answer["geographic"] = geographicAnswer(*position, "site");
+  if (!answer.geographic && answer.site) {
+    answer.geographic = {answer.site->latitude_deg, answer.site->longitude_deg, answer.site->elevation_m, "site"};
     report.note(
         "IfcSite",
         "the position comes from the site's latitude and longitude, which is often the exporter's default value");
   }
-  if (!position) return {};
-  const UtmPosition u = utm(position->latitude_deg, position->longitude_deg);
-  answer["utm"] = {{"zone", fmt::format("{}{}", u.zone, u.north ? "N" : "S")},
-                   {"easting", u.easting_m},
-                   {"northing", u.northing_m},
-                   {"convergence_deg", u.convergence_deg},
-                   {"scale_factor", u.scale}};
-  if (answer["grid_convergence_deg"].is_null()) {
-    answer["grid_convergence_deg"] = u.convergence_deg;
-    answer["scale_factor"] = u.scale;
+  if (!answer.geographic) return;
+  const UtmPosition u = utm(answer.geographic->latitude_deg, answer.geographic->longitude_deg);
+  answer.utm = {fmt::format("{}{}", u.zone, u.north ? "N" : "S"), u.easting_m, u.northing_m, u.convergence_deg,
+                u.scale};
+  if (!answer.grid_convergence_deg) {
+    answer.grid_convergence_deg = u.convergence_deg;
+    answer.scale_factor = u.scale;
   }
-  return {};
 }
 
 }  // namespace
@@ -74,7 +58,39 @@ const Fields<GeoreferenceOptions>& georeferenceFields() {
   return fields;
 }
 
-Result<Outcome> runGeoreference(const Document& document, const GeoreferenceOptions& options, Progress& progress) {
+const AnswerFields<GeoreferencePlace>& answerFields(const GeoreferencePlace*) {
+  using A = GeoreferencePlace;
+  static const AnswerFields<A> fields = {{"latitude_deg", &A::latitude_deg},
+                                         {"longitude_deg", &A::longitude_deg},
+                                         {"height", &A::height_m},
+                                         {"from", &A::from}};
+  return fields;
+}
+
+const AnswerFields<GeoreferenceUtm>& answerFields(const GeoreferenceUtm*) {
+  using A = GeoreferenceUtm;
+  static const AnswerFields<A> fields = {{"zone", &A::zone},
+                                         {"easting", &A::easting_m},
+                                         {"northing", &A::northing_m},
+                                         {"convergence_deg", &A::convergence_deg},
+                                         {"scale_factor", &A::scale_factor}};
+  return fields;
+}
+
+const AnswerFields<GeoreferenceAnswer>& answerFields(const GeoreferenceAnswer* answer) {
+  using A = GeoreferenceAnswer;
+  static const auto fields = withBases<A>({{"reference_point", &A::reference_m},
+                                           {"map", &A::map_m, kLeftOut},
+                                           {"geographic", &A::geographic},
+                                           {"utm", &A::utm},
+                                           {"grid_convergence_deg", &A::grid_convergence_deg},
+                                           {"scale_factor", &A::scale_factor}},
+                                          answerFields(static_cast<const Georeference*>(answer)));
+  return fields;
+}
+
+Result<Answered<GeoreferenceAnswer>> runGeoreference(const Document& document, const GeoreferenceOptions& options,
+                                                     Progress& progress) {
   progress.stage("Georeference");
   Georeference g = *document.georeference;
   if (!options.crs.empty()) {
@@ -95,9 +111,8 @@ Result<Outcome> runGeoreference(const Document& document, const GeoreferenceOpti
     c.x_axis_ordinate = std::sin(angle);
     g.map_from_file = c;
   }
-  Outcome outcome{document, georeferenceToJson(g), {}, {}};
-  for (const char* key : {"geographic", "utm", "grid_convergence_deg", "scale_factor"}) outcome.answer[key] = nullptr;
-  TRY(locate(document, g, outcome.answer, outcome.report));
+  Answered<GeoreferenceAnswer> outcome{document, {g}};
+  locate(document, outcome.answer, outcome.report);
   if (!options.crs.empty() || options.origin || options.rotation_deg) {
     outcome.description = fmt::format("Set the georeference{}", g.crs.empty() ? "" : " to " + g.crs);
     outcome.document.georeference = std::make_shared<const Georeference>(g);

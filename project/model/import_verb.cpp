@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -61,24 +62,24 @@ bool sameConversion(const Georeference& a, const Georeference& b) {
   return (mapFromFile(*a.map_from_file, probe) - mapFromFile(*b.map_from_file, probe)).norm() < 1e-4;
 }
 
-// Volume in m³ of the placed closed meshes; null when one of them is open.
-std::vector<json> productVolumes(const Environment& environment) {
+// Volume in m³ of the placed closed meshes; nothing when one of them is open.
+std::vector<std::optional<double>> productVolumes(const Environment& environment) {
   std::vector<double> of_mesh(environment.meshes.size());
   std::vector<bool> closed(environment.meshes.size());
   for (std::size_t i = 0; i < of_mesh.size(); ++i) {
     closed[i] = isClosed(*environment.meshes[i]);
     if (closed[i]) of_mesh[i] = std::abs(volume(*environment.meshes[i]));
   }
-  std::vector<json> result(environment.products.size());
+  std::vector<std::optional<double>> result(environment.products.size());
   std::vector<bool> open(environment.products.size());
   for (const auto& i : environment.instances) {
     if (!closed[i.mesh]) open[i.product] = true;
     if (open[i.product]) continue;
     const double scaled = of_mesh[i.mesh] * std::abs(i.world_from_mesh.linear().determinant());
-    result[i.product] = (result[i.product].is_null() ? 0.0 : result[i.product].get<double>()) + scaled;
+    result[i.product] = result[i.product].value_or(0) + scaled;
   }
   for (std::size_t i = 0; i < result.size(); ++i)
-    if (open[i]) result[i] = nullptr;
+    if (open[i]) result[i].reset();
   return result;
 }
 
@@ -93,47 +94,35 @@ std::string placeOf(const Environment& environment, const Product& product) {
   return path;
 }
 
-json layerRows(const Product& product) {
-  json rows = json::array();
-  for (const auto& layer : product.layers) rows.push_back({{"material", layer.name}, {"thickness", layer.thickness_m}});
-  return rows;
-}
+using PropertySets = std::map<std::string, std::map<std::string, std::variant<std::string, std::vector<std::string>>>>;
 
 // {set: {name: value}}; where a name stands several times in a set, its values are a list.
-json propertySets(const std::vector<Property>& properties) {
-  json sets = json::object();
+PropertySets propertySets(const std::vector<Property>& properties) {
+  PropertySets sets;
   for (const auto& p : properties) {
-    json& at = sets[p.set][p.name];
-    if (at.is_null()) {
-      at = p.value;
-    } else {
-      if (!at.is_array()) at = json::array({at});
-      at.push_back(p.value);
-    }
+    const auto [at, is_new] = sets[p.set].try_emplace(p.name, p.value);
+    if (is_new) continue;
+    auto& values = at->second;
+    if (const auto* first = std::get_if<std::string>(&values)) values = std::vector<std::string>{*first};
+    std::get<std::vector<std::string>>(values).push_back(p.value);
   }
   return sets;
 }
 
-json spatialRows(const Environment& environment) {
-  json rows = json::array();
-  for (const auto& n : environment.spatial)
-    rows.push_back(
-        {{"id", n.id},
-         {"global_id", n.global_id},
-         {"class", n.ifc_class},
-         {"name", n.name},
-         {"parent", n.parent < 0 ? json(nullptr) : json(environment.spatial[static_cast<std::size_t>(n.parent)].id)},
-         {"elevation", n.elevation_m},
-         {"properties", propertySets(n.properties)}});
+std::vector<ImportedNode> nodeRows(const Environment& environment) {
+  std::vector<ImportedNode> rows;
+  for (const auto& n : environment.spatial) {
+    rows.push_back({{n.id, n.global_id, n.ifc_class, n.name}, {}, n.elevation_m, n.properties});
+    if (n.parent >= 0) rows.back().parent = environment.spatial[static_cast<std::size_t>(n.parent)].id;
+  }
   return rows;
 }
 
-json surfaceRows(const Environment& environment) {
-  json rows = json::array();
+std::vector<ImportedLook> lookRows(const Environment& environment) {
+  std::vector<ImportedLook> rows;
   for (const auto& s : environment.surfaces) {
-    json row = {{"name", s.name}, {"source", s.source}, {"colour", {s.colour.r, s.colour.g, s.colour.b, s.colour.a}}};
-    if (s.image >= 0) row["image"] = environment.images[static_cast<std::size_t>(s.image)]->name;
-    rows.push_back(std::move(row));
+    rows.push_back({s.name, s.source, {s.colour.r, s.colour.g, s.colour.b, s.colour.a}, {}});
+    if (s.image >= 0) rows.back().image = environment.images[static_cast<std::size_t>(s.image)]->name;
   }
   return rows;
 }
@@ -166,41 +155,31 @@ std::vector<SurfaceAreas> productSurfaces(const Environment& environment) {
   return result;
 }
 
-json surfacesOf(const SurfaceAreas& areas, const Environment& environment) {
-  json rows = json::array();
-  for (const auto& [surface, area] : areas)
-    rows.push_back({{"surface", surface}, {"name", environment.surfaces[surface].name}, {"area", area}});
-  return rows;
-}
-
-json productRows(const Environment& environment, const Eigen::Vector3d& shift_m) {
+std::vector<ImportedProduct> productRows(const Environment& environment, const Eigen::Vector3d& shift_m) {
   const auto product_bounds = productBounds(environment);
   const auto volumes = productVolumes(environment);
   const auto surfaces = productSurfaces(environment);
   std::vector<std::uint64_t> triangles(environment.products.size());
   for (const auto& i : environment.instances) triangles[i.product] += environment.meshes[i.mesh]->triangles.size();
-  json rows = json::array();
+  std::vector<ImportedProduct> rows;
   for (std::size_t i = 0; i < environment.products.size(); ++i) {
     const auto& p = environment.products[i];
-    rows.push_back(
-        {{"id", p.id},
-         {"global_id", p.global_id},
-         {"class", p.ifc_class},
-         {"predefined_type", p.predefined_type},
-         {"name", p.name},
-         {"type", p.type_name},
-         {"storey", p.storey},
-         {"place", placeOf(environment, p)},
-         {"whole", p.whole < 0 ? json(nullptr) : json(environment.products[static_cast<std::size_t>(p.whole)].id)},
-         {"tangible", p.tangible},
-         {"groups", p.groups},
-         {"triangles", triangles[i]},
-         {"bounds", toJson(product_bounds[i], shift_m)},
-         {"volume", volumes[i]},
-         {"materials", p.materials},
-         {"layers", layerRows(p)},
-         {"surfaces", surfacesOf(surfaces[i], environment)},
-         {"properties", propertySets(p.properties)}});
+    auto& row = rows.emplace_back(ImportedProduct{identityOf(p)});
+    row.predefined_type = p.predefined_type;
+    row.type = p.type_name;
+    row.storey = p.storey;
+    row.place = placeOf(environment, p);
+    if (p.whole >= 0) row.whole = environment.products[static_cast<std::size_t>(p.whole)].id;
+    row.tangible = p.tangible;
+    row.groups = p.groups;
+    row.triangles = triangles[i];
+    row.bounds_m = fileBounds(product_bounds[i], shift_m);
+    row.volume_m3 = volumes[i];
+    row.materials = p.materials;
+    row.layers = p.layers;
+    for (const auto& [surface, area] : surfaces[i])
+      row.surfaces.push_back({surface, environment.surfaces[surface].name, area});
+    row.properties = p.properties;
   }
   return rows;
 }
@@ -227,10 +206,10 @@ ImportOptions importOptions(const AddOptions& options) {
 
 }  // namespace
 
-Result<Outcome> importModels(const Document& document, const std::vector<std::filesystem::path>& files,
-                             const ImportOptions& options, const std::string& crs, Progress& progress) {
+Result<Answered<ImportAnswer>> importModels(const Document& document, const std::vector<std::filesystem::path>& files,
+                                            const ImportOptions& options, const std::string& crs, Progress& progress) {
   if (files.empty()) return failure(ErrorKind::usage, "specify at least one model file", "import");
-  Outcome outcome;
+  Answered<ImportAnswer> outcome;
   outcome.document.name = document.name.empty() ? files.front().stem().string() : document.name;
   Environment environment;
   Georeference georeference;
@@ -267,12 +246,13 @@ Result<Outcome> importModels(const Document& document, const std::vector<std::fi
     TRY_ASSIGN(auto found, findCrs(crs));
     georeference.crs = found.code;
   }
-  outcome.answer = {{"products", productRows(environment, georeference.shift_m)},
-                    {"spatial", spatialRows(environment)},
-                    {"surfaces", surfaceRows(environment)},
-                    {"triangles", triangleCount(environment)},
-                    {"bounds", toJson(bounds(environment), georeference.shift_m)},
-                    {"georeference", georeferenceToJson(georeference)}};
+  outcome.answer = {productRows(environment, georeference.shift_m),
+                    nodeRows(environment),
+                    lookRows(environment),
+                    triangleCount(environment),
+                    fileBounds(bounds(environment), georeference.shift_m),
+                    georeference,
+                    {}};
   outcome.description = fmt::format("Imported {}: {} products, {} triangles", files.front().filename().string(),
                                     environment.products.size(), triangleCount(environment));
   outcome.document.imported = std::make_shared<const Environment>(std::move(environment));
@@ -335,15 +315,73 @@ const Fields<ImportVerbOptions>& importFields() {
   return fields;
 }
 
-Result<Outcome> runImport(const Document& document, const ImportVerbOptions& options, Progress& progress) {
+const AnswerFields<ImportedSurface>& answerFields(const ImportedSurface*) {
+  using A = ImportedSurface;
+  static const AnswerFields<A> fields = {{"surface", &A::surface}, {"name", &A::name}, {"area", &A::area_m2}};
+  return fields;
+}
+
+const AnswerFields<MaterialLayer>& answerFields(const MaterialLayer*) {
+  using A = MaterialLayer;
+  static const AnswerFields<A> fields = {{"material", &A::name}, {"thickness", &A::thickness_m}};
+  return fields;
+}
+
+const AnswerFields<ImportedProduct>& answerFields(const ImportedProduct* product) {
+  using A = ImportedProduct;
+  static const auto fields = withBases<A>({{"predefined_type", &A::predefined_type},
+                                           {"type", &A::type},
+                                           {"storey", &A::storey},
+                                           {"place", &A::place},
+                                           {"whole", &A::whole},
+                                           {"tangible", &A::tangible},
+                                           {"groups", &A::groups},
+                                           {"triangles", &A::triangles},
+                                           {"bounds", &A::bounds_m},
+                                           {"volume", &A::volume_m3},
+                                           {"materials", &A::materials},
+                                           {"layers", &A::layers},
+                                           {"surfaces", &A::surfaces},
+                                           {"properties", &A::properties, propertySets}},
+                                          answerFields(static_cast<const ProductIdentity*>(product)));
+  return fields;
+}
+
+const AnswerFields<ImportedNode>& answerFields(const ImportedNode* node) {
+  using A = ImportedNode;
+  static const auto fields = withBases<A>(
+      {{"parent", &A::parent}, {"elevation", &A::elevation_m}, {"properties", &A::properties, propertySets}},
+      answerFields(static_cast<const ProductIdentity*>(node)));
+  return fields;
+}
+
+const AnswerFields<ImportedLook>& answerFields(const ImportedLook*) {
+  using A = ImportedLook;
+  static const AnswerFields<A> fields = {
+      {"name", &A::name}, {"source", &A::source}, {"colour", &A::colour}, {"image", &A::image, kLeftOut}};
+  return fields;
+}
+
+const AnswerFields<ImportAnswer>& answerFields(const ImportAnswer*) {
+  using A = ImportAnswer;
+  static const AnswerFields<A> fields = {{"products", &A::products},        {"spatial", &A::spatial},
+                                         {"surfaces", &A::surfaces},        {"triangles", &A::triangles},
+                                         {"bounds", &A::bounds_m},          {"georeference", &A::georeference},
+                                         {"changes", &A::changes, kLeftOut}};
+  return fields;
+}
+
+Result<Answered<ImportAnswer>> runImport(const Document& document, const ImportVerbOptions& options,
+                                         Progress& progress) {
   const auto typed = importOptions(options);
   return options.update ? updateModels(document, options.files, typed, options.crs, progress)
                         : importModels(document, options.files, typed, options.crs, progress);
 }
 
-Result<Outcome> addImported(const Document& document, Outcome imported, Progress& progress) {
+Result<Answered<ImportAnswer>> addImported(const Document& document, Answered<ImportAnswer> imported,
+                                           Progress& progress) {
   const Georeference &mine = *document.georeference, &its = *imported.document.georeference;
-  Outcome outcome{document, std::move(imported.answer), std::move(imported.report), {}};
+  Answered<ImportAnswer> outcome{document, std::move(imported.answer), std::move(imported.report)};
   const std::string source = imported.document.sources.empty()
                                  ? ""
                                  : std::filesystem::path(imported.document.sources.front()).filename().string();
@@ -371,7 +409,7 @@ Result<Outcome> addImported(const Document& document, Outcome imported, Progress
   return outcome;
 }
 
-Result<Outcome> runAdd(const Document& document, const AddOptions& options, Progress& progress) {
+Result<Answered<ImportAnswer>> runAdd(const Document& document, const AddOptions& options, Progress& progress) {
   auto imported = importModels(Document(), options.files, importOptions(options), options.crs, progress);
   if (!imported) return imported;
   return addImported(document, *std::move(imported), progress);

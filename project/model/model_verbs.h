@@ -46,6 +46,26 @@ struct GeoreferenceOptions {
   std::optional<double> rotation_deg;
 };
 const Fields<GeoreferenceOptions>& georeferenceFields();
-Result<Outcome> runGeoreference(const Document& document, const GeoreferenceOptions& options, Progress& progress);
+
+struct GeoreferencePlace {  // WGS84
+  double latitude_deg = 0, longitude_deg = 0, height_m = 0;
+  std::string from;  // "crs" or "site"
+};
+const AnswerFields<GeoreferencePlace>& answerFields(const GeoreferencePlace*);
+struct GeoreferenceUtm {
+  std::string zone;  // "32N"
+  double easting_m = 0, northing_m = 0, convergence_deg = 0, scale_factor = 1;
+};
+const AnswerFields<GeoreferenceUtm>& answerFields(const GeoreferenceUtm*);
+struct GeoreferenceAnswer : Georeference {
+  Eigen::Vector3d reference_m = Eigen::Vector3d::Zero();  // the model's centre in its file frame; the rest is there
+  std::optional<Eigen::Vector3d> map_m;
+  std::optional<GeoreferencePlace> geographic;
+  std::optional<GeoreferenceUtm> utm;
+  std::optional<double> grid_convergence_deg, scale_factor;  // of the CRS, else of UTM
+};
+const AnswerFields<GeoreferenceAnswer>& answerFields(const GeoreferenceAnswer*);
+Result<Answered<GeoreferenceAnswer>> runGeoreference(const Document& document, const GeoreferenceOptions& options,
+                                                     Progress& progress);
 
 }  // namespace standpoint

@@ -14,12 +14,12 @@ using nlohmann::json;
 
 namespace {
 
-json answerOf(const Environment& environment, const std::vector<Treatment>& treatments) {
-  json rows = treatmentsToJson(treatments);
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i]["count"] = select(environment, treatments[i].selector).size();
-  std::size_t excluded = 0;
-  for (const auto& product : environment.products) excluded += product.excluded ? 1 : 0;
-  return {{"treatments", std::move(rows)}, {"excluded_products", excluded}};
+TreatAnswer answerOf(const Environment& environment, const std::vector<Treatment>& treatments) {
+  TreatAnswer answer;
+  for (const auto& treatment : treatments)
+    answer.treatments.push_back({treatment, select(environment, treatment.selector).size()});
+  for (const auto& product : environment.products) answer.excluded_products += product.excluded ? 1 : 0;
+  return answer;
 }
 
 // First what later words have replaced goes, then what takes back something that is no longer there. Rows that mean no
@@ -123,15 +123,10 @@ TreatmentKind treatmentKind(const std::string& word) {
   return kind == kKinds.end() ? TreatmentKind::as_rules : static_cast<TreatmentKind>(kind - kKinds.begin());
 }
 
+const char* wordOf(TreatmentKind kind) { return kKinds.at(static_cast<std::size_t>(kind)); }
+
 json treatmentsToJson(const std::vector<Treatment>& treatments) {
-  json rows = json::array();
-  for (const auto& t : treatments) {
-    json row = {{"products", t.selector}, {"as", kKinds.at(static_cast<std::size_t>(t.kind))}};
-    if (t.max_deviation_m) row["max_deviation_m"] = *t.max_deviation_m;
-    if (t.weight) row["weight"] = *t.weight;
-    rows.push_back(std::move(row));
-  }
-  return rows;
+  return AnswerValue<std::vector<Treatment>>::write(treatments);
 }
 
 std::vector<Treatment> treatmentsFrom(const json& rows) {
@@ -168,14 +163,35 @@ const Fields<TreatOptions>& treatFields() {
   return fields;
 }
 
-Result<Outcome> runTreat(const Document& document, const TreatOptions& options, Progress& progress) {
+const AnswerFields<Treatment>& answerFields(const Treatment*) {
+  using A = Treatment;
+  static const AnswerFields<A> fields = {{"products", &A::selector},
+                                         {"as", &A::kind, [](TreatmentKind kind) { return std::string(wordOf(kind)); }},
+                                         {"max_deviation_m", &A::max_deviation_m, kLeftOut},
+                                         {"weight", &A::weight, kLeftOut}};
+  return fields;
+}
+
+const AnswerFields<TreatmentRow>& answerFields(const TreatmentRow* row) {
+  static const auto fields =
+      withBases<TreatmentRow>({{"count", &TreatmentRow::count}}, answerFields(static_cast<const Treatment*>(row)));
+  return fields;
+}
+
+const AnswerFields<TreatAnswer>& answerFields(const TreatAnswer*) {
+  using A = TreatAnswer;
+  static const AnswerFields<A> fields = {{"treatments", &A::treatments}, {"excluded_products", &A::excluded_products}};
+  return fields;
+}
+
+Result<Answered<TreatAnswer>> runTreat(const Document& document, const TreatOptions& options, Progress& progress) {
   const auto& selectors = options.products;
   const auto now = document.treatments ? *document.treatments : std::vector<Treatment>{};
   if (selectors.empty()) {
     if (options.as)
       return failure(ErrorKind::usage, "specify products: #id, a GlobalId, class:IfcFurniture, name:*chair*, storey:…",
                      "products");
-    return Outcome{document, answerOf(*document.imported, now), {}, {}};
+    return Answered<TreatAnswer>{document, answerOf(*document.imported, now)};
   }
   if (!options.as) return failure(ErrorKind::usage, "specify a treatment: excluded, kept, simplified or rules", "--as");
   const auto kind = *options.as;
@@ -196,7 +212,7 @@ Result<Outcome> runTreat(const Document& document, const TreatOptions& options, 
     treatment.selector = selector;
     treatments.push_back(treatment);
   }
-  Outcome outcome{document, {}, {}, {}};
+  Answered<TreatAnswer> outcome{document};
   auto& after = outcome.document;
   tidy(*document.imported, treatments);
   after.treatments = std::make_shared<const std::vector<Treatment>>(std::move(treatments));

@@ -25,6 +25,7 @@ void applyTreatments(const Environment& environment, const std::vector<Treatment
 
 // "excluded", "kept", "simplified"; "rules" and whatever else takes back.
 TreatmentKind treatmentKind(const std::string& word);
+const char* wordOf(TreatmentKind kind);
 
 nlohmann::json treatmentsToJson(const std::vector<Treatment>& treatments);
 std::vector<Treatment> treatmentsFrom(const nlohmann::json& rows);  // throws nlohmann's exceptions
@@ -37,6 +38,17 @@ struct TreatOptions {
   std::optional<double> weight;
 };
 const Fields<TreatOptions>& treatFields();
-Result<Outcome> runTreat(const Document& document, const TreatOptions& options, Progress& progress);
+
+const AnswerFields<Treatment>& answerFields(const Treatment*);
+struct TreatmentRow : Treatment {
+  std::size_t count = 0;  // of the products that it means
+};
+const AnswerFields<TreatmentRow>& answerFields(const TreatmentRow*);
+struct TreatAnswer {
+  std::vector<TreatmentRow> treatments;
+  std::size_t excluded_products = 0;
+};
+const AnswerFields<TreatAnswer>& answerFields(const TreatAnswer*);
+Result<Answered<TreatAnswer>> runTreat(const Document& document, const TreatOptions& options, Progress& progress);
 
 }  // namespace standpoint

@@ -19,7 +19,6 @@ namespace standpoint {
 
 namespace {
 
-using nlohmann::json;
 namespace fs = std::filesystem;
 
 // The old list with the new files in their places.
@@ -82,20 +81,22 @@ class Selectors {
 
 struct Update {
   const Document& before;
-  Outcome& outcome;
+  Answered<ImportAnswer>& outcome;
   const ProductMatch& match;
-  json kept = json::array();
+  std::vector<UpdateKept> kept = {};
 
   // What was said of a product that is gone stays in the list, so that it holds again when the product comes back.
-  std::string follow(const Selectors& selectors, const std::string& selector, const char* what,
-                     const std::string& value) {
+  std::string follow(const Selectors& selectors, const std::string& selector,
+                     std::optional<std::string> UpdateKept::*what, const std::string& value) {
     const std::string id(selectedProduct(selector));
     const Product* product = selectors.named(id);
     if (product == nullptr) return selector;
     if (selectors.gone(id)) {
-      kept.push_back({{"what", what}, {"selector", selector}, {what, value}, {"product", identity(*product)}});
+      const char* name = what == &UpdateKept::treatment ? "treatment" : "material";
+      kept.push_back({name, selector, {}, {}, identityOf(*product)});
+      kept.back().*what = value;
       outcome.report.warn(selector, fmt::format("product '{}' no longer exists; its {} {} is kept in case it returns",
-                                                product->name, what, value));
+                                                product->name, name, value));
     }
     return selectors.followed(id) + selector.substr(id.size());
   }
@@ -104,9 +105,8 @@ struct Update {
     if (!before.treatments) return;
     const Selectors selectors(*before.imported, *outcome.document.imported, match);
     auto now = *before.treatments;
-    const json rows = treatmentsToJson(now);
-    for (std::size_t i = 0; i < now.size(); ++i)
-      now[i].selector = follow(selectors, now[i].selector, "treatment", rows[i].at("as"));
+    for (auto& treatment : now)
+      treatment.selector = follow(selectors, treatment.selector, &UpdateKept::treatment, wordOf(treatment.kind));
     outcome.document.imported = withExclusions(outcome.document.imported, now);
     outcome.document.treatments = std::make_shared<const std::vector<Treatment>>(std::move(now));
   }
@@ -115,7 +115,8 @@ struct Update {
     if (!before.materials) return {};
     const Selectors selectors(*before.imported, *outcome.document.imported, match);
     MaterialChoice choice = *before.materials;
-    for (MaterialOverride& o : choice.overrides) o.selector = follow(selectors, o.selector, "material", o.material);
+    for (MaterialOverride& o : choice.overrides)
+      o.selector = follow(selectors, o.selector, &UpdateKept::material, o.material);
     outcome.document.materials = std::make_shared<const MaterialChoice>(std::move(choice));
     TRY_ASSIGN(auto assigned, assignDocumentMaterials(outcome.document, {}, progress));
     outcome.document.materials = assigned.document.materials;
@@ -161,44 +162,75 @@ struct Update {
   }
 };
 
-json changesAnswer(const Environment& before, const Environment& after, const ProductMatch& match,
-                   std::string& summary) {
+UpdateChanges changesOf(const Environment& before, const Environment& after, const ProductMatch& match) {
   const auto changes = productChanges(before, after, match);
-  json added = json::array(), removed = json::array(), changed = json::array();
-  std::size_t unchanged = 0, geometry = 0, material = 0, properties = 0;
+  UpdateChanges answer;
+  auto& counts = answer.counts;
   for (std::size_t i = 0; i < before.products.size(); ++i) {
     if (match.new_of_old[i] == kNoProduct) {
-      removed.push_back(identity(before.products[i]));
+      answer.removed.push_back(identityOf(before.products[i]));
       continue;
     }
     const ProductChange& c = changes[i];
     if (!c.any()) {
-      ++unchanged;
+      ++counts.unchanged;
       continue;
     }
-    json r = identity(after.products[static_cast<std::size_t>(match.new_of_old[i])]);
-    r.update({{"geometry", c.geometry}, {"material", c.material}, {"properties", c.which}});
-    changed.push_back(std::move(r));
-    geometry += c.geometry ? 1 : 0;
-    material += c.material ? 1 : 0;
-    properties += c.properties ? 1 : 0;
+    const auto& now = after.products[static_cast<std::size_t>(match.new_of_old[i])];
+    answer.changed.push_back({identityOf(now), c.geometry, c.material, c.which});
+    counts.geometry += c.geometry ? 1 : 0;
+    counts.material += c.material ? 1 : 0;
+    counts.properties += c.properties ? 1 : 0;
   }
   for (std::size_t i = 0; i < after.products.size(); ++i)
-    if (match.old_of_new[i] == kNoProduct) added.push_back(identity(after.products[i]));
-  summary = fmt::format("{} products added, {} removed, {} changed", added.size(), removed.size(), changed.size());
-  const json counts = {{"added", added.size()},   {"removed", removed.size()}, {"changed", changed.size()},
-                       {"unchanged", unchanged},  {"geometry", geometry},      {"material", material},
-                       {"properties", properties}};
-  return {{"counts", counts},
-          {"added", std::move(added)},
-          {"removed", std::move(removed)},
-          {"changed", std::move(changed)}};
+    if (match.old_of_new[i] == kNoProduct) answer.added.push_back(identityOf(after.products[i]));
+  counts.added = answer.added.size();
+  counts.removed = answer.removed.size();
+  counts.changed = answer.changed.size();
+  return answer;
 }
 
 }  // namespace
 
-Result<Outcome> updateModels(const Document& document, std::vector<fs::path> files, const ImportOptions& options,
-                             const std::string& crs, Progress& progress) {
+const AnswerFields<UpdatedProduct>& answerFields(const UpdatedProduct* product) {
+  using A = UpdatedProduct;
+  static const auto fields =
+      withBases<A>({{"geometry", &A::geometry}, {"material", &A::material}, {"properties", &A::properties}},
+                   answerFields(static_cast<const ProductIdentity*>(product)));
+  return fields;
+}
+
+const AnswerFields<UpdateKept>& answerFields(const UpdateKept*) {
+  using A = UpdateKept;
+  static const AnswerFields<A> fields = {{"what", &A::what},
+                                         {"selector", &A::selector},
+                                         {"treatment", &A::treatment, kLeftOut},
+                                         {"material", &A::material, kLeftOut},
+                                         {"product", &A::product}};
+  return fields;
+}
+
+const AnswerFields<UpdateCounts>& answerFields(const UpdateCounts*) {
+  using A = UpdateCounts;
+  static const AnswerFields<A> fields = {{"added", &A::added},          {"removed", &A::removed},
+                                         {"changed", &A::changed},      {"unchanged", &A::unchanged},
+                                         {"geometry", &A::geometry},    {"material", &A::material},
+                                         {"properties", &A::properties}};
+  return fields;
+}
+
+const AnswerFields<UpdateChanges>& answerFields(const UpdateChanges*) {
+  using A = UpdateChanges;
+  static const AnswerFields<A> fields = {{"counts", &A::counts},
+                                         {"added", &A::added},
+                                         {"removed", &A::removed},
+                                         {"changed", &A::changed},
+                                         {"kept", &A::kept}};
+  return fields;
+}
+
+Result<Answered<ImportAnswer>> updateModels(const Document& document, std::vector<fs::path> files,
+                                            const ImportOptions& options, const std::string& crs, Progress& progress) {
   if (!document.imported) return failure(ErrorKind::usage, "there is no model to update; import one first", "--update");
   if (options.shift != ShiftMode::automatic)
     return failure(ErrorKind::usage, "an update keeps the project's shift; leave out --shift", "--shift");
@@ -211,8 +243,7 @@ Result<Outcome> updateModels(const Document& document, std::vector<fs::path> fil
   auto outcome = importModels(fresh, all, same_frame, crs, progress);
   if (!outcome) return outcome;
   const auto match = matchProducts(*document.imported, *outcome->document.imported);
-  std::string summary;
-  outcome->answer["changes"] = changesAnswer(*document.imported, *outcome->document.imported, match, summary);
+  auto changes = changesOf(*document.imported, *outcome->document.imported, match);
   outcome->document.underlays = document.underlays;
   Update update{document, *outcome, match};
   update.georeference(crs);
@@ -220,8 +251,11 @@ Result<Outcome> updateModels(const Document& document, std::vector<fs::path> fil
   update.treatments();
   TRY(update.simplified(progress));
   TRY(update.materials(progress));
-  outcome->answer["changes"]["kept"] = std::move(update.kept);
-  outcome->description = fmt::format("Updated {}: {}", files.front().filename().string(), summary);
+  changes.kept = std::move(update.kept);
+  outcome->description =
+      fmt::format("Updated {}: {} products added, {} removed, {} changed", files.front().filename().string(),
+                  changes.counts.added, changes.counts.removed, changes.counts.changed);
+  outcome->answer.changes = std::move(changes);
   outcome->document.import_report = std::make_shared<const Report>(outcome->report);
   return outcome;
 }
