@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "project/answers.h"
@@ -17,6 +19,7 @@
 #include "scanners/radiometry/sun.h"
 #include "survey/scanning/field_fault.h"
 #include "survey/targets/target_placing.h"
+#include "survey/targets/target_sight.h"
 
 namespace standpoint {
 
@@ -73,7 +76,24 @@ struct TargetOptions : TargetPlace {
   KeyValues settings;
 };
 const Fields<TargetOptions>& targetFields();
-Result<Outcome> runTarget(const Document& document, const TargetOptions& options, Progress& progress);
+
+struct TargetAnswerRow {
+  std::string name, kind;
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  // its centre, m, the model's file frame
+  double size_m = 0;
+  std::optional<Eigen::Vector3d> normal;  // of a checkerboard
+  std::optional<std::string> stands_on;   // of one that was added
+};
+const AnswerFields<TargetAnswerRow>& answerFields(const TargetAnswerRow*);
+const AnswerFields<TargetSight>& answerFields(const TargetSight*);
+using TargetSights = std::vector<TargetSight>;  // by station
+struct TargetAnswer {
+  std::optional<TargetAnswerRow> placed;
+  std::optional<std::variant<TargetSights, std::map<std::string, TargetSights>>> seen_from;  // of placed, or by target
+  std::vector<TargetAnswerRow> targets;
+};
+const AnswerFields<TargetAnswer>& answerFields(const TargetAnswer*);
+Result<Answered<TargetAnswer>> runTarget(const Document& document, const TargetOptions& options, Progress& progress);
 
 // "all", or names separated by commas.
 struct StationNames {

@@ -9,21 +9,25 @@
 #include "project/answers.h"
 #include "project/survey/survey_verbs.h"
 #include "survey/targets/target_placing.h"
-#include "survey/targets/target_sight.h"
 
 namespace standpoint {
 
 namespace {
 
-using nlohmann::json;
+using SightsByTarget = std::map<std::string, TargetSights>;
 
-json targetRow(const Target& t, const Georeference& g) {
-  json row = {{"name", t.name},
-              {"kind", t.kind == TargetKind::sphere ? "sphere" : "checkerboard"},
-              {"at", toJson(t.centre + g.shift_m)},
-              {"size", t.size_m}};
-  if (t.kind == TargetKind::checkerboard) row["normal"] = toJson(t.normal);
-  return row;
+TargetAnswerRow targetRow(const Target& t, const Georeference& g) {
+  const bool plate = t.kind == TargetKind::checkerboard;
+  return {t.name,
+          plate ? "checkerboard" : "sphere",
+          t.centre + g.shift_m,
+          t.size_m,
+          plate ? std::optional(t.normal) : std::nullopt,
+          {}};
+}
+
+std::optional<double> wholePoints(const std::optional<double>& points) {
+  return points ? std::optional(std::round(*points)) : std::nullopt;
 }
 
 // Builds the rays' scene, which only adding and looking need.
@@ -56,32 +60,20 @@ Result<Target> targetArticleFrom(const TargetKinds& kinds, const TargetOptions& 
   return t;
 }
 
-json rowsOf(const std::vector<TargetSight>& sights) {
-  json rows = json::array();
-  for (const auto& s : sights)
-    rows.push_back({{"station", s.station},
-                    {"distance_m", s.distance_m},
-                    {"incidence_deg", s.incidence_rad / kRadPerDeg},
-                    {"seen_share", s.seen_fraction},
-                    {"points", s.points ? json(std::round(*s.points)) : json(nullptr)},
-                    {"most_distance_m", s.max_distance_m},
-                    {"why_not", s.why_not.empty() ? json(nullptr) : json(s.why_not)}});
-  return rows;
-}
-
-Result<json> sightRows(const Document& document, const RayScene& scene, const TargetKinds& kinds,
-                       const std::vector<Target>& targets, const TargetOptions& options, Report& report) {
+Result<SightsByTarget> sightsByTarget(const Document& document, const RayScene& scene, const TargetKinds& kinds,
+                                      const std::vector<Target>& targets, const TargetOptions& options,
+                                      Report& report) {
   const SightRequest request{options.instrument, options.settings};
-  json rows = json::object();
+  SightsByTarget by_target;
   for (const auto& t : targets) {
-    TRY_ASSIGN(const auto sights, sightsOf(*document.job, scene, t, kinds.rules, request));
+    TRY_ASSIGN(auto sights, sightsOf(*document.job, scene, t, kinds.rules, request));
     tell(t, sights, report);
-    rows[t.name] = rowsOf(sights);
+    by_target[t.name] = std::move(sights);
   }
-  return rows;
+  return by_target;
 }
 
-Result<Target> addedTarget(const Document& document, const TargetOptions& options, Outcome& outcome,
+Result<Target> addedTarget(const Document& document, const TargetOptions& options, Answered<TargetAnswer>& outcome,
                            Progress& progress) {
   TRY_ASSIGN(const auto kinds, readTargetKinds(dataFolder() / "scanners" / "targets" / "kinds.json"));
   TRY_ASSIGN(auto article, targetArticleFrom(kinds, options));
@@ -94,17 +86,18 @@ Result<Target> addedTarget(const Document& document, const TargetOptions& option
   auto target = placedTarget(*document.job, document.georeference->shift_m, *scene, std::move(article), options, stands,
                              outcome.report);
   if (!target) return target;
-  TRY_ASSIGN(auto sights, sightRows(document, *scene, kinds, {*target}, options, outcome.report));
-  outcome.answer["placed"] = targetRow(*target, *document.georeference);
-  if (!stands.empty()) outcome.answer["placed"]["stands_on"] = stands;
-  outcome.answer["seen_from"] = std::move(sights[target->name]);
+  TRY_ASSIGN(auto sights, sightsByTarget(document, *scene, kinds, {*target}, options, outcome.report));
+  auto& placed = outcome.answer.placed.emplace(targetRow(*target, *document.georeference));
+  if (!stands.empty()) placed.stands_on = stands;
+  outcome.answer.seen_from = std::move(sights[target->name]);
   return target;
 }
 
-Result<json> sightsOfAll(const Document& document, const TargetOptions& options, Report& report, Progress& progress) {
+Result<SightsByTarget> sightsOfAll(const Document& document, const TargetOptions& options, Report& report,
+                                   Progress& progress) {
   TRY_ASSIGN(const auto kinds, readTargetKinds(dataFolder() / "scanners" / "targets" / "kinds.json"));
   TRY_ASSIGN(auto scene, RayScene::build(document.environment(), progress));
-  return sightRows(document, *scene, kinds, document.job->targets, options, report);
+  return sightsByTarget(document, *scene, kinds, document.job->targets, options, report);
 }
 
 }  // namespace
@@ -139,10 +132,40 @@ const Fields<TargetOptions>& targetFields() {
   return fields;
 }
 
-Result<Outcome> runTarget(const Document& document, const TargetOptions& options, Progress& progress) {
+const AnswerFields<TargetAnswerRow>& answerFields(const TargetAnswerRow*) {
+  using A = TargetAnswerRow;
+  static const AnswerFields<A> fields = {{"name", &A::name},
+                                         {"kind", &A::kind},
+                                         {"at", &A::at},
+                                         {"size", &A::size_m},
+                                         {"normal", &A::normal, kLeftOut},
+                                         {"stands_on", &A::stands_on, kLeftOut}};
+  return fields;
+}
+
+const AnswerFields<TargetSight>& answerFields(const TargetSight*) {
+  using A = TargetSight;
+  static const AnswerFields<A> fields = {{"station", &A::station},
+                                         {"distance_m", &A::distance_m},
+                                         {"incidence_deg", &A::incidence_rad, answers::degrees},
+                                         {"seen_share", &A::seen_fraction},
+                                         {"points", &A::points, wholePoints},
+                                         {"most_distance_m", &A::max_distance_m},
+                                         {"why_not", &A::why_not, answers::nullWhereEmpty}};
+  return fields;
+}
+
+const AnswerFields<TargetAnswer>& answerFields(const TargetAnswer*) {
+  using A = TargetAnswer;
+  static const AnswerFields<A> fields = {
+      {"placed", &A::placed, kLeftOut}, {"seen_from", &A::seen_from, kLeftOut}, {"targets", &A::targets}};
+  return fields;
+}
+
+Result<Answered<TargetAnswer>> runTarget(const Document& document, const TargetOptions& options, Progress& progress) {
   progress.stage("Target");
   if (options.add && options.remove) return failure(ErrorKind::usage, "specify one of --add NAME, --remove NAME");
-  Outcome outcome{document, json::object(), {}, {}};
+  Answered<TargetAnswer> outcome{document};
   Job job = *document.job;
   const auto& g = *document.georeference;
   const auto find = [&](const std::string& wanted) {
@@ -159,11 +182,9 @@ Result<Outcome> runTarget(const Document& document, const TargetOptions& options
     job.targets.erase(at);
   } else if (options.sight) {
     TRY_ASSIGN(auto sights, sightsOfAll(document, options, outcome.report, progress));
-    outcome.answer["seen_from"] = std::move(sights);
+    outcome.answer.seen_from = std::move(sights);
   }
-  json rows = json::array();
-  for (const auto& t : job.targets) rows.push_back(targetRow(t, g));
-  outcome.answer["targets"] = std::move(rows);
+  for (const auto& t : job.targets) outcome.answer.targets.push_back(targetRow(t, g));
   if (!outcome.description.empty()) outcome.document.job = std::make_shared<const Job>(std::move(job));
   return outcome;
 }
