@@ -118,25 +118,22 @@ std::string materialsText(const Environment& environment, const MaterialReport& 
   return text;
 }
 
-std::string libraryText(const nlohmann::json& answer) {
+std::string libraryText(const std::vector<LibraryRow>& libraries) {
   std::string text;
-  for (const auto& file : answer.value("libraries", nlohmann::json::array())) {
-    text += fmt::format("\n  {}: {} added, {} changed\n", file.at("file").get<std::string>(), file.at("added").size(),
-                        file.at("changed").size());
-    for (const auto& used : file.at("used"))
-      text += fmt::format("  {} is on {:.1f} m² of {} products\n", used.at("material").get<std::string>(),
-                          used.at("area_m2").get<double>(), used.at("products").size());
+  for (const auto& library : libraries) {
+    text += fmt::format("\n  {}: {} added, {} changed\n", library.file, library.added.size(), library.changed.size());
+    for (const auto& used : library.used)
+      text += fmt::format("  {} is on {:.1f} m² of {} products\n", used.material, used.area_m2, used.products.size());
   }
   return text;
 }
 
-std::string whereText(const nlohmann::json& where) {
-  const auto& products = where.at("products");
-  std::string text = fmt::format("  {} is on {:.1f} m² of {} products\n", where.at("material").get<std::string>(),
-                                 where.at("area_m2").get<double>(), products.size());
+std::string whereText(const MaterialPlaces& where) {
+  const auto& products = where.products;
+  std::string text =
+      fmt::format("  {} is on {:.1f} m² of {} products\n", where.material, where.area_m2, products.size());
   for (std::size_t i = 0; i < std::min(products.size(), kMostProducts); ++i)
-    text += fmt::format("  {} {} '{}'\n", products[i].value("id", ""), products[i].value("class", ""),
-                        products[i].value("name", ""));
+    text += fmt::format("  {} {} '{}'\n", products[i].id, products[i].ifc_class, products[i].name);
   if (products.size() > kMostProducts)
     text += fmt::format("  … and {} more; use --json for the full list\n", products.size() - kMostProducts);
   return text;

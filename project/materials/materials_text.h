@@ -2,11 +2,11 @@
 #pragma once
 
 #include <string>
-
-#include <nlohmann/json.hpp>
+#include <vector>
 
 #include "core/environment.h"
 #include "materials/materials.h"
+#include "project/materials/materials_verb.h"
 
 namespace standpoint {
 
@@ -14,10 +14,9 @@ namespace standpoint {
 // on.
 std::string materialsText(const Environment& environment, const MaterialReport& report);
 
-// Of the answer's "libraries": what was taken in, and where what changed is used. Empty without.
-std::string libraryText(const nlohmann::json& answer);
+// What was taken in, and where what changed is used. Empty without.
+std::string libraryText(const std::vector<LibraryRow>& libraries);
 
-// Of the answer's "where".
-std::string whereText(const nlohmann::json& where);
+std::string whereText(const MaterialPlaces& where);
 
 }  // namespace standpoint

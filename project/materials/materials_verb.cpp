@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -25,120 +26,89 @@ namespace fs = std::filesystem;
 fs::path libraryFolder() { return dataFolder() / "materials" / "library"; }
 fs::path defaultRules() { return dataFolder() / "materials" / "rules" / "default.json"; }
 
-json productIds(const Environment& environment, const std::vector<std::uint32_t>& products) {
-  json ids = json::array();
+std::vector<std::string> productIds(const Environment& environment, const std::vector<std::uint32_t>& products) {
+  std::vector<std::string> ids;
   for (const auto p : products) ids.push_back(environment.products[p].id);
   return ids;
 }
 
-json findingAnswer(const Environment& environment, const MaterialFinding& f) {
-  json remedies = json::array();
+FindingRow findingRow(const Environment& environment, const MaterialFinding& f) {
+  FindingRow row{f.id, f.kind,   f.severity, f.source, f.message, f.why, f.area_m2, productIds(environment, f.products),
+                 {},   f.because};
   for (const auto& r : f.remedies) {
-    json remedy = {{"text", r.text}, {"selector", r.selector}};
-    if (!r.material.empty()) remedy["options"] = {{"assign", assignWords(r, r.material)}};  // of this verb: one click
-    remedies.push_back(std::move(remedy));
+    row.remedies.push_back({r.text, r.selector, {}});
+    if (!r.material.empty()) row.remedies.back().options = {assignWords(r, r.material)};
   }
-  json row = {{"id", f.id},
-              {"kind", f.kind},
-              {"severity", f.severity},
-              {"source", f.source},
-              {"message", f.message},
-              {"why", f.why},
-              {"area_m2", f.area_m2},
-              {"products", productIds(environment, f.products)},
-              {"remedies", remedies}};
-  if (!f.because.empty()) row["accepted"] = f.because;
   return row;
 }
 
-json coverageRows(const std::vector<CoverageRow>& rows, const char* key) {
-  json result = json::array();
-  for (const auto& r : rows)
-    result.push_back({{key, r.name},
-                      {"area_m2", r.area_m2},
-                      {"coverage", r.area_m2 > 0 ? r.assigned_m2 / r.area_m2 : 0},
-                      {"weak", r.area_m2 > 0 ? r.weak_m2 / r.area_m2 : 0}});
-  return result;
+CoverageFractions fractionsOf(const CoverageRow& row) {
+  if (row.area_m2 <= 0) return {row.area_m2};
+  return {row.area_m2, row.assigned_m2 / row.area_m2, row.weak_m2 / row.area_m2};
 }
 
-// Surfaces with the same reason stand together: a reason is a sentence, and a building has thousands of surfaces.
-json surfaceReasons(const Environment& environment, const MaterialAssignment& assignment) {
-  struct Group {
-    double confidence = 0;
-    json surfaces = json::array();
+std::vector<ReasonRow> surfaceReasons(const Environment& environment, const MaterialAssignment& assignment) {
+  std::map<std::pair<std::string, std::string>, ReasonRow> groups;  // by material and reason
+  const auto add = [&](const auto& of, double confidence) {
+    const auto id = of.material < 0 ? std::string() : assignment.materials[static_cast<std::size_t>(of.material)].id;
+    auto& row = groups[{id, of.reason}];
+    row.confidence = confidence;
+    row.surfaces.push_back({environment.products[of.product].id, environment.surfaces[of.surface].name});
   };
-  std::map<std::pair<std::string, std::string>, Group> groups;  // by material and reason
-  const auto id = [&](std::int32_t material) {
-    return material < 0 ? std::string() : assignment.materials[static_cast<std::size_t>(material)].id;
-  };
-  for (const auto& s : assignment.surfaces) {
-    auto& group = groups[{id(s.material), s.reason}];
-    group.confidence = s.confidence;
-    group.surfaces.push_back({environment.products[s.product].id, environment.surfaces[s.surface].name});
+  for (const auto& s : assignment.surfaces) add(s, s.confidence);
+  for (const auto& f : assignment.faces) add(f, 1);
+  std::vector<ReasonRow> rows;
+  for (auto& [key, row] : groups) {
+    std::tie(row.material, row.reason) = key;
+    rows.push_back(std::move(row));
   }
-  for (const auto& f : assignment.faces) {
-    auto& group = groups[{id(f.material), f.reason}];
-    group.confidence = 1;
-    group.surfaces.push_back({environment.products[f.product].id, environment.surfaces[f.surface].name});
-  }
-  json result = json::array();
-  for (auto& [key, group] : groups)
-    result.push_back({{"material", key.first.empty() ? json(nullptr) : json(key.first)},
-                      {"reason", key.second},
-                      {"confidence", group.confidence},
-                      {"surfaces", std::move(group.surfaces)}});
-  return result;
+  return rows;
 }
 
-json materialAnswer(const Environment& environment, const MaterialChoice& choice,
-                    const std::vector<MaterialFinding>& all) {
+MaterialsAnswer materialsAnswer(const Environment& environment, const MaterialChoice& choice,
+                                const std::vector<MaterialFinding>& all) {
   const auto& report = choice.result.report;
-  json uses = json::array();
+  MaterialsAnswer answer;
+  answer.coverage = report.coverage;
+  answer.area_m2 = report.area_m2;
   for (const auto& use : report.uses)
-    uses.push_back({{"material", use.material.empty() ? json(nullptr) : json(use.material)},
-                    {"area_m2", use.area_m2},
-                    {"products", productIds(environment, use.products)}});
-  json findings = json::array();
-  std::size_t open = 0;
+    answer.materials.push_back({use.material, use.area_m2, productIds(environment, use.products)});
   for (const auto& f : all) {
-    findings.push_back(findingAnswer(environment, f));
-    open += f.because.empty() ? 1 : 0;
+    answer.findings.push_back(findingRow(environment, f));
+    answer.open += f.because.empty() ? 1 : 0;
   }
-  return {{"coverage", report.coverage},
-          {"area_m2", report.area_m2},
-          {"materials", uses},
-          {"findings", findings},
-          {"open", open},
-          {"by_class", coverageRows(report.by_class, "class")},
-          {"by_storey", coverageRows(report.by_storey, "storey")},
-          {"reasons", surfaceReasons(environment, choice.result.assignment)}};
-}
-
-json whereAnswer(const Environment& environment, const MaterialResult& result, const std::string& id) {
-  json answer = {{"material", id}, {"area_m2", 0.0}, {"products", json::array()}};
-  for (const auto& use : result.report.uses) {
-    if (use.material != id) continue;
-    answer["area_m2"] = use.area_m2;
-    for (const auto p : use.products) answer["products"].push_back(identity(environment.products[p]));
-  }
+  for (const auto& row : report.by_class) answer.by_class.push_back({fractionsOf(row), row.name});
+  for (const auto& row : report.by_storey) answer.by_storey.push_back({fractionsOf(row), row.name});
+  answer.reasons = surfaceReasons(environment, choice.result.assignment);
   return answer;
 }
 
+MaterialPlaces placesOf(const Environment& environment, const MaterialResult& result, const std::string& id) {
+  MaterialPlaces places{id, 0, {}};
+  for (const auto& use : result.report.uses) {
+    if (use.material != id) continue;
+    places.area_m2 = use.area_m2;
+    for (const auto p : use.products) places.products.push_back(identityOf(environment.products[p]));
+  }
+  return places;
+}
+
 // Own materials of a file join those that the project has; one with a known id replaces it.
-Result<json> takeLibrary(MaterialChoice& choice, const fs::path& file, const std::vector<PhysicalMaterial>& shipped) {
+Result<LibraryRow> takeLibrary(MaterialChoice& choice, const fs::path& file,
+                               const std::vector<PhysicalMaterial>& shipped) {
   TRY_ASSIGN(auto own, readOwnMaterials(file, libraryFolder()));
-  json added = json::array(), changed = json::array();
+  LibraryRow row{file.filename().string(), {}, {}, {}};
   const auto known = withOwn(shipped, choice.own);
   for (const auto& m : own) {
     const auto before =
         std::find_if(known.begin(), known.end(), [&](const PhysicalMaterial& k) { return k.id == m.id; });
     if (before == known.end())
-      added.push_back(m.id);
+      row.added.push_back(m.id);
     else if (!(*before == m))
-      changed.push_back(m.id);
+      row.changed.push_back(m.id);
   }
   choice.own = withOwn(choice.own, own);
-  return json{{"file", file.filename().string()}, {"added", added}, {"changed", changed}};
+  return row;
 }
 
 Result<void> forget(MaterialChoice& choice, const std::vector<std::string>& ids) {
@@ -221,7 +191,8 @@ std::string description(const MaterialRequest& request, const MaterialReport& re
 
 }  // namespace
 
-Result<Outcome> assignDocumentMaterials(const Document& document, const MaterialRequest& request, Progress& progress) {
+Result<Answered<MaterialsAnswer>> assignDocumentMaterials(const Document& document, const MaterialRequest& request,
+                                                          Progress& progress) {
   progress.stage("Materials");
   TRY_ASSIGN(const auto shipped, readMaterialLibrary(libraryFolder()));
   MaterialChoice choice = document.materials ? *document.materials : MaterialChoice();
@@ -230,7 +201,7 @@ Result<Outcome> assignDocumentMaterials(const Document& document, const Material
     choice.rules_text.clear();
   }
   if (!request.instrument.empty()) choice.instrument = request.instrument;
-  json taken = json::array();
+  std::vector<LibraryRow> taken;
   for (const auto& file : request.libraries) {
     TRY_ASSIGN(auto news, takeLibrary(choice, file, shipped));
     taken.push_back(std::move(news));
@@ -253,28 +224,29 @@ Result<Outcome> assignDocumentMaterials(const Document& document, const Material
     choice.result = assignMaterials(environment, library, rules, choice.overrides, options, progress).value();
     done.materials = std::make_shared<const MaterialChoice>(choice);
   }
-  Outcome outcome{std::move(done), {}, {}, description(request, choice.result.report)};
-  outcome.answer = materialAnswer(environment, choice, materialFindings(outcome.document));
-  for (auto& news : taken) {
-    json used = json::array();
-    for (const auto& id : news["changed"]) used.push_back(whereAnswer(environment, choice.result, id));
-    news["used"] = std::move(used);
-  }
-  if (!taken.empty()) outcome.answer["libraries"] = std::move(taken);
+  Answered<MaterialsAnswer> outcome{std::move(done), {}, {}, description(request, choice.result.report)};
+  auto& answer = outcome.answer;
+  answer = materialsAnswer(environment, choice, materialFindings(outcome.document));
+  for (auto& row : taken)
+    for (const auto& id : row.changed) row.used.push_back(placesOf(environment, choice.result, id));
+  answer.libraries = std::move(taken);
   MaterialReport shown = choice.result.report;
   shown.findings = materialFindings(outcome.document);
-  outcome.text = materialsText(environment, shown) + libraryText(outcome.answer);
+  outcome.text = materialsText(environment, shown) + libraryText(answer.libraries);
   return outcome;
 }
 
-Result<std::vector<MaterialOverride>> FieldValue<std::vector<MaterialOverride>>::read(const json& texts) {
+std::vector<MaterialOverride> overridesFrom(const std::vector<std::string>& texts) {
   std::vector<MaterialOverride> overrides;
-  for (const auto& each : texts) {
-    const auto& text = each.get_ref<const std::string&>();
-    const auto equals = text.rfind('=');
-    overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  for (const auto& text : texts) {
+    const auto equals = std::min(text.rfind('='), text.size());
+    overrides.push_back({text.substr(0, equals), text.substr(std::min(equals + 1, text.size()))});
   }
   return overrides;
+}
+
+Result<std::vector<MaterialOverride>> FieldValue<std::vector<MaterialOverride>>::read(const json& texts) {
+  return overridesFrom(texts.get<std::vector<std::string>>());
 }
 
 json FieldValue<std::vector<MaterialOverride>>::write(const std::vector<MaterialOverride>& overrides) {
@@ -303,7 +275,93 @@ const Fields<MaterialsOptions>& materialsFields() {
   return fields;
 }
 
-Result<Outcome> runMaterials(const Document& document, const MaterialsOptions& options, Progress& progress) {
+const AnswerFields<RemedyOptions>& answerFields(const RemedyOptions*) {
+  static const AnswerFields<RemedyOptions> fields = {{"assign", &RemedyOptions::assign}};
+  return fields;
+}
+
+const AnswerFields<RemedyRow>& answerFields(const RemedyRow*) {
+  using A = RemedyRow;
+  static const AnswerFields<A> fields = {
+      {"text", &A::text}, {"selector", &A::selector}, {"options", &A::options, kLeftOut}};
+  return fields;
+}
+
+const AnswerFields<FindingRow>& answerFields(const FindingRow*) {
+  using A = FindingRow;
+  static const AnswerFields<A> fields = {{"id", &A::id},
+                                         {"kind", &A::kind},
+                                         {"severity", &A::severity},
+                                         {"source", &A::source},
+                                         {"message", &A::message},
+                                         {"why", &A::why},
+                                         {"area_m2", &A::area_m2},
+                                         {"products", &A::products},
+                                         {"remedies", &A::remedies},
+                                         {"accepted", &A::because, answers::nullWhereEmpty, kLeftOut}};
+  return fields;
+}
+
+const AnswerFields<CoverageFractions>& answerFields(const CoverageFractions*) {
+  using A = CoverageFractions;
+  static const AnswerFields<A> fields = {{"area_m2", &A::area_m2}, {"coverage", &A::coverage}, {"weak", &A::weak}};
+  return fields;
+}
+
+const AnswerFields<ClassCoverage>& answerFields(const ClassCoverage* row) {
+  static const auto fields = withBases<ClassCoverage>({{"class", &ClassCoverage::ifc_class}},
+                                                      answerFields(static_cast<const CoverageFractions*>(row)));
+  return fields;
+}
+
+const AnswerFields<StoreyCoverage>& answerFields(const StoreyCoverage* row) {
+  static const auto fields = withBases<StoreyCoverage>({{"storey", &StoreyCoverage::storey}},
+                                                       answerFields(static_cast<const CoverageFractions*>(row)));
+  return fields;
+}
+
+const AnswerFields<MaterialUseRow>& answerFields(const MaterialUseRow*) {
+  using A = MaterialUseRow;
+  static const AnswerFields<A> fields = {
+      {"material", &A::material, answers::nullWhereEmpty}, {"area_m2", &A::area_m2}, {"products", &A::products}};
+  return fields;
+}
+
+const AnswerFields<ReasonRow>& answerFields(const ReasonRow*) {
+  using A = ReasonRow;
+  static const AnswerFields<A> fields = {{"material", &A::material, answers::nullWhereEmpty},
+                                         {"reason", &A::reason},
+                                         {"confidence", &A::confidence},
+                                         {"surfaces", &A::surfaces}};
+  return fields;
+}
+
+const AnswerFields<MaterialPlaces>& answerFields(const MaterialPlaces*) {
+  using A = MaterialPlaces;
+  static const AnswerFields<A> fields = {
+      {"material", &A::material}, {"area_m2", &A::area_m2}, {"products", &A::products}};
+  return fields;
+}
+
+const AnswerFields<LibraryRow>& answerFields(const LibraryRow*) {
+  using A = LibraryRow;
+  static const AnswerFields<A> fields = {
+      {"file", &A::file}, {"added", &A::added}, {"changed", &A::changed}, {"used", &A::used}};
+  return fields;
+}
+
+const AnswerFields<MaterialsAnswer>& answerFields(const MaterialsAnswer*) {
+  using A = MaterialsAnswer;
+  static const AnswerFields<A> fields = {
+      {"coverage", &A::coverage},    {"area_m2", &A::area_m2}, {"materials", &A::materials},
+      {"findings", &A::findings},    {"open", &A::open},       {"by_class", &A::by_class},
+      {"by_storey", &A::by_storey},  {"reasons", &A::reasons}, {"libraries", &A::libraries, kLeftOut},
+      {"where", &A::where, kLeftOut}};
+  return fields;
+}
+
+Result<Answered<MaterialsAnswer>> runMaterials(const Document& document, const MaterialsOptions& options,
+                                               Progress& progress) {
   auto outcome = assignDocumentMaterials(document, options, progress);
   if (!outcome) return outcome;
   const auto& choice = *outcome->document.materials;
@@ -312,8 +370,8 @@ Result<Outcome> runMaterials(const Document& document, const MaterialsOptions& o
     const auto library = withOwn(shipped, choice.own);
     if (std::none_of(library.begin(), library.end(), [&](const PhysicalMaterial& m) { return m.id == id; }))
       return failure(ErrorKind::usage, "not in the material library", id);
-    outcome->answer["where"] = whereAnswer(*document.environment(), choice.result, id);
-    outcome->text = whereText(outcome->answer["where"]);
+    outcome->answer.where = placesOf(*document.environment(), choice.result, id);
+    outcome->text = whereText(*outcome->answer.where);
   }
   if (!options.report.empty()) TRY(writeMaterialReport(outcome->document, options.report));
   return outcome;

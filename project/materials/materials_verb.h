@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "project/answers.h"
 #include "project/fields.h"
 
 namespace standpoint {
@@ -19,8 +22,81 @@ struct MaterialRequest {
   std::string because;
   std::string instrument;
 };
-Result<Outcome> assignDocumentMaterials(const Document& document, const MaterialRequest& request, Progress& progress);
-// SELECTOR=MATERIAL; a selector may hold "=" itself.
+
+struct RemedyOptions {  // of this verb: one click
+  std::vector<std::string> assign;
+};
+const AnswerFields<RemedyOptions>& answerFields(const RemedyOptions*);
+struct RemedyRow {
+  std::string text, selector;
+  std::optional<RemedyOptions> options;  // nothing where the material is the user's to choose
+};
+const AnswerFields<RemedyRow>& answerFields(const RemedyRow*);
+struct FindingRow {
+  std::string id, kind, severity, source, message, why;
+  double area_m2 = 0;
+  std::vector<std::string> products;  // ids
+  std::vector<RemedyRow> remedies;
+  std::string because;  // it was accepted; empty: it is open
+};
+const AnswerFields<FindingRow>& answerFields(const FindingRow*);
+struct CoverageFractions {
+  double area_m2 = 0;
+  double coverage = 0, weak = 0;  // 0..1: that has a material; that has it by a rule of low confidence
+};
+const AnswerFields<CoverageFractions>& answerFields(const CoverageFractions*);
+struct ClassCoverage : CoverageFractions {
+  std::string ifc_class;
+};
+const AnswerFields<ClassCoverage>& answerFields(const ClassCoverage*);
+struct StoreyCoverage : CoverageFractions {
+  std::string storey;
+};
+const AnswerFields<StoreyCoverage>& answerFields(const StoreyCoverage*);
+struct MaterialUseRow {
+  std::string material;  // id; empty: unassigned
+  double area_m2 = 0;
+  std::vector<std::string> products;  // ids
+};
+const AnswerFields<MaterialUseRow>& answerFields(const MaterialUseRow*);
+// Surfaces with the same reason stand together: a reason is a sentence, and a building has thousands of surfaces.
+struct ReasonRow {
+  std::string material;  // id; empty: unassigned
+  std::string reason;
+  double confidence = 0;                             // 0..1
+  std::vector<std::array<std::string, 2>> surfaces;  // id of the product, name of the surface
+};
+const AnswerFields<ReasonRow>& answerFields(const ReasonRow*);
+struct MaterialPlaces {  // where a material is
+  std::string material;  // id
+  double area_m2 = 0;
+  std::vector<ProductIdentity> products;
+};
+const AnswerFields<MaterialPlaces>& answerFields(const MaterialPlaces*);
+struct LibraryRow {  // that was taken in
+  std::string file;
+  std::vector<std::string> added, changed;  // ids
+  std::vector<MaterialPlaces> used;         // of the changed ones
+};
+const AnswerFields<LibraryRow>& answerFields(const LibraryRow*);
+struct MaterialsAnswer {
+  double coverage = 0;  // 0..1, of the area
+  double area_m2 = 0;
+  std::vector<MaterialUseRow> materials;
+  std::vector<FindingRow> findings;
+  std::size_t open = 0;  // findings
+  std::vector<ClassCoverage> by_class;
+  std::vector<StoreyCoverage> by_storey;
+  std::vector<ReasonRow> reasons;
+  std::vector<LibraryRow> libraries;
+  std::optional<MaterialPlaces> where;  // of the material that was asked for
+};
+const AnswerFields<MaterialsAnswer>& answerFields(const MaterialsAnswer*);
+Result<Answered<MaterialsAnswer>> assignDocumentMaterials(const Document& document, const MaterialRequest& request,
+                                                          Progress& progress);
+
+// From SELECTOR=MATERIAL; a selector may hold "=" itself.
+std::vector<MaterialOverride> overridesFrom(const std::vector<std::string>& texts);
 template <>
 struct FieldValue<std::vector<MaterialOverride>> {
   static constexpr auto kKind = ParameterKind::pairs;
@@ -33,6 +109,7 @@ struct MaterialsOptions : MaterialRequest {
   std::filesystem::path report;  // to write
 };
 const Fields<MaterialsOptions>& materialsFields();
-Result<Outcome> runMaterials(const Document& document, const MaterialsOptions& options, Progress& progress);
+Result<Answered<MaterialsAnswer>> runMaterials(const Document& document, const MaterialsOptions& options,
+                                               Progress& progress);
 
 }  // namespace standpoint
