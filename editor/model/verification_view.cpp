@@ -11,54 +11,51 @@ namespace standpoint {
 
 namespace {
 
-using nlohmann::json;
+using ProductsById = std::map<std::string, std::uint32_t>;
 
-std::string textOf(const json& value) { return value.is_string() ? value.get<std::string>() : std::string(); }
-
-std::vector<std::uint32_t> productsOf(const json& ids, const std::map<std::string, std::uint32_t>& by_id) {
+std::vector<std::uint32_t> productsOf(const std::vector<std::string>& ids, const ProductsById& by_id) {
   std::vector<std::uint32_t> products;
   for (const auto& id : ids)
-    if (const auto found = by_id.find(id.get<std::string>()); found != by_id.end()) products.push_back(found->second);
+    if (const auto found = by_id.find(id); found != by_id.end()) products.push_back(found->second);
   return products;
 }
 
-VerifiedMaterial materialFrom(const json& row, const std::map<std::string, std::uint32_t>& by_id) {
-  VerifiedMaterial m;
-  m.material = textOf(row.at("material"));
-  const auto& off = row.at("off_db");
-  m.off_db = {off.at("p5"), off.at("q1"), off.at("median"), off.at("q3"), off.at("p95")};
-  m.points = row.at("points");
-  m.judged = row.at("judged");
-  m.agrees = row.at("agrees");
-  m.products = productsOf(row.at("products"), by_id);
-  return m;
+VerifiedMaterial materialFrom(const VerifyMaterial& row, const ProductsById& by_id) {
+  const auto& off = row.off_db;
+  return {
+      row.material.value_or(""),      row.points, {off.p5, off.q1, off.median, off.q3, off.p95}, row.judged, row.agrees,
+      productsOf(row.products, by_id)};
 }
 
-VerifiedProposal proposalFrom(const json& row, const std::map<std::string, std::uint32_t>& by_id) {
-  VerifiedProposal p;
-  p.products = productsOf(row.at("products"), by_id);
-  p.material = textOf(row.at("material"));
-  p.behaves_like = row.at("behaves_like");
-  p.alike = row.at("alike").get<std::vector<std::string>>();
-  p.whole_material = row.at("whole_material");
-  p.evidence = row.at("evidence");
-  if (auto assign = FieldValue<std::vector<MaterialOverride>>::read(row.at("assign"))) p.assign = *std::move(assign);
-  return p;
+VerifiedProposal proposalFrom(const VerifyProposal& row, const ProductsById& by_id) {
+  return {row.material.value_or(""),
+          row.behaves_like,
+          row.alike,
+          row.whole_material,
+          row.evidence,
+          overridesFrom(row.assign),
+          productsOf(row.products, by_id)};
 }
 
-void fill(VerificationView& view, const Document& document) {
-  const json& answer = document.verification->answer;
-  std::map<std::string, std::uint32_t> by_id;
+}  // namespace
+
+VerificationView verificationView(const Document& document) {
+  VerificationView view;
+  if (!document.verification || !document.imported) return view;
+  const auto& answer = document.verification->answer;
+  ProductsById by_id;
   const auto& products = document.environment()->products;
   for (std::uint32_t i = 0; i < products.size(); ++i) by_id.emplace(products[i].id, i);
-  view.underlay = answer.at("underlay");
-  view.instrument = answer.at("instrument");
-  view.scale = textOf(answer.at("scale").at("reads"));
-  view.no_verdict = textOf(answer.at("no_verdict"));
-  if (answer.at("placement").is_object()) view.moved_m = answer.at("placement").at("moved_m");
-  view.compared = answer.at("compared");
-  for (const auto& row : answer.at("materials")) view.materials.push_back(materialFrom(row, by_id));
-  for (const auto& row : answer.at("proposals")) view.proposals.push_back(proposalFrom(row, by_id));
+  view.there = true;
+  view.current = isCurrent(*document.verification, document);
+  view.underlay = answer.underlay;
+  view.instrument = answer.instrument;
+  view.scale = answer.scale.reads.value_or("");
+  view.no_verdict = answer.no_verdict;
+  if (answer.placement) view.moved_m = answer.placement->moved_m;
+  view.compared = answer.compared;
+  for (const auto& row : answer.materials) view.materials.push_back(materialFrom(row, by_id));
+  for (const auto& row : answer.proposals) view.proposals.push_back(proposalFrom(row, by_id));
   // What disagrees comes first, what cannot be judged last.
   std::stable_sort(view.materials.begin(), view.materials.end(), [](const auto& a, const auto& b) {
     const auto rank = [](const VerifiedMaterial& m) { return !m.judged ? 2 : m.agrees ? 1 : 0; };
@@ -68,20 +65,6 @@ void fill(VerificationView& view, const Document& document) {
     if (m.judged)
       view.reach_db =
           std::clamp(std::ceil(std::max(std::abs(m.off_db[0]), std::abs(m.off_db[4]))), view.reach_db, 15.0);
-}
-
-}  // namespace
-
-VerificationView verificationView(const Document& document) {
-  VerificationView view;
-  if (!document.verification || !document.imported) return view;
-  try {
-    fill(view, document);
-    view.there = true;
-    view.current = isCurrent(*document.verification, document);
-  } catch (const json::exception&) {
-    return {};  // a project.json that somebody edited
-  }
   return view;
 }
 

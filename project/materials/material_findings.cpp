@@ -14,7 +14,6 @@ namespace standpoint {
 
 namespace {
 
-using nlohmann::json;
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
 // Others that do as well are offered behind the proposed one: the scan cannot tell them apart.
@@ -29,17 +28,17 @@ std::map<Pair, double> areas(const Environment& environment) {
   return result;
 }
 
-std::vector<Remedy> remediesOf(const json& proposal) {
+std::vector<Remedy> remediesOf(const VerifyProposal& proposal) {
   Remedy remedy;
-  for (const auto& word : proposal.at("assign").get<std::vector<std::string>>()) {
+  for (const auto& word : proposal.assign) {
     const auto selector = word.substr(0, word.rfind('='));
     if (remedy.selector.empty())
       remedy.selector = selector;
     else
       remedy.more.push_back(selector);
   }
-  remedy.material = proposal.at("behaves_like").get<std::string>();
-  auto instead = proposal.at("alike").get<std::vector<std::string>>();
+  remedy.material = proposal.behaves_like;
+  auto instead = proposal.alike;
   instead.resize(std::min(instead.size(), kMostAlike));
   instead.insert(instead.begin(), remedy.material);
   std::vector<Remedy> remedies;
@@ -51,11 +50,10 @@ std::vector<Remedy> remediesOf(const json& proposal) {
   return remedies;
 }
 
-FindingCollector::Cause causeOf(const json& proposal, const json& answer, const Product& first) {
-  const auto underlay = answer.at("underlay").get<std::string>();
-  const auto assigned = proposal.at("material").is_null() ? std::string() : proposal.at("material").get<std::string>();
-  const auto instead = proposal.at("behaves_like").get<std::string>();
-  const auto alike = proposal.at("alike").get<std::vector<std::string>>();
+FindingCollector::Cause causeOf(const VerifyProposal& proposal, const std::string& underlay, const Product& first) {
+  const auto assigned = proposal.material.value_or("");
+  const auto& instead = proposal.behaves_like;
+  const auto& alike = proposal.alike;
   FindingCollector::Cause c;
   c.kind = "measured-otherwise";
   c.warning = true;
@@ -64,21 +62,21 @@ FindingCollector::Cause causeOf(const json& proposal, const json& answer, const 
   c.what = assigned.empty() ? std::string("no material assigned; measured:")
                             : fmt::format("measurements contradict '{}' on", assigned);
   c.then = fmt::format(": behaves like '{}'", instead);
-  c.why = fmt::format("By the cloud '{}': {}.{}", underlay, proposal.at("evidence").get<std::string>(),
+  c.why = fmt::format("By the cloud '{}': {}.{}", underlay, proposal.evidence,
                       alike.empty() ? "" : fmt::format(" Equally good: {}.", fmt::join(alike, ", ")));
   c.remedies = remediesOf(proposal);
   return c;
 }
 
 // Of a proposal only the surfaces that still have the material that was measured otherwise.
-std::vector<Pair> standing(const json& proposal, const Document& document) {
+std::vector<Pair> standing(const VerifyProposal& proposal, const Document& document) {
   const auto& assignment = document.materials->result.assignment;
   const auto pairs = surfacesOf(proposal, document);
   std::vector<Pair> result;
   for (const auto& s : assignment.surfaces) {
-    const json has =
-        s.material < 0 ? json(nullptr) : json(assignment.materials[static_cast<std::size_t>(s.material)].id);
-    if (has == proposal.at("material") && std::binary_search(pairs.begin(), pairs.end(), Pair(s.product, s.surface)))
+    const auto has =
+        s.material < 0 ? std::nullopt : std::optional(assignment.materials[static_cast<std::size_t>(s.material)].id);
+    if (has == proposal.material && std::binary_search(pairs.begin(), pairs.end(), Pair(s.product, s.surface)))
       result.emplace_back(s.product, s.surface);
   }
   return result;
@@ -90,10 +88,11 @@ std::vector<MaterialFinding> measuredOtherwise(const Document& document) {
   const auto& environment = *document.environment();
   const auto area_m2 = areas(environment);
   FindingCollector collector;
-  for (const auto& proposal : verification.answer.at("proposals")) {
+  for (const auto& proposal : verification.answer.proposals) {
     const auto pairs = standing(proposal, document);
     if (pairs.empty()) continue;
-    auto& extent = collector.of(causeOf(proposal, verification.answer, environment.products[pairs.front().first]));
+    auto& extent =
+        collector.of(causeOf(proposal, verification.answer.underlay, environment.products[pairs.front().first]));
     for (const auto& pair : pairs) {
       const auto found = area_m2.find(pair);
       FindingCollector::add(extent, pair.first, found == area_m2.end() ? 0 : found->second);
@@ -108,11 +107,7 @@ std::vector<MaterialFinding> materialFindings(const Document& document) {
   if (!document.materials) return {};
   auto findings = document.materials->result.report.findings;
   if (!document.verification || !document.environment()) return findings;
-  try {
-    for (auto& f : measuredOtherwise(document)) findings.push_back(std::move(f));
-  } catch (const json::exception&) {
-    return findings;  // a project.json that somebody edited: the verification says nothing
-  }
+  for (auto& f : measuredOtherwise(document)) findings.push_back(std::move(f));
   putInOrder(findings);
   return findings;
 }

@@ -8,12 +8,11 @@
 
 #include "core/random.h"
 #include "materials/override_table.h"
+#include "project/materials/materials_verb.h"
 
 namespace standpoint {
 
 namespace {
-
-using nlohmann::json;
 
 std::uint64_t mixed(const std::string& text, std::uint64_t hash) { return stableHash(text.c_str(), hash); }
 
@@ -47,11 +46,11 @@ std::uint64_t basisOf(const Document& document, const std::string& underlay) {
 }
 
 // Materials by their ids: following a proposal can change their places.
-std::uint64_t restOf(const Document& document, const json& answer) {
-  std::uint64_t hash = ofPlacement(document, answer.at("underlay"));
+std::uint64_t restOf(const Document& document, const VerifyAnswer& answer) {
+  std::uint64_t hash = ofPlacement(document, answer.underlay);
   if (!document.materials) return hash;
   std::set<std::pair<std::uint32_t, std::uint32_t>> proposed;
-  for (const auto& proposal : answer.at("proposals"))
+  for (const auto& proposal : answer.proposals)
     for (const auto& pair : surfacesOf(proposal, document)) proposed.insert(pair);
   const auto& assignment = document.materials->result.assignment;
   const auto id = [&](std::int32_t m) {
@@ -67,47 +66,26 @@ std::uint64_t restOf(const Document& document, const json& answer) {
 }  // namespace
 
 bool isCurrent(const Verification& verification, const Document& document) {
-  return verification.basis == basisOf(document, verification.answer.value("underlay", ""));
+  return verification.basis == basisOf(document, verification.answer.underlay);
 }
 
 bool hasStandingProposals(const Verification& verification, const Document& document) {
-  return !verification.answer.at("proposals").empty() && verification.rest == restOf(document, verification.answer);
+  return !verification.answer.proposals.empty() && verification.rest == restOf(document, verification.answer);
 }
 
-std::vector<std::pair<std::uint32_t, std::uint32_t>> surfacesOf(const json& proposal, const Document& document) {
-  std::vector<MaterialOverride> words;
-  for (const auto& word : proposal.at("assign").get<std::vector<std::string>>()) {
-    const auto equals = std::min(word.rfind('='), word.size());
-    words.push_back({word.substr(0, equals), word.substr(std::min(equals + 1, word.size()))});
-  }
+std::vector<std::pair<std::uint32_t, std::uint32_t>> surfacesOf(const VerifyProposal& proposal,
+                                                                const Document& document) {
   const Eigen::Vector3d shift_m = document.georeference ? document.georeference->shift_m : Eigen::Vector3d::Zero();
-  OverrideTable table(*document.environment(), words, shift_m);
+  const auto overrides = overridesFrom(proposal.assign);
+  OverrideTable table(*document.environment(), overrides, shift_m);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
   for (const auto& s : document.materials->result.assignment.surfaces)
     if (table.of({s.product, s.surface, 0}).whole >= 0) pairs.emplace_back(s.product, s.surface);
   return pairs;
 }
 
-Verification verificationOf(const Document& document, json answer) {
-  Verification v;
-  v.basis = basisOf(document, answer.at("underlay"));
-  v.rest = restOf(document, answer);
-  v.answer = std::move(answer);
-  return v;
-}
-
-nlohmann::json verificationToJson(const Verification& verification) {
-  return {{"basis", fmt::format("{:016x}", verification.basis)},
-          {"rest", fmt::format("{:016x}", verification.rest)},
-          {"answer", verification.answer}};
-}
-
-std::shared_ptr<const Verification> verificationFrom(const nlohmann::json& part) {
-  Verification v;
-  v.basis = std::strtoull(part.at("basis").get<std::string>().c_str(), nullptr, 16);
-  v.rest = std::strtoull(part.value("rest", "").c_str(), nullptr, 16);  // an old project has none: compare again
-  v.answer = part.at("answer");
-  return std::make_shared<const Verification>(std::move(v));
+Verification verificationOf(const Document& document, VerifyAnswer answer) {
+  return {basisOf(document, answer.underlay), restOf(document, answer), std::move(answer)};
 }
 
 }  // namespace standpoint

@@ -203,8 +203,7 @@ Result<Answered<VerifyAnswer>> runVerify(const Document& document, const VerifyO
       f.comparison.no_verdict.empty()
           ? fmt::format("Verified materials with {}: {} proposal{}", f.underlay, proposals, proposals == 1 ? "" : "s")
           : fmt::format("Verified materials with {}: no verdict", f.underlay);
-  outcome.document.verification =
-      std::make_shared<const Verification>(verificationOf(document, AnswerValue<VerifyAnswer>::write(outcome.answer)));
+  outcome.document.verification = std::make_shared<const Verification>(verificationOf(document, outcome.answer));
   return outcome;
 }
 

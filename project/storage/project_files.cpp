@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "importers/gltf/gltf_writer.h"
-#include "project/materials/verification.h"
+#include "project/materials/verification_json.h"
 #include "project/storage/project_json.h"
 #include "project/survey/underlays.h"
 

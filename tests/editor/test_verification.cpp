@@ -7,39 +7,28 @@
 namespace standpoint {
 namespace {
 
-using nlohmann::json;
-
-json row(const json& material, bool judged, bool agrees, double median, const json& products) {
-  return {{"material", material},
-          {"points", 1000},
-          {"judged", judged},
-          {"agrees", agrees},
-          {"products", products},
-          {"off_db",
-           {{"p5", median - 1}, {"q1", median - 0.5}, {"median", median}, {"q3", median + 0.5}, {"p95", median + 1}}}};
+VerifyMaterial row(const char* material, bool judged, bool agrees, double median, std::vector<std::string> products) {
+  return {.material = material,
+          .points = 1000,
+          .judged = judged,
+          .agrees = agrees,
+          .off_db = {1000, median - 1, median - 0.5, median, median + 0.5, median + 1},
+          .products = std::move(products)};
 }
 
-Document verified(const json& answer) {
+Document verified(VerifyAnswer answer) {
   Document d = demoHouse();
-  Verification v;
-  v.answer = answer;
-  d.verification = std::make_shared<const Verification>(v);
+  d.verification = std::make_shared<const Verification>(Verification{0, 0, std::move(answer)});
   return d;
 }
 
 TEST(VerificationView, PutsWhatDisagreesFirstAndWhatCannotBeJudgedLast) {
   const std::string id = demoHouse().environment()->products[2].id;
-  const auto view = verificationView(
-      verified({{"underlay", "scan"},
-                {"instrument", "leica-rtc360"},
-                {"compared", 3000},
-                {"no_verdict", nullptr},
-                {"placement", {{"moved_m", 0.001}}},
-                {"scale", {{"reads", "linear in dB: 0.014 per dB"}}},
-                {"materials",
-                 {row("glass", false, false, 30, json::array()), row("plaster", true, true, 0, json::array()),
-                  row("brick", true, false, -6.2, {id, "gone"})}},
-                {"proposals", json::array()}}));
+  VerifyAnswer answer;
+  answer.placement.emplace().moved_m = 0.001;
+  answer.materials = {row("glass", false, false, 30, {}), row("plaster", true, true, 0, {}),
+                      row("brick", true, false, -6.2, {id, "gone"})};
+  const auto view = verificationView(verified(std::move(answer)));
   ASSERT_TRUE(view.there);
   EXPECT_FALSE(view.current) << "its basis is none of this document's";
   ASSERT_EQ(view.materials.size(), 3U);
@@ -50,10 +39,7 @@ TEST(VerificationView, PutsWhatDisagreesFirstAndWhatCannotBeJudgedLast) {
   EXPECT_NEAR(view.moved_m, 0.001, 1e-12);
 }
 
-TEST(VerificationView, OfAnAnswerThatSomebodyBrokeIsNone) {
-  EXPECT_FALSE(verificationView(verified({{"underlay", 7}})).there);
-  EXPECT_FALSE(verificationView(demoHouse()).there);
-}
+TEST(VerificationView, IsNoneWhereNothingWasVerified) { EXPECT_FALSE(verificationView(demoHouse()).there); }
 
 }  // namespace
 }  // namespace standpoint

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "project/materials/verification.h"
+#include "project/materials/verification_json.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
@@ -13,17 +13,24 @@ namespace {
 using nlohmann::json;
 using ::testing::ElementsAre;
 
-json proposal(const json& material, const char* instead, const json& words, const json& alike = json::array()) {
-  return {{"material", material},
-          {"behaves_like", instead},
-          {"alike", alike},
-          {"evidence", "900 points are -4.0 dB off"},
-          {"assign", words}};
+VerifyProposal proposal(const char* material, const char* instead, std::vector<std::string> words,
+                        std::vector<std::string> alike = {}) {
+  return {.material = material,
+          .behaves_like = instead,
+          .alike = std::move(alike),
+          .evidence = "900 points are -4.0 dB off",
+          .assign = std::move(words)};
 }
 
-Document withProposals(Document d, const json& proposals) {
-  d.verification =
-      std::make_shared<const Verification>(verificationOf(d, {{"underlay", "scan"}, {"proposals", proposals}}));
+VerifyAnswer answerWith(std::vector<VerifyProposal> proposals) {
+  VerifyAnswer answer;
+  answer.underlay = "scan";
+  answer.proposals = std::move(proposals);
+  return answer;
+}
+
+Document withProposals(Document d, std::vector<VerifyProposal> proposals) {
+  d.verification = std::make_shared<const Verification>(verificationOf(d, answerWith(std::move(proposals))));
   return d;
 }
 
@@ -86,15 +93,31 @@ TEST(MaterialFindings, OfOneThatWasAcceptedKeepTheReasonUntilItsSurfacesChange) 
   EXPECT_EQ(measured(assigned(done->document, {"south0=plaster_gypsum"}))[0].because, "") << "another cause";
 }
 
-TEST(MaterialFindings, OfAVerificationThatSomebodyBrokeAreTheOthers) {
+TEST(MaterialFindings, OfProposalsThatMeanNothingAreTheOthers) {
   Document d = measuredHouse();
   const auto others = materialFindings(d).size() - 2;
-  for (const json& broken :
-       {json({{"underlay", "scan"}}), json({{"underlay", "scan"}, {"proposals", {7}}}),
-        json({{"underlay", "scan"}, {"proposals", {proposal("bark", "x", {"", "=", "a", "table=@"})}}})}) {
-    d.verification = std::make_shared<const Verification>(Verification{0, d.verification->rest, broken});
-    EXPECT_EQ(materialFindings(d).size(), others) << broken;
-  }
+  d.verification = std::make_shared<const Verification>(
+      Verification{0, d.verification->rest, answerWith({proposal("bark", "x", {"", "=", "a", "table=@"})})});
+  EXPECT_EQ(materialFindings(d).size(), others);
+}
+
+TEST(Verification, ComesBackFromTheProjectUnlessSomebodyBrokeItsAnswer) {
+  auto answer = answerWith({proposal("bark", "wood_hardwood", {"table=wood_hardwood"}, {"x"})});
+  auto& fit = answer.placement.emplace();
+  fit.moved_m = 0.2;
+  fit.sigma_shift_m = {1, 2, 3};
+  fit.free.emplace_back().shift = {0, 0, 1};
+  answer.scale = {"linear", true, 0.75, 0.5, 3, {{1, 2}, {3, 4}}};
+  answer.no_verdict = "none";
+  const VerifySpread spread{9, -2, -1, 0, 1, 2};
+  answer.materials = {{{}, 9, 1.5, true, false, spread, {{spread, 1, 2}}, {{spread, 3, 4}}, {"#1"}, {{"#1", "a"}}}};
+  answer.passed = {{{"#2", "g", "IfcDoor", "door"}, 7, 2}};
+  const json part = verificationToJson({1, 2, answer});
+  const auto back = verificationFrom(part);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(verificationToJson(*back), part);
+  for (const json& broken : {json({{"underlay", "scan"}}), json({{"underlay", "scan"}, {"proposals", {7}}})})
+    EXPECT_EQ(verificationFrom({{"basis", "1"}, {"rest", "2"}, {"answer", broken}}), nullptr) << broken;
 }
 
 }  // namespace

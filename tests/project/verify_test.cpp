@@ -166,7 +166,7 @@ TEST_F(Verify, IsKeptInTheProjectUntilSomethingElseIsTrue) {
   const auto back = loadProject(path("project"), progress);
   ASSERT_TRUE(back) << describe(back.error());
   ASSERT_TRUE(back->verification);
-  EXPECT_EQ(back->verification->answer, done->document.verification->answer);
+  EXPECT_EQ(AnswerValue<VerifyAnswer>::write(back->verification->answer)["materials"], done->answer["materials"]);
   EXPECT_TRUE(isCurrent(*back->verification, *back));
   EXPECT_FALSE(isCurrent(*back->verification, swapped(*back, "east0=rubber_black")));
   EXPECT_FALSE(
