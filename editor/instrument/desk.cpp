@@ -220,7 +220,7 @@ void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercis
   desk.host.reset();
   desk.rehearsal = *std::move(rehearsal);
   desk.adopted = desk.rehearsal->document().job;
-  desk.marks = nullptr;
+  desk.marks.reset();
   putWayAway(desk, editor);
   desk.watched = 0;
   desk.next_watched_s = 0;
@@ -230,7 +230,7 @@ void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercis
 void finishExercise(InstrumentDesk& desk, Editor& editor) {
   desk.marks = marksOf(*desk.rehearsal, desk.student, desk.rehearsal->device().state().language);
   desk.marks_folder = desk.rehearsal->folder();
-  if (auto written = writeMarks(*desk.rehearsal, desk.marks, desk.marks_folder); !written)
+  if (auto written = writeMarks(*desk.rehearsal, *desk.marks, desk.marks_folder); !written)
     desk.refused = describe(written.error());
   saveEnvironment(editor);
 }
@@ -240,7 +240,7 @@ void leaveExercise(InstrumentDesk& desk, Editor& editor) {
   saveEnvironment(editor);
   putWayAway(desk, editor);
   desk.rehearsal.reset();
-  desk.marks = nullptr;
+  desk.marks.reset();
   chooseDevice(desk, editor, *desk.device, desk.instrument);
 }
 

@@ -4,16 +4,16 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 #include "editor/model/desktop_opener.h"
 #include "editor/shell/editor.h"
 #include "emulated-ui/draw/device_view.h"
 #include "emulated-ui/host.h"
 #include "emulated-ui/menus.h"
+#include "emulated-ui/rehearsal/marks.h"
 #include "emulated-ui/rehearsal/rehearsal.h"
 
 namespace standpoint {
@@ -48,7 +48,7 @@ struct InstrumentDesk {
   std::vector<std::string> exercises_refused;  // files of the user's folder, and why
   bool exercises_read = false;
   std::string student;
-  nlohmann::json marks;  // of the exercise that was finished last
+  std::optional<Marks> marks;  // of the exercise that was finished last
   std::filesystem::path marks_folder;
   DesktopOpener opener;                // of the certificate
   std::shared_ptr<const Job> adopted;  // of the exercise's document, as the editor shows it
@@ -69,7 +69,7 @@ struct InstrumentDesk {
 
   Device* shown() { return rehearsal ? &rehearsal->device() : host ? &host->device() : nullptr; }
   // Marked: nothing more is done in it, and its clock stands.
-  bool ended() const { return rehearsal && !marks.is_null(); }
+  bool ended() const { return rehearsal && marks.has_value(); }
   DeviceHost* running() { return rehearsal ? &rehearsal->host() : host.get(); }
 };
 

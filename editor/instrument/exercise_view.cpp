@@ -169,24 +169,19 @@ void certificate(InstrumentDesk& desk, Editor& editor) {
 }
 
 void marks(InstrumentDesk& desk, Editor& editor) {
-  const auto& m = desk.marks;
-  ui::wrapped(fmt::format("{}: score {}, {} required", m["passed"].get<bool>() ? "Passed" : "Not passed",
-                          percentText(m["score"]), percentText(m["pass_mark"])));
+  const auto& m = *desk.marks;
+  ui::wrapped(fmt::format("{}: score {}, {} required", m.passed ? "Passed" : "Not passed", percentText(m.score),
+                          percentText(m.pass_mark)));
   if (const auto broken = brokenDemands(m); !broken.empty()) ui::wrapped("Required criterion not met: " + broken);
   certificate(desk, editor);
-  for (const auto& rule : m["rules"]) {
-    const bool held = rule["held"].get<bool>();
-    marked(held ? ICON_CHECK : "×", rule["text"].get<std::string>(), held ? kHeld : kBroken);
-    if (held) continue;
+  for (const auto& rule : m.rules) {
+    marked(rule.held ? ICON_CHECK : "×", rule.text, rule.held ? kHeld : kBroken);
+    if (rule.held) continue;
     const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
-    marked("", "found: " + rule["found_text"].get<std::string>(), dim);
-    if (rule.contains("because")) marked("", rule["because"].get<std::string>(), dim);
-    if (!rule.contains("proof") || rule["proof"]["value"] == "") continue;
-    const auto& proof = rule["proof"];
-    marked("",
-           fmt::format("Measured in the data: {} = {}", proof["fact"].get<std::string>(),
-                       proof["text"].get<std::string>()),
-           dim);
+    marked("", "found: " + rule.found_text, dim);
+    if (rule.because) marked("", *rule.because, dim);
+    if (!rule.proof || rule.proof->value == MarkedProof::Value("")) continue;
+    marked("", fmt::format("Measured in the data: {} = {}", rule.proof->fact, rule.proof->text), dim);
   }
   ui::gap(editor);
 }

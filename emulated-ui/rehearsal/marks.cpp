@@ -5,6 +5,7 @@
 #include <cmath>
 #include <ctime>
 #include <fstream>
+#include <map>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -15,8 +16,6 @@
 namespace standpoint {
 
 namespace {
-
-using nlohmann::json;
 
 // A hint costs half of its step.
 constexpr double kHinted = 0.5;
@@ -29,10 +28,16 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
-std::string cellText(const json& value) {
-  if (value.is_boolean()) return value.get<bool>() ? "1" : "0";
-  if (value.is_number()) return fmt::format("{}", value.get<double>());
-  return value.is_string() ? quoted(value.get<std::string>()) : std::string();
+std::string cellText(const char* text) { return quoted(text); }
+std::string cellText(const std::string& text) { return quoted(text); }
+std::string cellText(bool value) { return value ? "1" : "0"; }
+std::string cellText(double value) { return fmt::format("{}", value); }
+std::string cellText(const MarkedProof::Value& value) {
+  return std::visit([](const auto& one) { return cellText(one); }, value);
+}
+template <class T>
+std::string cellText(const std::optional<T>& value) {
+  return value ? cellText(*value) : std::string();
 }
 
 struct DeviceUnitRow {
@@ -151,206 +156,289 @@ std::string neverAsked(const Rehearsal& rehearsal, const ExerciseRule& rule, con
          words.text(type.definition.id, known ? never : "never.event", language);
 }
 
-json answersOf(const Rehearsal& rehearsal, const std::string& language) {
-  json answers = json::array();
+std::vector<MarkedAnswer> answersOf(const Rehearsal& rehearsal, const std::string& language) {
+  std::vector<MarkedAnswer> answers;
   for (const auto& question : rehearsal.exercise().questions) {
     const auto value = rehearsal.fact("answer." + question.id)->text;
-    answers.push_back({{"id", question.id},
-                       {"question", question.text.in(language)},
-                       {"value", value},
-                       {"answer", answerText(question, value, language)}});
+    answers.push_back({question.id, question.text.in(language), value, answerText(question, value, language)});
   }
   return answers;
 }
 
+MarkedStep markedStep(const ExerciseStep& step, const Rehearsal::StepState& state, const std::string& language) {
+  return {.id = step.id,
+          .text = step.text.in(language),
+          .expected = step.done.text(),
+          .done = state.done,
+          .at_s = state.done ? std::optional(state.at_s) : std::nullopt,
+          .hinted = state.hinted,
+          .points = state.done ? step.points * (state.hinted ? kHinted : 1) : 0,
+          .of = step.points};
+}
+
+MarkedRule markedRule(const Rehearsal& rehearsal, const ExerciseRule& rule, const Rehearsal::RuleState& state,
+                      const std::string& language) {
+  MarkedRule row{.id = rule.id,
+                 .text = rule.text.in(language),
+                 .expected = rule.holds.text(),
+                 .found = state.asked ? state.found : neverAsked(rehearsal, rule, language),
+                 .asked = state.asked,
+                 .held = state.held,
+                 .must = rule.must,
+                 .points = state.held ? rule.points : 0,
+                 .of = rule.points};
+  row.found_text = state.asked ? shownFacts(rehearsal, rule.holds, state.found, language) : row.found;
+  if (!state.held) {
+    row.broken_at_s = state.broken_at_s >= 0 ? std::optional(state.broken_at_s) : std::nullopt;
+    if (!rule.mistake.empty()) row.mistake = rule.mistake;
+    if (state.asked && !rule.because.texts.empty()) row.because = rule.because.in(language);
+  }
+  if (state.asked && !rule.proof.empty())
+    if (const auto proof = rehearsal.fact(rule.proof))
+      row.proof = {rule.proof, proof->number ? MarkedProof::Value(*proof->number) : MarkedProof::Value(proof->text),
+                   unitOf(rehearsal.device(), rule.proof), shownFact(rehearsal, rule.proof, *proof, language)};
+  return row;
+}
+
 }  // namespace
 
-json marksOf(const Rehearsal& rehearsal, const std::string& student, const std::string& language) {
+const AnswerFields<MarkedStep>& answerFields(const MarkedStep*) {
+  using A = MarkedStep;
+  static const AnswerFields<A> fields = {{"id", &A::id},         {"text", &A::text}, {"expected", &A::expected},
+                                         {"done", &A::done},     {"at_s", &A::at_s}, {"hinted", &A::hinted},
+                                         {"points", &A::points}, {"of", &A::of}};
+  return fields;
+}
+
+const AnswerFields<MarkedProof>& answerFields(const MarkedProof*) {
+  using A = MarkedProof;
+  static const AnswerFields<A> fields = {
+      {"fact", &A::fact}, {"value", &A::value}, {"unit", &A::unit}, {"text", &A::text}};
+  return fields;
+}
+
+const AnswerFields<MarkedRule>& answerFields(const MarkedRule*) {
+  using A = MarkedRule;
+  static const AnswerFields<A> fields = {{"id", &A::id},
+                                         {"text", &A::text},
+                                         {"expected", &A::expected},
+                                         {"found", &A::found},
+                                         {"found_text", &A::found_text},
+                                         {"asked", &A::asked},
+                                         {"held", &A::held},
+                                         {"must", &A::must},
+                                         {"points", &A::points},
+                                         {"of", &A::of},
+                                         {"at_s", &A::broken_at_s, kLeftOut},
+                                         {"mistake", &A::mistake, kLeftOut},
+                                         {"because", &A::because, kLeftOut},
+                                         {"proof", &A::proof, kLeftOut}};
+  return fields;
+}
+
+const AnswerFields<MarkedAnswer>& answerFields(const MarkedAnswer*) {
+  using A = MarkedAnswer;
+  static const AnswerFields<A> fields = {
+      {"id", &A::id}, {"question", &A::question}, {"value", &A::value}, {"answer", &A::answer}};
+  return fields;
+}
+
+const AnswerFields<Rehearsal::Failure>& answerFields(const Rehearsal::Failure*) {
+  using A = Rehearsal::Failure;
+  static const AnswerFields<A> fields = {{"at_s", &A::at_s}, {"reason", &A::reason}};
+  return fields;
+}
+
+const AnswerFields<MarkedFile>& answerFields(const MarkedFile*) {
+  using A = MarkedFile;
+  static const AnswerFields<A> fields = {{"file", &A::file}, {"station", &A::station}, {"points", &A::points}};
+  return fields;
+}
+
+const AnswerFields<Marks>& answerFields(const Marks*) {
+  using A = Marks;
+  static const AnswerFields<A> fields = {{"exercise", &A::exercise},
+                                         {"title", &A::title},
+                                         {"goal", &A::goal},
+                                         {"language", &A::language},
+                                         {"device", &A::device},
+                                         {"instrument", &A::instrument},
+                                         {"maker", &A::maker},
+                                         {"model", &A::model},
+                                         {"student", &A::student},
+                                         {"operator", &A::operator_name},
+                                         {"passed", &A::passed},
+                                         {"must_broken", &A::must_broken},
+                                         {"score", &A::score},
+                                         {"points", &A::points},
+                                         {"of", &A::of},
+                                         {"pass_mark", &A::pass_mark},
+                                         {"seconds", &A::seconds},
+                                         {"time_limit_s", &A::time_limit_s},
+                                         {"in_time", &A::in_time},
+                                         {"steps", &A::steps},
+                                         {"rules", &A::rules},
+                                         {"answers", &A::answers},
+                                         {"hints", &A::hints},
+                                         {"failures", &A::failures},
+                                         {"actions", &A::actions},
+                                         {"files", &A::files}};
+  return fields;
+}
+
+Marks marksOf(const Rehearsal& rehearsal, const std::string& student, const std::string& language) {
   const auto& e = rehearsal.exercise();
-  double points = 0, possible = 0;
-  json must_broken = json::array();
-  json steps = json::array(), rules = json::array();
+  const auto& device = rehearsal.device();
+  const auto& instrument = device.type().instrument;
+  Marks marks{.exercise = e.id,
+              .title = e.title.in(language),
+              .goal = e.goal.in(language),
+              .language = language,
+              .device = device.type().definition.title,
+              .instrument = instrument.id,
+              .maker = instrument.maker,
+              .model = instrument.model,
+              .student = student,
+              .operator_name = device.value("operator"),
+              .pass_mark = e.pass_mark,
+              .seconds = rehearsal.seconds(),
+              .time_limit_s = e.time_limit_s,
+              .in_time = !rehearsal.overTime()};
   for (std::size_t i = 0; i < e.steps.size(); ++i) {
-    const auto& step = e.steps[i];
-    const auto& state = rehearsal.steps()[i];
-    const double earned = state.done ? step.points * (state.hinted ? kHinted : 1) : 0;
-    points += earned;
-    possible += step.points;
-    steps.push_back({{"id", step.id},
-                     {"text", step.text.in(language)},
-                     {"expected", step.done.text()},
-                     {"done", state.done},
-                     {"at_s", state.done ? json(state.at_s) : json(nullptr)},
-                     {"hinted", state.hinted},
-                     {"points", earned},
-                     {"of", step.points}});
+    marks.steps.push_back(markedStep(e.steps[i], rehearsal.steps()[i], language));
+    marks.points += marks.steps.back().points;
+    marks.of += e.steps[i].points;
   }
   const auto judged = rehearsal.judge();
   for (std::size_t i = 0; i < e.rules.size(); ++i) {
-    const auto& rule = e.rules[i];
-    const auto& state = judged[i];
-    points += state.held ? rule.points : 0;
-    possible += rule.points;
-    if (rule.must && !state.held) must_broken.push_back(rule.id);
-    json row = {{"id", rule.id},
-                {"text", rule.text.in(language)},
-                {"expected", rule.holds.text()},
-                {"found", state.asked ? state.found : neverAsked(rehearsal, rule, language)},
-                {"found_text", state.asked ? shownFacts(rehearsal, rule.holds, state.found, language)
-                                           : neverAsked(rehearsal, rule, language)},
-                {"asked", state.asked},
-                {"held", state.held},
-                {"must", rule.must},
-                {"points", state.held ? rule.points : 0},
-                {"of", rule.points}};
-    if (!state.held) {
-      row["at_s"] = state.broken_at_s >= 0 ? json(state.broken_at_s) : json(nullptr);
-      if (!rule.mistake.empty()) row["mistake"] = rule.mistake;
-      if (state.asked && !rule.because.texts.empty()) row["because"] = rule.because.in(language);
-    }
-    if (state.asked && !rule.proof.empty())
-      if (const auto proof = rehearsal.fact(rule.proof))
-        row["proof"] = {{"fact", rule.proof},
-                        {"value", proof->number ? json(*proof->number) : json(proof->text)},
-                        {"unit", unitOf(rehearsal.device(), rule.proof)},
-                        {"text", shownFact(rehearsal, rule.proof, *proof, language)}};
-    rules.push_back(std::move(row));
+    const auto& rule = marks.rules.emplace_back(markedRule(rehearsal, e.rules[i], judged[i], language));
+    marks.points += rule.points;
+    marks.of += rule.of;
+    if (rule.must && !rule.held) marks.must_broken.push_back(rule.id);
   }
-  const double score = possible > 0 ? points / possible : 1;
-  json actions = json::array(), files = json::array(), failures = json::array();
-  for (const auto& failed : rehearsal.failures())
-    failures.push_back({{"at_s", failed.at_s}, {"reason", failed.reason}});
-  for (const auto& action : rehearsal.actions()) actions.push_back(toJson(action));
-  for (const auto& project : rehearsal.device().state().projects)
-    for (const auto& setup : project.setups)
-      files.push_back({{"file", setup.file}, {"station", setup.station}, {"points", setup.points}});
-  const bool in_time = !rehearsal.overTime();
-  const bool passed = must_broken.empty() && in_time && score >= e.pass_mark;
-  const auto& instrument = rehearsal.device().type().instrument;
-  return {{"exercise", e.id},
-          {"title", e.title.in(language)},
-          {"goal", e.goal.in(language)},
-          {"language", language},
-          {"device", rehearsal.device().type().definition.title},
-          {"instrument", instrument.id},
-          {"maker", instrument.maker},
-          {"model", instrument.model},
-          {"student", student},
-          {"operator", rehearsal.device().value("operator")},
-          {"passed", passed},
-          {"must_broken", std::move(must_broken)},
-          {"score", score},
-          {"points", points},
-          {"of", possible},
-          {"pass_mark", e.pass_mark},
-          {"seconds", rehearsal.seconds()},
-          {"time_limit_s", e.time_limit_s},
-          {"in_time", in_time},
-          {"steps", std::move(steps)},
-          {"rules", std::move(rules)},
-          {"answers", answersOf(rehearsal, language)},
-          {"hints", rehearsal.fact("hints")->number.value_or(0)},
-          {"failures", std::move(failures)},
-          {"actions", std::move(actions)},
-          {"files", std::move(files)}};
+  marks.score = marks.of > 0 ? marks.points / marks.of : 1;
+  marks.passed = marks.must_broken.empty() && marks.in_time && marks.score >= e.pass_mark;
+  marks.answers = answersOf(rehearsal, language);
+  marks.hints = rehearsal.fact("hints")->number.value_or(0);
+  marks.failures = rehearsal.failures();
+  marks.actions = rehearsal.actions();
+  for (const auto& project : device.state().projects)
+    for (const auto& setup : project.setups) marks.files.push_back({setup.file, setup.station, setup.points});
+  return marks;
 }
 
-std::string brokenDemands(const json& m) {
+std::string brokenDemands(const Marks& m) {
   std::string texts;
-  for (const auto& rule : m["rules"])
-    if (rule["must"].get<bool>() && !rule["held"].get<bool>())
-      texts += (texts.empty() ? "" : "; ") + rule["text"].get<std::string>();
+  for (const auto& rule : m.rules)
+    if (rule.must && !rule.held) texts += (texts.empty() ? "" : "; ") + rule.text;
   return texts;
 }
 
-std::string marksText(const json& m) {
-  std::string text = fmt::format("{} {} with {}: {}, score {} ({} required), {} device time\n",
-                                 m["exercise"].get<std::string>(), m["title"].get<std::string>(),
-                                 m["device"].get<std::string>(), m["passed"].get<bool>() ? "passed" : "not passed",
-                                 percentText(m["score"]), percentText(m["pass_mark"]), clockText(m["seconds"]));
-  if (!m["must_broken"].empty()) text += fmt::format("  required criterion not met: {}\n", brokenDemands(m));
-  if (!m["in_time"].get<bool>()) text += fmt::format("  over the time limit of {}\n", clockText(m["time_limit_s"]));
-  for (const auto& s : m["steps"])
-    text += fmt::format("  {} {}{}\n", s["done"].get<bool>() ? "[x]" : "[ ]", s["text"].get<std::string>(),
-                        s["hinted"].get<bool>() ? " (with a hint)" : "");
-  for (const auto& r : m["rules"]) {
-    text += fmt::format("  {} {}{}: {}\n", r["held"].get<bool>() ? "[x]" : "[ ]", r["text"].get<std::string>(),
-                        r["must"].get<bool>() ? " (required to pass)" : "", r["found_text"].get<std::string>());
-    if (r.contains("because")) text += fmt::format("        {}\n", r["because"].get<std::string>());
-    if (!r["held"].get<bool>() && r.contains("proof"))
-      text += fmt::format("        measured in the data: {} = {}\n", r["proof"]["fact"].get<std::string>(),
-                          r["proof"]["text"].get<std::string>());
+std::string marksText(const Marks& m) {
+  std::string text = fmt::format("{} {} with {}: {}, score {} ({} required), {} device time\n", m.exercise, m.title,
+                                 m.device, m.passed ? "passed" : "not passed", percentText(m.score),
+                                 percentText(m.pass_mark), clockText(m.seconds));
+  if (!m.must_broken.empty()) text += fmt::format("  required criterion not met: {}\n", brokenDemands(m));
+  if (!m.in_time) text += fmt::format("  over the time limit of {}\n", clockText(m.time_limit_s));
+  for (const auto& s : m.steps)
+    text += fmt::format("  {} {}{}\n", s.done ? "[x]" : "[ ]", s.text, s.hinted ? " (with a hint)" : "");
+  for (const auto& r : m.rules) {
+    text += fmt::format("  {} {}{}: {}\n", r.held ? "[x]" : "[ ]", r.text, r.must ? " (required to pass)" : "",
+                        r.found_text);
+    if (r.because) text += fmt::format("        {}\n", *r.because);
+    if (!r.held && r.proof)
+      text += fmt::format("        measured in the data: {} = {}\n", r.proof->fact, r.proof->text);
   }
-  for (const auto& a : m["answers"])
-    text += fmt::format("  {} {}\n", a["question"].get<std::string>(),
-                        a["value"] == "" ? "not answered" : a["answer"].get<std::string>());
-  for (const auto& f : m["failures"])
-    text += fmt::format("  failed after {}: {}\n", clockText(f["at_s"].get<double>()), f["reason"].get<std::string>());
+  for (const auto& a : m.answers)
+    text += fmt::format("  {} {}\n", a.question, a.value.empty() ? "not answered" : a.answer);
+  for (const auto& f : m.failures) text += fmt::format("  failed after {}: {}\n", clockText(f.at_s), f.reason);
   return text;
 }
 
-std::string marksCsv(const json& m) {
-  static constexpr const char* kColumns[] = {"exercise", "student", "device", "kind",  "id",      "text",    "expected",
-                                             "found",    "held",    "points", "of",    "must",    "mistake", "because",
-                                             "proof",    "value",   "unit",   "hints", "seconds", "passed"};
+std::string whyNotPassed(const Marks& m) {
+  std::string why = fmt::format("not passed: score {:.0f} %, {:.0f} % required", m.score * 100, m.pass_mark * 100);
+  for (const auto& id : m.must_broken) why += fmt::format("; required: '{}'", id);
+  return why + (m.in_time ? "" : "; over the time limit");
+}
+
+namespace {
+
+constexpr const char* kColumns[] = {"exercise", "student", "device", "kind",  "id",      "text",    "expected",
+                                    "found",    "held",    "points", "of",    "must",    "mistake", "because",
+                                    "proof",    "value",   "unit",   "hints", "seconds", "passed"};
+
+// Of a row of the table, by column; what is not there stays empty.
+using Cells = std::map<std::string_view, std::string>;
+
+Cells stepCells(const MarkedStep& s) {
+  return {{"kind", cellText("step")},
+          {"id", cellText(s.id)},
+          {"text", cellText(s.text)},
+          {"expected", cellText(s.expected)},
+          {"found", cellText(s.done ? "done" : "not done")},
+          {"held", cellText(s.done)},
+          {"points", cellText(s.points)},
+          {"of", cellText(s.of)},
+          {"hints", cellText(s.hinted)},
+          {"seconds", cellText(s.at_s)}};
+}
+
+Cells ruleCells(const MarkedRule& r) {
+  Cells cells = {{"kind", cellText("rule")},         {"id", cellText(r.id)},
+                 {"text", cellText(r.text)},         {"held", cellText(r.held)},
+                 {"expected", cellText(r.expected)}, {"found", cellText(r.found)},
+                 {"points", cellText(r.points)},     {"of", cellText(r.of)},
+                 {"must", cellText(r.must)},         {"mistake", cellText(r.mistake)},
+                 {"because", cellText(r.because)},   {"seconds", cellText(r.broken_at_s)}};
+  if (r.proof) {
+    cells["proof"] = cellText(r.proof->fact);
+    cells["value"] = cellText(r.proof->value);
+    cells["unit"] = cellText(r.proof->unit);
+  }
+  return cells;
+}
+
+}  // namespace
+
+std::string marksCsv(const Marks& m) {
   std::string csv;
   for (const char* column : kColumns) csv += (csv.empty() ? "" : ",") + std::string(column);
-  // Cells by column; what is not there stays empty.
-  const auto line = [&](json cells) {
-    for (const char* of_all : {"exercise", "student", "device"}) cells[of_all] = m[of_all];
+  const auto line = [&](Cells cells) {
+    cells["exercise"] = cellText(m.exercise);
+    cells["student"] = cellText(m.student);
+    cells["device"] = cellText(m.device);
     csv += "\r\n";
-    for (const char* column : kColumns)
-      csv += (column == kColumns[0] ? "" : ",") + cellText(cells.value(column, json()));
+    for (const char* column : kColumns) csv += (column == kColumns[0] ? "" : ",") + cells[column];
   };
-  for (const auto& s : m["steps"])
-    line({{"kind", "step"},
-          {"id", s["id"]},
-          {"text", s["text"]},
-          {"expected", s["expected"]},
-          {"found", s["done"].get<bool>() ? "done" : "not done"},
-          {"held", s["done"]},
-          {"points", s["points"]},
-          {"of", s["of"]},
-          {"hints", s["hinted"].get<bool>() ? 1 : 0},
-          {"seconds", s["at_s"]}});
-  for (const auto& r : m["rules"]) {
-    const auto proof = r.value("proof", json::object());
-    line({{"kind", "rule"},
-          {"id", r["id"]},
-          {"text", r["text"]},
-          {"expected", r["expected"]},
-          {"found", r["found"]},
-          {"held", r["held"]},
-          {"points", r["points"]},
-          {"of", r["of"]},
-          {"must", r["must"]},
-          {"mistake", r.value("mistake", json())},
-          {"because", r.value("because", json())},
-          {"proof", proof.value("fact", json())},
-          {"value", proof.value("value", json())},
-          {"unit", proof.value("unit", json())},
-          {"seconds", r.value("at_s", json())}});
-  }
-  for (const auto& a : m["answers"])
-    line({{"kind", "answer"}, {"id", a["id"]}, {"text", a["question"]}, {"found", a["answer"]}});
-  for (const auto& f : m["failures"])
-    line({{"kind", "failure"}, {"text", f["reason"]}, {"found", "failed"}, {"seconds", f["at_s"]}});
-  line({{"kind", "total"},
-        {"points", m["points"]},
-        {"of", m["of"]},
-        {"hints", m["hints"]},
-        {"seconds", m["seconds"]},
-        {"passed", m["passed"]}});
+  for (const auto& s : m.steps) line(stepCells(s));
+  for (const auto& r : m.rules) line(ruleCells(r));
+  for (const auto& a : m.answers)
+    line({{"kind", cellText("answer")},
+          {"id", cellText(a.id)},
+          {"text", cellText(a.question)},
+          {"found", cellText(a.answer)}});
+  for (const auto& f : m.failures)
+    line({{"kind", cellText("failure")},
+          {"text", cellText(f.reason)},
+          {"found", cellText("failed")},
+          {"seconds", cellText(f.at_s)}});
+  line({{"kind", cellText("total")},
+        {"points", cellText(m.points)},
+        {"of", cellText(m.of)},
+        {"hints", cellText(m.hints)},
+        {"seconds", cellText(m.seconds)},
+        {"passed", cellText(m.passed)}});
   return csv + "\r\n";
 }
 
-Result<void> writeMarks(const Rehearsal& rehearsal, const json& marks, const std::filesystem::path& folder) {
+Result<void> writeMarks(const Rehearsal& rehearsal, const Marks& marks, const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), folder.string());
-  const std::pair<const char*, std::string> kFiles[] = {{"result.json", marks.dump(2) + "\n"},
-                                                        {"result.csv", marksCsv(marks)},
-                                                        {"result.html", marksHtml(marks, rehearsal, today())}};
+  const std::pair<const char*, std::string> kFiles[] = {
+      {"result.json", AnswerValue<Marks>::write(marks).dump(2) + "\n"},
+      {"result.csv", marksCsv(marks)},
+      {"result.html", marksHtml(marks, rehearsal, today())}};
   for (const auto& [name, text] : kFiles) {
     std::ofstream out(folder / name, std::ios::binary);
     out << text;

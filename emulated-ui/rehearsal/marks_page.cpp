@@ -14,8 +14,6 @@ namespace standpoint {
 
 namespace {
 
-using nlohmann::json;
-
 constexpr const char* kStyle =
     "body{font:15px/1.45 sans-serif;color:#222;max-width:48em;margin:3em auto;padding:0 "
     "1em}h1{font-size:1.6em;margin:0}"
@@ -28,22 +26,22 @@ constexpr const char* kStyle =
 // The certificate in the making.
 class Page {
  public:
-  Page(const json& marks, const Rehearsal& rehearsal) : m_(marks), rehearsal_(rehearsal) {}
+  Page(const Marks& marks, const Rehearsal& rehearsal) : m_(marks), rehearsal_(rehearsal) {}
 
   std::string whole(const std::string& date) {
-    const auto title = htmlText(text(m_, "exercise") + " · " + text(m_, "title"));
+    const auto title = htmlText(m_.exercise + " · " + m_.title);
     html_ = fmt::format(
         "<!doctype html><html lang=\"{}\"><head><meta "
         "charset=\"utf-8\"><title>{}</title><style>{}</style></head><body>\n"
         "<small>{}</small><h1>{}</h1>\n",
-        htmlText(text(m_, "language")), title, kStyle, word("rehearsal"), title);
+        htmlText(m_.language), title, kStyle, word("rehearsal"), title);
     addOutcome();
     addAbout(date);
     addDemands();
     addAnswers();
-    for (const auto& f : m_["failures"])
-      html_ += fmt::format("<p class=\"no\">{}: {}</p>\n", word("failed", {{"{time}", clockText(f["at_s"])}}),
-                           htmlText(text(f, "reason")));
+    for (const auto& f : m_.failures)
+      html_ += fmt::format("<p class=\"no\">{}: {}</p>\n", word("failed", {{"{time}", clockText(f.at_s)}}),
+                           htmlText(f.reason));
     addPictures();
     return html_ + "<p><small>" + word("emulated") + "</small></p>\n</body></html>\n";
   }
@@ -51,24 +49,22 @@ class Page {
  private:
   using Places = std::initializer_list<std::pair<const char*, std::string>>;
 
-  static std::string text(const json& of, const char* name) { return of[name].get<std::string>(); }
-
   // Of the marks' words, with its places filled; to be put into the page as it is.
   std::string word(const std::string& key, Places places = {}) const {
-    auto out = rehearsal_.device().type().words->text({}, "marks." + key, text(m_, "language"));
+    auto out = rehearsal_.device().type().words->text({}, "marks." + key, m_.language);
     for (const auto& [place, by] : places) out = replaced(std::move(out), place, by);
     return htmlText(out);
   }
 
   void addOutcome() {
-    const bool passed = m_["passed"].get<bool>();
-    html_ += fmt::format(
-        "<p class=\"mark {}\"><b>{}</b>, {}</p>\n", passed ? "yes" : "no", word(passed ? "passed" : "not_passed"),
-        word("score", {{"{score}", percentText(m_["score"])}, {"{needed}", percentText(m_["pass_mark"])}}));
-    if (!m_["must_broken"].empty())
+    const bool passed = m_.passed;
+    html_ += fmt::format("<p class=\"mark {}\"><b>{}</b>, {}</p>\n", passed ? "yes" : "no",
+                         word(passed ? "passed" : "not_passed"),
+                         word("score", {{"{score}", percentText(m_.score)}, {"{needed}", percentText(m_.pass_mark)}}));
+    if (!m_.must_broken.empty())
       html_ += fmt::format("<p class=\"no\">{}: {}</p>\n", word("must_broken"), htmlText(brokenDemands(m_)));
-    if (!m_["in_time"].get<bool>())
-      html_ += fmt::format("<p class=\"no\">{}</p>\n", word("over_time", {{"{limit}", clockText(m_["time_limit_s"])}}));
+    if (!m_.in_time)
+      html_ += fmt::format("<p class=\"no\">{}</p>\n", word("over_time", {{"{limit}", clockText(m_.time_limit_s)}}));
   }
 
   void addAbout(const std::string& date) {
@@ -77,50 +73,49 @@ class Page {
     };
     const auto& words = *rehearsal_.device().type().words;
     html_ += "<table class=\"about\">\n";
-    row(word("student"), text(m_, "student"));
-    row(htmlText(words.text({}, "note.operator", text(m_, "language"))), text(m_, "operator"));
-    row(word("goal"), text(m_, "goal"));
-    row(word("instrument"), text(m_, "maker") + " " + text(m_, "model"));
+    row(word("student"), m_.student);
+    row(htmlText(words.text({}, "note.operator", m_.language)), m_.operator_name);
+    row(word("goal"), m_.goal);
+    row(word("instrument"), m_.maker + " " + m_.model);
     row(word("date"), date);
-    row(word("time"), clockText(m_["seconds"]));
-    row(word("hints"), fmt::format("{:.0f}", m_["hints"].get<double>()));
+    row(word("time"), clockText(m_.seconds));
+    row(word("hints"), fmt::format("{:.0f}", m_.hints));
     html_ += "</table>\n";
   }
 
-  void addDemand(const json& r, bool held, const std::string& found) {
-    std::string name = htmlText(text(r, "text"));
-    if (r.value("must", false)) name += "<br><small>" + word("must") + "</small>";
+  // A step or a rule.
+  template <class Demand>
+  void addDemand(const Demand& d, const std::string& name, bool held, const std::string& found) {
     html_ += fmt::format(
         "<tr><td class=\"{}\">{} {}</td><td><small>{}</small></td><td>{}</td><td class=\"n\">{:g} / {:g}</td></tr>\n",
-        held ? "yes" : "no", held ? "✓" : "✗", name, htmlText(text(r, "expected")), found, r["points"].get<double>(),
-        r["of"].get<double>());
+        held ? "yes" : "no", held ? "✓" : "✗", name, htmlText(d.expected), found, d.points, d.of);
   }
 
   void addDemands() {
     html_ += fmt::format("<table><tr><th>{}</th><th>{}</th><th>{}</th><th class=\"n\">{}</th></tr>\n", word("demand"),
                          word("expected"), word("found"), word("points"));
-    for (const auto& s : m_["steps"]) {
-      auto found = s["done"].get<bool>() ? word("after", {{"{time}", clockText(s["at_s"])}}) : "–";
-      if (s["hinted"].get<bool>()) found += "<br><small>" + word("hinted") + "</small>";
-      addDemand(s, s["done"], found);
+    for (const auto& s : m_.steps) {
+      auto found = s.done ? word("after", {{"{time}", clockText(*s.at_s)}}) : "–";
+      if (s.hinted) found += "<br><small>" + word("hinted") + "</small>";
+      addDemand(s, htmlText(s.text), s.done, found);
     }
-    for (const auto& r : m_["rules"]) {
-      auto found = htmlText(text(r, "found_text"));
-      if (r.contains("because")) found += "<br><small>" + htmlText(text(r, "because")) + "</small>";
-      if (r.contains("proof"))
-        found += fmt::format("<br><small>{}: {} = {}</small>", word("proof"), htmlText(text(r["proof"], "fact")),
-                             htmlText(text(r["proof"], "text")));
-      addDemand(r, r["held"], found);
+    for (const auto& r : m_.rules) {
+      auto found = htmlText(r.found_text);
+      if (r.because) found += "<br><small>" + htmlText(*r.because) + "</small>";
+      if (r.proof)
+        found += fmt::format("<br><small>{}: {} = {}</small>", word("proof"), htmlText(r.proof->fact),
+                             htmlText(r.proof->text));
+      addDemand(r, htmlText(r.text) + (r.must ? "<br><small>" + word("must") + "</small>" : ""), r.held, found);
     }
     html_ += "</table>\n";
   }
 
   void addAnswers() {
-    if (m_["answers"].empty()) return;
+    if (m_.answers.empty()) return;
     html_ += fmt::format("<table><tr><th>{}</th><th>{}</th></tr>\n", word("question"), word("answer"));
-    for (const auto& a : m_["answers"])
-      html_ += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", htmlText(text(a, "question")),
-                           a["value"] == "" ? word("unanswered") : htmlText(text(a, "answer")));
+    for (const auto& a : m_.answers)
+      html_ += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", htmlText(a.question),
+                           a.value.empty() ? word("unanswered") : htmlText(a.answer));
     html_ += "</table>\n";
   }
 
@@ -137,14 +132,14 @@ class Page {
       }
   }
 
-  const json& m_;
+  const Marks& m_;
   const Rehearsal& rehearsal_;
   std::string html_;
 };
 
 }  // namespace
 
-std::string marksHtml(const json& marks, const Rehearsal& rehearsal, const std::string& date) {
+std::string marksHtml(const Marks& marks, const Rehearsal& rehearsal, const std::string& date) {
   return Page(marks, rehearsal).whole(date);
 }
 

@@ -2,6 +2,7 @@
 #include "emulated-ui/rehearsal/rehearse_verb.h"
 
 #include <filesystem>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -13,8 +14,6 @@
 namespace standpoint {
 
 namespace {
-
-using nlohmann::json;
 
 struct RehearseOptions {
   std::string exercise;  // file or id; empty: they are listed
@@ -28,24 +27,72 @@ struct RehearseOptions {
   std::filesystem::path output = "rehearsal";
 };
 
-json listOf(const std::vector<KnownExercise>& known, const std::string& language) {
-  json rows = json::array();
-  for (const auto& one : known)
-    rows.push_back({{"id", one.exercise.id},
-                    {"title", one.exercise.title.in(language)},
-                    {"devices", one.exercise.devices},
-                    {"file", one.file.string()}});
-  return rows;
+struct ExerciseRow {
+  std::string id, title;
+  std::vector<std::string> devices;
+  std::filesystem::path file;
+};
+const AnswerFields<ExerciseRow>& answerFields(const ExerciseRow*) {
+  using A = ExerciseRow;
+  static const AnswerFields<A> fields = {
+      {"id", &A::id}, {"title", &A::title}, {"devices", &A::devices}, {"file", &A::file}};
+  return fields;
 }
 
-Result<Outcome> listExercises(const Document& document, const std::string& language) {
+struct ExerciseList {
+  std::vector<ExerciseRow> exercises;
+};
+const AnswerFields<ExerciseList>& answerFields(const ExerciseList*) {
+  static const AnswerFields<ExerciseList> fields = {{"exercises", &ExerciseList::exercises}};
+  return fields;
+}
+
+struct CheckFinding {
+  std::string severity, source, message;
+};
+const AnswerFields<CheckFinding>& answerFields(const CheckFinding*) {
+  using A = CheckFinding;
+  static const AnswerFields<A> fields = {{"severity", &A::severity}, {"source", &A::source}, {"message", &A::message}};
+  return fields;
+}
+
+struct CheckedFile {
+  std::string file, id;
+  bool sound = false;
+  std::vector<CheckFinding> findings;
+};
+const AnswerFields<CheckedFile>& answerFields(const CheckedFile*) {
+  using A = CheckedFile;
+  static const AnswerFields<A> fields = {
+      {"file", &A::file}, {"id", &A::id}, {"sound", &A::sound}, {"findings", &A::findings}};
+  return fields;
+}
+
+struct CheckedFiles {
+  bool sound = false;  // all of them
+  std::vector<CheckedFile> files;
+};
+const AnswerFields<CheckedFiles>& answerFields(const CheckedFiles*) {
+  using A = CheckedFiles;
+  static const AnswerFields<A> fields = {{"sound", &A::sound}, {"files", &A::files}};
+  return fields;
+}
+
+using RehearseAnswer = std::variant<ExerciseList, CheckedFiles, NamedDevices, DeviceNames, Marks>;
+using RehearseOutcome = Answered<RehearseAnswer>;
+
+RehearseOutcome listExercises(const Document& document, const std::string& language) {
   const auto known = knownExercises();
-  Outcome outcome{document, {{"exercises", listOf(known.readable, language)}}, {}, {}, {}};
+  RehearseOutcome outcome{document};
+  ExerciseList list;
+  for (const auto& [exercise, file] : known.readable) {
+    const auto title = exercise.title.in(language);
+    list.exercises.push_back({exercise.id, title, exercise.devices, file});
+    outcome.text += fmt::format("{:6} {}  ({})\n", exercise.id, title, fmt::join(exercise.devices, ", "));
+  }
   for (const auto& error : known.refused) outcome.report.warn(error.source, error.message);
   outcome.description = fmt::format("{} exercises", known.readable.size());
-  for (const auto& one : known.readable)
-    outcome.text += fmt::format("{:6} {}  ({})\n", one.exercise.id, one.exercise.title.in(language),
-                                fmt::join(one.exercise.devices, ", "));
+  outcome.answer = std::move(list);
   return outcome;
 }
 
@@ -68,58 +115,46 @@ Result<Report> findingsOf(const std::string& file, std::string& id, Progress& pr
 }
 
 // All files are checked, whatever is wrong with one of them.
-Result<Outcome> checkFiles(const Document& document, const std::vector<std::string>& files, Progress& progress) {
-  Outcome outcome{document, json::object(), {}, {}, {}};
-  json rows = json::array();
+Result<RehearseOutcome> checkFiles(const Document& document, const std::vector<std::string>& files,
+                                   Progress& progress) {
+  RehearseOutcome outcome{document};
+  CheckedFiles checked;
   std::size_t sound = 0;
   for (const auto& name : files) {
-    std::string id;
-    progress.stage("Checking " + name, static_cast<double>(rows.size()) / static_cast<double>(files.size()),
-                   static_cast<double>(rows.size() + 1) / static_cast<double>(files.size()));
-    TRY_ASSIGN(const auto report, findingsOf(name, id, progress));
-    json findings = json::array();
-    for (const auto& issue : report.issues)
-      findings.push_back({{"severity", issue.severity == Severity::loss ? "error" : "warning"},
-                          {"source", issue.source},
-                          {"message", issue.message}});
-    sound += report.losses() == 0 ? 1 : 0;
-    rows.push_back({{"file", name}, {"id", id}, {"sound", report.losses() == 0}, {"findings", std::move(findings)}});
-    outcome.text += fmt::format("{:8} {}\n", report.losses() == 0 ? "sound" : "refused", name);
-    for (const auto& issue : report.issues)
-      outcome.text += fmt::format("  {}: {}: {}\n", issue.severity == Severity::loss ? "error" : "warning",
-                                  issue.source, issue.message);
+    const auto done = static_cast<double>(checked.files.size()), all = static_cast<double>(files.size());
+    progress.stage("Checking " + name, done / all, (done + 1) / all);
+    CheckedFile row{name, {}, false, {}};
+    TRY_ASSIGN(const auto report, findingsOf(name, row.id, progress));
+    row.sound = report.losses() == 0;
+    sound += row.sound ? 1 : 0;
+    outcome.text += fmt::format("{:8} {}\n", row.sound ? "sound" : "refused", name);
+    for (const auto& issue : report.issues) {
+      const char* severity = issue.severity == Severity::loss ? "error" : "warning";
+      row.findings.push_back({severity, issue.source, issue.message});
+      outcome.text += fmt::format("  {}: {}: {}\n", severity, issue.source, issue.message);
+    }
+    checked.files.push_back(std::move(row));
   }
-  if (sound < rows.size())
-    outcome.report.lose("--check", fmt::format("{} of {} files are invalid", rows.size() - sound, rows.size()));
-  outcome.answer = {{"sound", sound == rows.size()}, {"files", std::move(rows)}};
+  checked.sound = sound == files.size();
+  if (!checked.sound)
+    outcome.report.lose("--check", fmt::format("{} of {} files are invalid", files.size() - sound, files.size()));
+  outcome.answer = std::move(checked);
   outcome.description = fmt::format("{} of {} exercises are valid", sound, files.size());
   return outcome;
 }
 
-Result<Outcome> listNames(const Document& document, const std::string& device) {
-  Outcome outcome{document, json::object(), {}, {}, {}};
+Result<RehearseOutcome> listNames(const Document& document, const std::string& device) {
   if (device.empty()) {
-    auto devices = deviceNames();
-    if (!devices) return failure(devices.error());
-    outcome.text = deviceNamesText(*devices);
-    outcome.answer = {{"devices", *std::move(devices)}};
-    return outcome;
+    TRY_ASSIGN(auto devices, namedDevices());
+    auto text = textOf(devices);
+    return RehearseOutcome{document, std::move(devices), {}, {}, std::move(text)};
   }
   TRY_ASSIGN(auto names, namesOf(device));
-  outcome.text = namesText(names);
-  outcome.answer = std::move(names);
-  return outcome;
+  auto text = textOf(names);
+  return RehearseOutcome{document, std::move(names), {}, {}, std::move(text)};
 }
 
-// Why it is not passed, in one line.
-std::string whyNotPassed(const json& marks) {
-  std::string why = fmt::format("not passed: score {:.0f} %, {:.0f} % required", marks["score"].get<double>() * 100,
-                                marks["pass_mark"].get<double>() * 100);
-  for (const auto& id : marks["must_broken"]) why += fmt::format("; required: '{}'", id.get<std::string>());
-  return why + (marks["in_time"].get<bool>() ? "" : "; over the time limit");
-}
-
-Result<Outcome> runRehearse(const Document& document, const RehearseOptions& options, Progress& progress) {
+Result<RehearseOutcome> runRehearse(const Document& document, const RehearseOptions& options, Progress& progress) {
   if (static_cast<int>(!options.exercise.empty()) + static_cast<int>(!options.check.empty()) +
           static_cast<int>(options.names) >
       1)
@@ -140,19 +175,19 @@ Result<Outcome> runRehearse(const Document& document, const RehearseOptions& opt
   }
   const auto& folder = options.output;
   TRY_ASSIGN(auto rehearsal, Rehearsal::start(known.exercise, options.device, folder, {}, progress));
-  Outcome outcome{document, json::object(), {}, {}, {}};
+  RehearseOutcome outcome{document};
   for (std::size_t i = 0; i < actions.size(); ++i)
     if (auto done = rehearsal->act(actions[i], progress); !done) {
       if (done.error().kind == ErrorKind::cancelled) return failure(done.error());
       outcome.report.warn(fmt::format("action {}", i),
                           describe(done.error()));  // the device refused; the student goes on
     }
-  outcome.answer = marksOf(*rehearsal, options.student, options.language);
-  TRY(writeMarks(*rehearsal, outcome.answer, folder));
-  outcome.text = marksText(outcome.answer);
-  if (!outcome.answer["passed"].get<bool>()) outcome.report.lose(known.exercise.id, whyNotPassed(outcome.answer));
-  outcome.description = fmt::format("Rehearsed {}: {}", known.exercise.id,
-                                    outcome.answer["passed"].get<bool>() ? "passed" : "not passed");
+  auto marks = marksOf(*rehearsal, options.student, options.language);
+  TRY(writeMarks(*rehearsal, marks, folder));
+  outcome.text = marksText(marks);
+  if (!marks.passed) outcome.report.lose(known.exercise.id, whyNotPassed(marks));
+  outcome.description = fmt::format("Rehearsed {}: {}", known.exercise.id, marks.passed ? "passed" : "not passed");
+  outcome.answer = std::move(marks);
   return outcome;
 }
 

@@ -165,7 +165,7 @@ TEST_F(Desk, WhatIsDoneInTheSurveyBelongsToTheExercise) {
   for (const auto& action : desk.rehearsal->exercise().solution) survey(action);
   EXPECT_EQ(editor.session.document().job, desk.rehearsal->document().job);
   finishExercise(desk, editor);
-  EXPECT_TRUE(desk.marks["passed"].get<bool>()) << desk.marks.dump(1);
+  EXPECT_TRUE(desk.marks->passed) << marksText(*desk.marks);
   EXPECT_EQ(desk.rehearsal->actions().size(), desk.rehearsal->exercise().solution.size()) << "for the replay";
 }
 

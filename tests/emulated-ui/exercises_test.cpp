@@ -39,10 +39,10 @@ const Exercise& exercise(const std::string& id) {
 
 // What came of it when `actions` were done; what the device refuses is left out, as a student would go on.
 struct CarriedOut {
-  nlohmann::json marks;
+  Marks marks;
   std::map<std::string, double> facts;
   std::vector<std::string> refused;
-  nlohmann::json marks_before;  // when all was prepared and nothing done yet
+  Marks marks_before;  // when all was prepared and nothing done yet
 };
 CarriedOut rehearse(const Exercise& exercise, const Actions& actions, const std::vector<std::string>& facts = {}) {
   TemporaryFolder folder;
@@ -80,8 +80,8 @@ std::string lines(const std::vector<std::string>& rows) {
 }
 
 bool held(const CarriedOut& outcome, const std::string& rule) {
-  for (const auto& row : outcome.marks.at("rules"))
-    if (row.at("id") == rule) return row.at("held").get<bool>();
+  for (const auto& row : outcome.marks.rules)
+    if (row.id == rule) return row.held;
   ADD_FAILURE() << "there is no rule " << rule;
   return true;
 }
@@ -98,11 +98,11 @@ TEST_P(ShippedExercise, IsSoundAndSpeaksThreeLanguages) {
 
 TEST_P(ShippedExercise, GivesAllPointsForItsOwnSolutionAndIsNotPassedByDoingNothing) {
   const auto& outcome = solved(GetParam());
-  ASSERT_TRUE(outcome.marks_before.is_object());
-  EXPECT_FALSE(outcome.marks_before.at("passed").get<bool>()) << marksText(outcome.marks_before);
+  ASSERT_FALSE(outcome.marks_before.exercise.empty());
+  EXPECT_FALSE(outcome.marks_before.passed) << marksText(outcome.marks_before);
   EXPECT_TRUE(outcome.refused.empty()) << lines(outcome.refused);
-  EXPECT_TRUE(outcome.marks.at("passed").get<bool>()) << marksText(outcome.marks);
-  EXPECT_DOUBLE_EQ(outcome.marks.at("score").get<double>(), 1) << marksText(outcome.marks);
+  EXPECT_TRUE(outcome.marks.passed) << marksText(outcome.marks);
+  EXPECT_DOUBLE_EQ(outcome.marks.score, 1) << marksText(outcome.marks);
 }
 
 // Every label that somebody sees on the exercise's devices, and what is written on the hands.
@@ -268,7 +268,7 @@ TEST(Mistake, AScanInTheOldJobLosesTheExercise) {
   const auto outcome =
       Mistaken("E02").without("create").without("first").without("name").without("new_job").without("job").outcome({});
   EXPECT_FALSE(held(outcome, "right_job"));
-  EXPECT_FALSE(outcome.marks.at("passed").get<bool>());
+  EXPECT_FALSE(outcome.marks.passed);
 }
 
 TEST(Mistake, TheFinestResolutionGivesSixteenTimesThePoints) {
@@ -296,8 +296,7 @@ TEST(Mistake, AWalkDownThePathIsNotRoundTheHouse) {
   const auto way = nlohmann::json::parse(
       "[[7.5, -6, 0], [7.5, -2, 12], [7.5, 1, 22], [7.5, -2, 32], [7.5, -30, 72], [7.5, -6, 108]]");
   const auto outcome = rehearse(exercise("E19"), {{Kind::walk, "", "", 0, way}}, {});
-  for (const auto& step : outcome.marks.at("steps"))
-    EXPECT_EQ(step.at("done").get<bool>(), step.at("id") != "length") << step;
+  for (const auto& step : outcome.marks.steps) EXPECT_EQ(step.done, step.id != "length") << step.id;
 }
 
 TEST(Mistake, AStationFarFromTheDoorJoinsNoRooms) {

@@ -83,7 +83,7 @@ class MarksTest : public testing::Test {
     const auto ok = rehearsal_->act(*actionFrom(action, "test", ""), quiet_);
     EXPECT_TRUE(ok) << describe(ok.error());
   }
-  json marks(const std::string& language = "en") { return marksOf(*rehearsal_, "=cmd|' /C calc'!A0", language); }
+  Marks marks(const std::string& language = "en") { return marksOf(*rehearsal_, "=cmd|' /C calc'!A0", language); }
   std::string page(const std::string& language = "en") { return marksHtml(marks(language), *rehearsal_, kDate); }
 
   TemporaryFolder folder_;
@@ -94,9 +94,9 @@ class MarksTest : public testing::Test {
 TEST_F(MarksTest, NameTheDemandsThatWereNeededToPassAndDidNotHold) {
   act({{"press", "manage"}});
   const auto m = marks();
-  EXPECT_FALSE(m["passed"].get<bool>());
-  EXPECT_GT(m["score"], m["pass_mark"]) << "the points alone would do";
-  EXPECT_EQ(m["must_broken"], json::array({"fine"}));
+  EXPECT_FALSE(m.passed);
+  EXPECT_GT(m.score, m.pass_mark) << "the points alone would do";
+  EXPECT_EQ(m.must_broken, std::vector<std::string>{"fine"});
   EXPECT_THAT(marksText(m), HasSubstr("required criterion not met: Low noise\n"));
   EXPECT_THAT(page(), HasSubstr("Required criterion not met: Low noise</p>"));
   for (const char* needed : {"Low noise", "Stay on"}) {
@@ -111,7 +111,7 @@ TEST_F(MarksTest, ShowTheAnswerInWordsNotItsKey) {
   EXPECT_THAT(marksText(marks()), HasSubstr("Why? not answered\n"));
   act({{"answer", "why"}, {"value", "key_a"}});
   const json answer = {{"id", "why"}, {"question", "Why?"}, {"value", "key_a"}, {"answer", "=1+1 & more"}};
-  EXPECT_EQ(marks()["answers"], json::array({answer}));
+  EXPECT_EQ(AnswerValue<Marks>::write(marks())["answers"], json::array({answer}));
   EXPECT_THAT(page(), HasSubstr("<td>Why?</td><td>=1+1 &amp; more</td>"));
   EXPECT_THAT(page(), Not(HasSubstr("key_a")));
   EXPECT_THAT(marksText(marks()), HasSubstr("Why? =1+1 & more\n"));
@@ -120,10 +120,10 @@ TEST_F(MarksTest, ShowTheAnswerInWordsNotItsKey) {
 TEST_F(MarksTest, AreRoundedForPeopleAndNotForMachines) {
   act({{"wait", 100}});
   const auto m = marks();
-  const auto& rule = m["rules"][0];
-  const double sigma = rule["proof"]["value"], battery = *rehearsal_->fact("battery")->number;
+  const auto& proof = *m.rules[0].proof;
+  const double sigma = std::get<double>(proof.value), battery = *rehearsal_->fact("battery")->number;
   EXPECT_EQ(sigma, *rehearsal_->fact("expected.sigma.25.10")->number);
-  EXPECT_EQ(rule["proof"]["unit"], "mm");
+  EXPECT_EQ(proof.unit, "mm");
   const auto shown_sigma = fmt::format("expected.sigma.25.10 = {:.3g} mm", sigma);
   ASSERT_NE(fmt::format("{:.3g}", sigma), fmt::format("{}", sigma)) << "it has something to round";
   const auto shown = shown_sigma + fmt::format(", battery = {:.3g} %", battery * 100);

@@ -108,11 +108,11 @@ TEST_F(RehearsalTest, ARuleThatNothingAskedSaysSoAndClaimsNoConsequence) {
                                                        {"uk", "Не оцінено: жодного скану не розпочато"}};
   for (const auto& [language, said] : kSaid) {
     const auto marks = marksOf(*rehearsal, "", language);
-    const auto& rule = marks["rules"][0];
-    EXPECT_EQ(rule["found"], said);
-    EXPECT_FALSE(rule["held"].get<bool>());
-    EXPECT_FALSE(rule.contains("because"));
-    EXPECT_FALSE(rule.contains("proof"));
+    const auto& rule = marks.rules[0];
+    EXPECT_EQ(rule.found, said);
+    EXPECT_FALSE(rule.held);
+    EXPECT_FALSE(rule.because);
+    EXPECT_FALSE(rule.proof);
     EXPECT_THAT(marksText(marks), HasSubstr(said));
     EXPECT_THAT(marksHtml(marks, *rehearsal, "2026-05-04"), HasSubstr(said));
   }
@@ -124,10 +124,10 @@ TEST_F(RehearsalTest, ARuleThatWasAskedAndDidNotHoldSaysWhatItMeans) {
   const auto rehearsal = start(text);
   ASSERT_TRUE(rehearsal);
   ASSERT_TRUE(act(*rehearsal, {{"press", "start_scan"}}));
-  const auto rule = marksOf(*rehearsal, "", "en")["rules"][0];
-  EXPECT_THAT(rule["found"].get<std::string>(), HasSubstr("tilt = "));
-  EXPECT_EQ(rule["because"], "The cloud leans.");
-  EXPECT_TRUE(rule.contains("proof"));
+  const auto rule = marksOf(*rehearsal, "", "en").rules[0];
+  EXPECT_THAT(rule.found, HasSubstr("tilt = "));
+  EXPECT_EQ(rule.because, "The cloud leans.");
+  EXPECT_TRUE(rule.proof);
   ASSERT_TRUE(act(*rehearsal, {{"finish", true}}));
 }
 
@@ -138,8 +138,8 @@ TEST_F(RehearsalTest, AFailedScanTellsItsReasonInTheMarks) {
   ASSERT_TRUE(act(*rehearsal, {{"press", "start_scan"}}));
   ASSERT_TRUE(act(*rehearsal, {{"finish", true}}));
   const auto marks = marksOf(*rehearsal, "", "en");
-  ASSERT_EQ(marks["failures"].size(), 1U);
-  const auto reason = marks["failures"][0]["reason"].get<std::string>();
+  ASSERT_EQ(marks.failures.size(), 1U);
+  const auto& reason = marks.failures[0].reason;
   EXPECT_THAT(reason, HasSubstr("Cannot create"));
   EXPECT_THAT(marksText(marks), HasSubstr(reason));
   EXPECT_THAT(marksCsv(marks), HasSubstr("Cannot create"));
