@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/answers.h"
+
 #include <charconv>
 
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "project/answers.h"
 
 namespace standpoint {
 
@@ -101,12 +102,6 @@ json toJson(const Bounds& bounds) {
 Bounds fileBounds(const Bounds& local, const Eigen::Vector3d& shift_m) {
   return local.empty() ? Bounds() : Bounds{local.min + shift_m, local.max + shift_m};
 }
-
-json toJson(const Bounds& bounds_local, const Eigen::Vector3d& shift_m) {
-  return toJson(fileBounds(bounds_local, shift_m));
-}
-
-json identity(const Product& product) { return AnswerValue<ProductIdentity>::write(identityOf(product)); }
 
 json poseToJson(const Pose& pose) { return AnswerValue<Pose>::write(pose); }
 

@@ -22,9 +22,7 @@ Eigen::Vector3d vectorFrom(const nlohmann::json& array);  // of three numbers
 nlohmann::json toJson(const Bounds& bounds);              // null when empty
 nlohmann::json toJson(const Report& report);
 nlohmann::json poseToJson(const Pose& pose);
-nlohmann::json toJson(const Bounds& bounds_local, const Eigen::Vector3d& shift_m);  // file frame; null when empty
 Pose poseFrom(const nlohmann::json& pose);
-nlohmann::json identity(const Product& product);  // id, GlobalId, class, name
 nlohmann::json georeferenceToJson(const Georeference& georeference);
 Result<Georeference> georeferenceFrom(const nlohmann::json& object);
 

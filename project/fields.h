@@ -241,11 +241,11 @@ nlohmann::json jobOptions(const Fields<O>& fields, const O& options) {
   return result;
 }
 
-namespace fields {
-
-template <class O, class Run>
-Verb verbOf(const char* name, const char* summary, VerbScope scope, const Fields<O>& fields, Run run) {
-  Verb verb{name, summary, scope, {}, {}};
+// The entry of the table of verbs for a typed function: options from JSON before it, its answer to JSON after it.
+template <class O, class A>
+Verb verbOf(const char* name, const char* summary, VerbScope scope, const Fields<O>& fields,
+            Result<Answered<A>> (*run)(const Document&, const O&, Progress&)) {
+  Verb verb{name, summary, scope, {}, {}, AnswerValue<A>::names()};
   for (const auto& field : fields) verb.parameters.push_back(field.parameter);
   verb.options_type = typeid(O);
   verb.job_options = [&fields](const std::any& options) {
@@ -254,31 +254,10 @@ Verb verbOf(const char* name, const char* summary, VerbScope scope, const Fields
   verb.run = [&fields, run](const Document& document, const nlohmann::json& checked,
                             Progress& progress) -> Result<Outcome> {
     TRY_ASSIGN(const auto options, optionsFrom(fields, checked));
-    return run(document, options, progress);
-  };
-  return verb;
-}
-
-}  // namespace fields
-
-// The entry of the table of verbs for a typed function: options from JSON before it, its answer to JSON after it.
-template <class O, class A>
-Verb verbOf(const char* name, const char* summary, VerbScope scope, const Fields<O>& fields,
-            Result<Answered<A>> (*run)(const Document&, const O&, Progress&)) {
-  const auto typed = [run](const Document& document, const O& options, Progress& progress) -> Result<Outcome> {
     TRY_ASSIGN(auto answered, run(document, options, progress));
     return outcomeOf(std::move(answered));
   };
-  auto verb = standpoint::fields::verbOf(name, summary, scope, fields, typed);
-  verb.answer_names = AnswerValue<A>::names();
   return verb;
-}
-
-// Of one that writes its answer itself.
-template <class O>
-Verb verbOf(const char* name, const char* summary, VerbScope scope, const Fields<O>& fields,
-            Result<Outcome> (*run)(const Document&, const O&, Progress&)) {
-  return standpoint::fields::verbOf(name, summary, scope, fields, run);
 }
 
 }  // namespace standpoint

@@ -205,7 +205,7 @@ json underlaysToJson(const Underlays& underlays, const fs::path& project_folder)
                     {"file", near ? relative.string() : u->file},
                     {"format", u->format},
                     {"points", u->points},
-                    {"bounds", toJson(u->bounds_cloud_m, Eigen::Vector3d::Zero())},
+                    {"bounds", toJson(u->bounds_cloud_m)},
                     {"pose", poseToJson(u->file_from_cloud)},
                     {"crs", u->crs},
                     {"visible", u->visible}});
