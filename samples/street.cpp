@@ -53,9 +53,11 @@ void furnishStreet(Grounds& grounds) {
                   "Stainless steel", ".USERDEFINED.", "LAMP POST");
   const int car = grounds.carMap();
   number = 0;
-  for (const double x : {-12.0, 5.0, 11.5, 28.0})
-    grounds.place("IFCBUILDINGELEMENTPROXY", car, fmt::format("Car {}", ++number), {x, -17.1, -0.27},
-                  {number % 2 == 0 ? 1.0 : -1.0, 0}, "Car paint", ".USERDEFINED.", "CAR");
+  for (const double x : {-12.0, 5.0, 11.5, 28.0}) {
+    const P2 ahead{number++ % 2 == 0 ? 1.0 : -1.0, 0};
+    grounds.place("IFCBUILDINGELEMENTPROXY", car, fmt::format("Car {}", number), {x, -17.1, -0.27}, ahead, "Car paint",
+                  ".USERDEFINED.", "CAR");
+  }
 }
 
 }  // namespace
