@@ -17,19 +17,6 @@ void arrange(std::vector<T>& values, const std::vector<std::size_t>& order) {
   values = std::move(arranged);
 }
 
-// What nanoflann wants to know of the points.
-struct Cloud {
-  const std::vector<Eigen::Vector3f>& places;
-  std::size_t kdtree_get_point_count() const { return places.size(); }
-  float kdtree_get_pt(std::size_t i, std::size_t axis) const { return places[i][static_cast<Eigen::Index>(axis)]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-
-using KdTree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud>, Cloud, 3, std::size_t>;
-
 }  // namespace
 
 void ScanPoints::clear() {
@@ -73,6 +60,18 @@ std::optional<std::size_t> GridIndex::at(std::int64_t column, std::int64_t row) 
 }
 
 struct NearestPoints::Tree {
+  // What nanoflann wants to know of the points.
+  struct Cloud {
+    const std::vector<Eigen::Vector3f>& places;
+    std::size_t kdtree_get_point_count() const { return places.size(); }
+    float kdtree_get_pt(std::size_t i, std::size_t axis) const { return places[i][static_cast<Eigen::Index>(axis)]; }
+    template <class Box>
+    bool kdtree_get_bbox(Box&) const {
+      return false;
+    }
+  };
+  using KdTree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud>, Cloud, 3, std::size_t>;
+
   Cloud cloud;
   KdTree index;
   explicit Tree(const ScanPoints& points)

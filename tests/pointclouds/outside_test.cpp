@@ -31,13 +31,12 @@ std::string output(const std::string& command) {
 bool installed(const std::string& program) { return !output("command -v " + program).empty(); }
 
 Result<void> writeWithPictures(CloudWriter& writer, const ScanHeader& header) {
-  using Projection = StationPicture::Projection;
   PointBlock block;
   for (std::uint32_t c = 0; c < header.columns; ++c) testing::appendColumn(block, header, c);
   return writer.begin(header)
-      .and_then([&] { return writer.picture(testing::madeUpPicture(Projection::spherical)); })
+      .and_then([&] { return writer.picture(testing::madeUpPicture(StationPicture::Projection::spherical)); })
       .and_then([&] { return writer.write(block); })
-      .and_then([&] { return writer.picture(testing::madeUpPicture(Projection::pinhole, 2051)); })
+      .and_then([&] { return writer.picture(testing::madeUpPicture(StationPicture::Projection::pinhole, 2051)); })
       .and_then([&] { return writer.end(); });
 }
 

@@ -193,8 +193,11 @@ TEST(MaterialsVerb, TellsPeopleWhatIsThereAndHowToGoOn) {
   EXPECT_THAT(text, HasSubstr("--because"));
   const auto& first = d.imported->products.back();
   EXPECT_EQ(first.name, "table");
-  for (const auto& f : outcome->answer.at("findings"))  // each kind's first can be named
-    if (f.at("kind") == "gap") EXPECT_THAT(text, HasSubstr(f.at("id").get<std::string>()));
+  for (const auto& f : outcome->answer.at("findings")) {  // each kind's first can be named
+    if (f.at("kind") == "gap") {
+      EXPECT_THAT(text, HasSubstr(f.at("id").get<std::string>()));
+    }
+  }
 }
 
 TEST(MaterialsVerb, QuotesSelectorsForTheShell) {
