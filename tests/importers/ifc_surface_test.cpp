@@ -113,6 +113,45 @@ TEST(IfcSurface, ASweepAlongACurveInTheParametersOfItsPlane) {
   EXPECT_NEAR(boundsOf(model, "#110").max.z(), 2.1, 1e-4);  // the plane's x is the model's z
 }
 
+// A curve in the XY plane, turned around the y axis through `axis`.
+std::string turned(const std::string& curve, const std::string& position = "#2", const std::string& axis = "#1") {
+  return curve + "#240=IFCARBITRARYOPENPROFILEDEF(.CURVE.,$,#230);\n#241=IFCDIRECTION((0.,1.,0.));\n" +
+         "#242=IFCAXIS1PLACEMENT(" + axis + ",#241);\n#243=IFCSURFACEOFREVOLUTION(#240," + position + ",#242);\n" +
+         product(110, "IFCPLATE", "#243", "Surface3D");
+}
+const std::string kSlant =
+    "#228=IFCCARTESIANPOINT((1.,0.));\n#229=IFCCARTESIANPOINT((2.,3.));\n#230=IFCPOLYLINE((#228,#229));\n";
+
+TEST(IfcSurface, ARevolvedLineIsTheSideOfACone) {
+  const ImportedModel model = importText(ifcText(turned(kSlant)));
+  EXPECT_EQ(model.report.losses(), 0U) << issuesOf(model);
+  EXPECT_NEAR(areaOf(model, "#110") / (std::numbers::pi * (1 + 2) * std::sqrt(1 + 9)), 1, 0.002);
+  expectNear(boundsOf(model, "#110").max, {2, 3, 2}, 1e-5);
+  expectNear(boundsOf(model, "#110").min, {-2, 0, -2}, 1e-5);
+}
+
+TEST(IfcSurface, ARevolvedArcThatEndsOnItsAxisIsAClosedBall) {
+  const ImportedModel model = importText(
+      ifcText(turned("#226=IFCCARTESIANPOINTLIST2D(((0.,-1.),(1.,0.),(0.,1.)));\n#230=IFCINDEXEDPOLYCURVE(#226,("
+                     "IFCARCINDEX((1,2,3))),.F.);\n")));
+  EXPECT_EQ(model.report.losses(), 0U) << issuesOf(model);
+  EXPECT_NEAR(areaOf(model, "#110") / (4 * std::numbers::pi), 1, 0.005);
+  EXPECT_NEAR(volumeOf(model, "#110") / (4 * std::numbers::pi / 3), 1, 0.005);
+}
+
+TEST(IfcSurface, TheAxisOfARevolutionMayBeStatedInTheFrameOfTheShape) {
+  const std::string raised = "#220=IFCCARTESIANPOINT((10.,0.,5.));\n#221=IFCAXIS2PLACEMENT3D(#220,$,$);\n";
+  const ImportedModel model = importText(ifcText(raised + turned(kSlant, "#221", "#220")));
+  expectNear(boundsOf(model, "#110").max, {12, 3, 7}, 1e-5);
+}
+
+TEST(IfcSurface, ACurveOnItsAxisOfRevolutionIsNamedAsLost) {
+  const ImportedModel model = importText(
+      ifcText(turned("#228=IFCCARTESIANPOINT((0.,0.));\n#229=IFCCARTESIANPOINT((0.,3.));\n#230=IFCPOLYLINE((#228,#229))"
+                     ";\n")));
+  EXPECT_TRUE(tells(model, "#243", "no area")) << issuesOf(model);
+}
+
 // Half of the upper hemisphere, from +x over +y to −x: two meridians and half of the equator, in any order.
 ImportedModel quarterBall(const std::string& radius, const std::string& edges) {
   return importText(ifcText(

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces that are bodies on their own: of no thickness, but a beam meets them.
 #include <algorithm>
+#include <numbers>
 
 #include "importers/ifc/shapes/curve.h"
 #include "importers/ifc/shapes/faceted.h"
 #include "importers/ifc/shapes/placement.h"
 #include "importers/ifc/shapes/profile.h"
 #include "importers/ifc/shapes/solid.h"
+#include "importers/ifc/shapes/surfaces.h"
 
 namespace standpoint::ifc {
 namespace {
@@ -136,6 +138,38 @@ Result<geometry::PolyMesh> extrudedSurface(const Entity& entity, Scope& scope) {
     mesh.faces.push_back(std::move(face));
   }
   geometry::transform(mesh, Eigen::Affine3d(axisPlacement(entity.ref(1), scope)));
+  return mesh;
+}
+
+// A whole turn of the curve around the axis.
+Result<geometry::PolyMesh> revolvedSurface(const Entity& entity, Scope& scope) {
+  TRY_ASSIGN(auto path, profileCurve(entity.ref(0), scope));
+  if (path.points.size() < 2) return fail(entity, "the revolved surface has no area");
+  if (path.closed) path.points.push_back(path.points.front());
+  const Eigen::Isometry3d position = axisPlacement(entity.ref(1), scope);
+  const Axis axis = axisOfRevolution(entity, position, scope);
+  double radius_m = 0;
+  for (const auto& p : path.points) radius_m = std::max(radius_m, axis.direction.cross(p - axis.point).norm());
+  constexpr double kWholeTurn_rad = 2 * std::numbers::pi;
+  const auto segments =
+      static_cast<std::uint32_t>(geometry::segmentCount(radius_m, kWholeTurn_rad, scope.tessellation));
+  const auto length = static_cast<std::uint32_t>(path.points.size());
+  if (!scope.spend(static_cast<std::size_t>(segments) * length)) return fail(entity, "too many points");
+  geometry::PolyMesh mesh;
+  for (std::uint32_t k = 0; k < segments; ++k) {
+    const Eigen::AngleAxisd turn(kWholeTurn_rad * k / segments, axis.direction);
+    for (const auto& p : path.points) mesh.points.push_back(axis.point + turn * (p - axis.point));
+  }
+  for (std::uint32_t k = 0; k < segments; ++k)
+    for (std::uint32_t i = 0; i + 1 < length; ++i) {
+      const std::uint32_t here = k * length + i, there = (k + 1) % segments * length + i;
+      geometry::Face face;
+      face.outer = {here, here + 1, there + 1, there};
+      mesh.faces.push_back(std::move(face));
+    }
+  geometry::orientOutward(mesh);  // and welds: at the axis four points are three
+  if (mesh.faces.empty()) return fail(entity, "the revolved surface has no area");
+  geometry::transform(mesh, Eigen::Affine3d(position));
   return mesh;
 }
 

@@ -124,7 +124,7 @@ constexpr std::array kMappings{
     bent("IFCBSPLINESURFACEWITHKNOTS", bSplineSurface),
     bent("IFCRATIONALBSPLINESURFACEWITHKNOTS", bSplineSurface),
     Mapping{"IFCSURFACEOFLINEAREXTRUSION", extrudedSurface, nullptr, nullptr, surfaceOfLinearExtrusion},
-    bent("IFCSURFACEOFREVOLUTION", surfaceOfRevolution),
+    Mapping{"IFCSURFACEOFREVOLUTION", revolvedSurface, nullptr, nullptr, surfaceOfRevolution},
     Mapping{"IFCCURVEBOUNDEDPLANE", curveBoundedPlane, nullptr, nullptr, basisSurface},
     Mapping{"IFCCURVEBOUNDEDSURFACE", curveBoundedSurface, nullptr, nullptr, basisSurface},
     Mapping{"IFCRECTANGULARTRIMMEDSURFACE", rectangularTrimmedSurface, nullptr, nullptr, basisSurface},

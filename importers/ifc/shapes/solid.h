@@ -17,6 +17,7 @@ Result<geometry::PolyMesh> curveBoundedPlane(const Entity&, Scope&);
 Result<geometry::PolyMesh> curveBoundedSurface(const Entity&, Scope&);
 Result<geometry::PolyMesh> rectangularTrimmedSurface(const Entity&, Scope&);
 Result<geometry::PolyMesh> extrudedSurface(const Entity&, Scope&);
+Result<geometry::PolyMesh> revolvedSurface(const Entity&, Scope&);
 Result<geometry::PolyMesh> geometricSet(const Entity&, Scope&);
 Result<geometry::PolyMesh> sweptDiskSolid(const Entity&, Scope&);
 Result<geometry::PolyMesh> curveSweptAreaSolid(const Entity&, Scope&);

@@ -297,16 +297,19 @@ Result<SurfacePtr> surfaceOfLinearExtrusion(const Entity& e, Scope& s) {
                                     direction(e.ref(2), Eigen::Vector3d::UnitZ()));
 }
 
-Result<SurfacePtr> surfaceOfRevolution(const Entity& e, Scope& s) {
-  TRY_ASSIGN(auto path, sweptCurve(e, s));
-  const Eigen::Isometry3d position = axisPlacement(e.ref(1), s);
-  Axis axis = axis1Placement(e.ref(2), s);
+Axis axisOfRevolution(const Entity& e, const Eigen::Isometry3d& position, const Scope& s) {
+  const Axis axis = axis1Placement(e.ref(2), s);
   // The axis lies in the plane of the profile. Revit states it in the frame of the shape, not of the surface's
   // position.
   const auto in_plane = [](const Axis& a) { return std::abs(a.point.z()) < 1e-4 && std::abs(a.direction.z()) < 1e-4; };
   const Axis of_shape{position.inverse() * axis.point, position.linear().transpose() * axis.direction};
-  if (!in_plane(axis) && in_plane(of_shape)) axis = of_shape;
-  return std::make_shared<Revolved>(std::move(path), position, axis);
+  return !in_plane(axis) && in_plane(of_shape) ? of_shape : axis;
+}
+
+Result<SurfacePtr> surfaceOfRevolution(const Entity& e, Scope& s) {
+  TRY_ASSIGN(auto path, sweptCurve(e, s));
+  const Eigen::Isometry3d position = axisPlacement(e.ref(1), s);
+  return std::make_shared<Revolved>(std::move(path), position, axisOfRevolution(e, position, s));
 }
 
 }  // namespace standpoint::ifc

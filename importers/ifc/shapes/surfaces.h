@@ -2,6 +2,7 @@
 #pragma once
 
 #include "importers/ifc/shapes/mapping.h"
+#include "importers/ifc/shapes/placement.h"
 #include "importers/ifc/shapes/profile.h"
 
 namespace standpoint::ifc {
@@ -14,5 +15,7 @@ Result<SurfacePtr> toroidalSurface(const Entity&, Scope&);
 Result<SurfacePtr> bSplineSurface(const Entity&, Scope&);
 Result<SurfacePtr> surfaceOfLinearExtrusion(const Entity&, Scope&);
 Result<SurfacePtr> surfaceOfRevolution(const Entity&, Scope&);
+// Of an IfcSurfaceOfRevolution, in the frame of its position.
+Axis axisOfRevolution(const Entity& entity, const Eigen::Isometry3d& position, const Scope& scope);
 
 }  // namespace standpoint::ifc
