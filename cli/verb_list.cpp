@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/verb_list.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace standpoint {
@@ -25,20 +27,37 @@ std::string spelling(const Parameter& p) {
   return (std::string_view(p.name) == "output" ? "-o, --" : "--") + std::string(p.name);
 }
 
-std::string usage(const Verb& verb) {
-  std::string line = fmt::format("standpoint {}", verb.name);
+// With what it needs, and without what may be left out.
+std::string call(const Verb& verb) {
+  std::string line = verb.name;
   if (verb.scope == VerbScope::changes || verb.scope == VerbScope::reads) line += " PROJECT";
-  for (const auto& p : verb.parameters)
+  for (const auto& p : verb.parameters) {
     if (p.positional) line += p.required ? " " + spelling(p) : " [" + spelling(p) + "]";
-  return line + " [OPTIONS]";
+    if (!p.positional && p.required)
+      line += std::string_view(p.name) == "output" ? " -o OUT" : " " + spelling(p) + " …";
+  }
+  return verb.scope == VerbScope::creates ? line + " -o PROJECT" : line;
+}
+
+// `page` with a row for each verb below the head of its table of verbs, where it has one.
+std::string withTable(std::span<const Verb> verbs, std::string page) {
+  const auto head = page.find(kVerbTableHead);
+  if (head == std::string::npos) return page;
+  const auto first = head + std::string_view(kVerbTableHead).size();
+  auto end = first;
+  while (page.compare(end, 1, "|") == 0) end = std::min(page.find('\n', end), page.size() - 1) + 1;
+  std::string rows;
+  for (const auto& verb : verbs)
+    rows += fmt::format("| [`{}`](#{}) | {} |\n", call(verb), verb.name, inCell(verb.summary));
+  return page.replace(first, end - first, rows);
 }
 
 }  // namespace
 
 std::string verbList(std::span<const Verb> verbs, const std::string& introduction) {
-  std::string page = introduction + kVerbListMark;
+  std::string page = withTable(verbs, introduction) + kVerbListMark;
   for (const auto& verb : verbs) {
-    page += fmt::format("\n## {}\n\n{}.\n\n`{}`\n\n", verb.name, verb.summary, usage(verb));
+    page += fmt::format("\n## {}\n\n{}.\n\n`standpoint {} [OPTIONS]`\n\n", verb.name, verb.summary, call(verb));
     page += "| option | value | default | effect |\n|---|---|---|---|\n";
     for (const auto& p : verb.parameters)
       page +=

@@ -34,5 +34,15 @@ TEST(VerbList, SaysWhatAnOptionMayBeAndWhatItIsWhereNothingIsSaid) {
   EXPECT_NE(page.find("| `height` | a number in m from 0 to 3 | required | above the floor |"), std::string::npos);
 }
 
+TEST(VerbList, MakesTheRowsOfTheTableOfVerbsAnew) {
+  const std::vector<Verb> two = {{"make", "Make a model", VerbScope::creates, {}, {}},
+                                 {"cut", "Cut a model", VerbScope::changes, {}, {}}};
+  const auto page = verbList(two, std::string("Intro\n\n") + kVerbTableHead + "| old | row |\n\nMore\n");
+  EXPECT_TRUE(page.starts_with(std::string("Intro\n\n") + kVerbTableHead +
+                               "| [`make -o PROJECT`](#make) | Make a model |\n"
+                               "| [`cut PROJECT`](#cut) | Cut a model |\n\nMore\n"))
+      << page;
+}
+
 }  // namespace
 }  // namespace standpoint
