@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "importers/ifc/shapes/mapping.h"
 #include "tests/importers/ifc_fixture.h"
 
 namespace standpoint::test {
@@ -53,6 +54,30 @@ TEST(IfcHostile, AFileCutAnywhereIsAnErrorOrALossAndNeverACrash) {
       EXPECT_FALSE(model.error().source.empty()) << "cut at " << size;
     }
   }
+}
+
+// A body of that kind made from #100.
+std::string bodyOf(const ifc::Mapping& mapping) {
+  if (mapping.item) return product(110, "IFCPLATE", "#100", "Brep");
+  if (mapping.curve) return "#101=IFCSWEPTDISKSOLID(#100,0.1,$,$,$);\n" + product(110, "IFCPLATE", "#101");
+  if (mapping.profile) return "#101=IFCEXTRUDEDAREASOLID(#100,$,#4,1.);\n" + product(110, "IFCPLATE", "#101");
+  return "#101=IFCRECTANGULARTRIMMEDSURFACE(#100,0.,0.,1.,1.,.T.,.T.);\n" +
+         product(110, "IFCPLATE", "#101", "Surface3D");
+}
+
+TEST(IfcHostile, EveryEntityOfTheTableSurvivesAttributesOfAnyKind) {
+  for (const ifc::Mapping& mapping : ifc::mappings())
+    for (const std::string attribute : {"", "$", "#100", "#1", "#7", "#999", "(#100,#100)", "(#1,#6)", "()",
+                                        "((1.,2.))", "1.", "0.", "-1.", "3", ".T.", "'x'", "*"}) {
+      std::string all = attribute;
+      for (int i = 1; i < 14 && !attribute.empty(); ++i) all += "," + attribute;
+      const std::string record = "#100=" + std::string(mapping.entity) + "(" + all + ");\n";
+      const auto start = Clock::now();
+      const ImportedModel model = importText(ifcText(record + bodyOf(mapping)));
+      EXPECT_LT(secondsSince(start), 5) << record;
+      EXPECT_EQ(validate(model.environment), "") << record;
+      EXPECT_TRUE(!model.environment.instances.empty() || issuesOf(model).find("#110") != std::string::npos) << record;
+    }
 }
 
 TEST(IfcHostile, ChangedBytesNeverCrashOrHang) {

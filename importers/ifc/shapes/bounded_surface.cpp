@@ -180,10 +180,14 @@ Result<geometry::PolyMesh> geometricSet(const Entity& entity, Scope& scope) {
     const Mapping* mapping = scope.model.mapping_of_type[element.type()];
     if (!mapping || !mapping->item) continue;
     const auto part = item(element, scope);
-    if (part)
+    if (part) {
       geometry::append(mesh, *part);
-    else
-      scope.report.lose(element.place(), "has no geometry: " + part.error().message);
+      continue;
+    }
+    scope.report.lose(element.place(), "has no geometry: " + part.error().message);
+    // A part that fails does not end the set, so sets that contain themselves would fail twice as often at each depth.
+    constexpr std::size_t kCostOfAFailure = Scope::kMost / 10'000;
+    if (!scope.spend(kCostOfAFailure)) return fail(entity, "too many parts of the set have no geometry");
   }
   if (mesh.faces.empty()) return fail(entity, "the set contains no surface");
   return mesh;

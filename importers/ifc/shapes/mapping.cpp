@@ -149,6 +149,8 @@ Result<T> guarded(Result<T> (*function)(const Entity&, Scope&), const Entity& en
 
 }  // namespace
 
+std::span<const Mapping> mappings() { return kMappings; }
+
 std::vector<const Mapping*> mappingOfTypes(const StepFile& file) {
   std::vector<const Mapping*> mappings;
   for (const std::string& name : file.typeNames()) {

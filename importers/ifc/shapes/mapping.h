@@ -3,6 +3,7 @@
 
 // The table from entity names to functions. A new entity is a function in a file of its own and a line in mapping.cpp.
 
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -29,6 +30,8 @@ struct Mapping {
   Result<Regions> (*profile)(const Entity&, Scope&) = nullptr;
   Result<SurfacePtr> (*surface)(const Entity&, Scope&) = nullptr;
 };
+
+std::span<const Mapping> mappings();  // the table
 
 std::shared_ptr<CurveCache> newCurveCache();
 
