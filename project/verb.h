@@ -107,7 +107,7 @@ std::string domainOf(const Parameter& parameter);
 // Fills in defaults and checks kinds, domains, unknown and missing options; errors name the option and what it may be.
 Result<nlohmann::json> checkOptions(const Verb& verb, const nlohmann::json& options);
 
-// checkOptions, then run. Every door goes through here.
+// checkOptions, then run; `changes` and `reads` need a model. Every door goes here, so what import makes is not null.
 Result<Outcome> runVerb(const Verb& verb, const Document& document, const nlohmann::json& options, Progress& progress);
 
 }  // namespace standpoint

@@ -45,17 +45,31 @@ std::vector<Eigen::Vector3d> pointList(const Entity& list, const Scope& scope); 
 // A directrix cut to [start, end] in its own parameter; the whole where neither is given.
 Result<Path> trimmedDirectrix(const Entity& directrix, const Value& start, const Value& end, Scope& scope);
 
+// The rows of the table, grouped by the file that they are in.
+// curve.cpp
 Result<Path> polyline(const Entity&, Scope&);
 Result<Path> line(const Entity&, Scope&);
-Result<Path> compositeCurve(const Entity&, Scope&);
 Result<Path> indexedPolyCurve(const Entity&, Scope&);
+
+// curve_composite.cpp
+Result<Path> compositeCurve(const Entity&, Scope&);
+
+// curve_conic.cpp
 Result<Path> conicCurve(const Entity&, Scope&);
 Result<Path> trimmedCurve(const Entity&, Scope&);
+
+// bspline.cpp
 Result<Path> bSplineCurve(const Entity&, Scope&);
+
+// curve_offset.cpp
 Result<Path> offsetCurve(const Entity&, Scope&);
+
+// curve_on_surface.cpp
 Result<Path> surfaceCurve(const Entity&, Scope&);
 Result<Path> pcurve(const Entity&, Scope&);
-Entity spatialCurve(const Entity& surface_curve);   // its curve in space, else its curve on a surface
+Entity spatialCurve(const Entity& surface_curve);  // its curve in space, else its curve on a surface
+
+// alignment_curve.cpp, alignment_cant.cpp
 Result<Path> alignmentPlan(const Entity&, Scope&);  // a composite curve of IfcCurveSegments
 Result<Path> gradientCurve(const Entity&, Scope&);
 Result<Path> segmentedReferenceCurve(const Entity&, Scope&);

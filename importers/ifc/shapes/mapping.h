@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The table from entity names to functions. A new entity is a function in a file of its own and a line in mapping.cpp.
+// The table from entity names to functions. A new entity is a function in the file of its kind, its declaration
+// (solid.h, curve.h, profile.h, surfaces.h) and a line in mapping.cpp. A function reads the entity's attributes by
+// index (model/step_file.h) and what it refers to by the calls below.
 
 #include <span>
 #include <vector>
@@ -23,7 +25,7 @@ struct Path {  // a curve as points in metres; of 2D curves z is 0
 };
 using Regions = std::vector<geometry::Region2>;
 
-struct Mapping {
+struct Mapping {       // an entity may be of several kinds
   const char* entity;  // upper case
   Result<geometry::PolyMesh> (*item)(const Entity&, Scope&) = nullptr;
   Result<Path> (*curve)(const Entity&, Scope&) = nullptr;

@@ -7,6 +7,7 @@
 
 namespace standpoint::ifc {
 
+// All in surface.cpp.
 Result<SurfacePtr> planeSurface(const Entity&, Scope&);
 Result<SurfacePtr> basisSurface(const Entity&, Scope&);  // of a trimmed or bounded one: a face brings its own bounds
 Result<SurfacePtr> cylindricalSurface(const Entity&, Scope&);
