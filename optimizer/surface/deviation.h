@@ -15,11 +15,6 @@ namespace standpoint {
 inline constexpr std::uint32_t kDeviationSamples =
     50'000;  // on all placed surfaces, each way; of the whole more where few places hold the loss
 
-struct SurfacePoint {
-  std::uint32_t triangle = 0;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-};
-
 // One point per equal share of the area, at a random place in its triangle. The same key gives the same points.
 std::vector<SurfacePoint> pointsByArea(std::span<const Eigen::Vector3d> positions, std::span<const Triangle> triangles,
                                        std::uint32_t count, const RandomKey& key);

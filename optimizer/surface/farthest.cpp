@@ -73,6 +73,7 @@ class Search {
         rounding_squared_(std::pow(way.from.rounding(), 2)) {}
 
   double maxSquared() const { return max_squared_; }
+  const Vector3d& place() const { return place_; }  // of the farthest, where one was further than what was known
   // `fresh`: of a dense mesh which corners (the lower three bits) and middles of edges are to be looked at.
   void lookThrough(std::uint32_t triangle, const std::uint8_t* fresh);
 
@@ -95,7 +96,12 @@ class Search {
 
   const OneWaySurfaces& way_;
   const bool only_whether_;
+  void take(const Vector3d& p, double squared) {
+    if (squared > max_squared_) max_squared_ = squared, place_ = p;
+  }
+
   double max_squared_, rounding_squared_;
+  Vector3d place_ = Vector3d::Zero();
   std::uint32_t lately_ = kNoFarthest;  // what was near enough for the piece before
   int pieces_ = 0;                      // of the triangle that is searched
   Corner before_[3];
@@ -142,7 +148,7 @@ void Search::search(const Region& piece, int deepest) {
       middle, lately_ != kNoFarthest ? way_.squaredDistance(middle, lately_) : std::numeric_limits<double>::infinity());
   if (near.triangle != kNoFarthest) lately_ = near.triangle;
   if (lately_ == kNoFarthest) return;
-  max_squared_ = std::max(max_squared_, near.squared);
+  take(middle, near.squared);
   double radius = 0;
   for (const auto& p : piece) radius = std::max(radius, (p - middle).norm());
   const double furthest =
@@ -191,7 +197,7 @@ void Search::lookAt(const Vector3d& p) {
   if (known <= max_squared_) return;
   const auto near = way_.tree.nearestTriangle(p, known, max_squared_);
   if (near.triangle != kNoFarthest) lately_ = near.triangle;
-  max_squared_ = std::max(max_squared_, near.squared);
+  take(p, near.squared);
 }
 
 void Search::lookAtMiddles(const std::array<Vector3d, 3>& t, std::uint8_t fresh) {
@@ -251,6 +257,22 @@ double OneWaySurfaces::squaredDistance(const Vector3d& p, std::uint32_t triangle
 }
 
 double farthestSquared(const OneWaySurfaces& way, double known_squared) { return searched(way, known_squared, false); }
+
+std::vector<SurfacePoint> placesFurther(const OneWaySurfaces& way, double squared) {
+  const auto triangles = way.from.triangles.size();
+  if (triangles + way.to.triangles.size() > kMostSearched) return {};
+  std::vector<std::vector<SurfacePoint>> parts((triangles + kFarthestChunk - 1) / kFarthestChunk);
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
+    for (auto i = part * kFarthestChunk; i < std::min(triangles, (part + 1) * kFarthestChunk); ++i) {
+      Search search(way, squared, false);
+      search.lookThrough(static_cast<std::uint32_t>(i), nullptr);
+      if (search.maxSquared() > squared) parts[part].push_back({static_cast<std::uint32_t>(i), search.place()});
+    }
+  });
+  std::vector<SurfacePoint> places;
+  for (const auto& part : parts) places.insert(places.end(), part.begin(), part.end());
+  return places;
+}
 
 bool isAnyFurther(const OneWaySurfaces& way, double squared) { return searched(way, squared, true) > squared; }
 

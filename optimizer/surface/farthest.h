@@ -26,6 +26,10 @@ struct OneWaySurfaces {
 // of threads.
 double farthestSquared(const OneWaySurfaces& way, double known_squared);
 
+// Of each triangle of `from` that has points further than that, the farthest that was found. Nothing where both
+// together have more than 200 000 triangles.
+std::vector<SurfacePoint> placesFurther(const OneWaySurfaces& way, double squared);
+
 // Whether a point is further than that, with the same doubts; much faster, as most pieces cannot be.
 bool isAnyFurther(const OneWaySurfaces& way, double squared);
 

@@ -24,6 +24,11 @@ struct Shape {
   double rounding() const;
 };
 
+struct SurfacePoint {
+  std::uint32_t triangle = 0;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+};
+
 // What weld() took away.
 struct WeldCounts {
   std::uint64_t positions = 0, degenerate = 0, repeated = 0;

@@ -49,20 +49,35 @@ TEST(Farthest, FindsTheTipThatNoSampleHits) {
   EXPECT_FALSE(isAnyFurther(pair.way, 0.301 * 0.301));
 }
 
-// A large triangle over a surface with a hole: the middle of the hole, which no vertex is near to.
-TEST(Farthest, FindsTheMiddleOfAHole) {
+// 0.6 m wide about x 0.8, y -0.4.
+Shape squareWithHole() {
   Shape holed = square(40);
   std::erase_if(holed.triangles, [&](const Triangle& t) {
     const Vector3d middle = (holed.positions[t[0]] + holed.positions[t[1]] + holed.positions[t[2]]) / 3;
-    return std::abs(middle.x() - 0.8) < 0.3 && std::abs(middle.y() + 0.4) < 0.5;  // 0.6 m wide
+    return std::abs(middle.x() - 0.8) < 0.3 && std::abs(middle.y() + 0.4) < 0.5;
   });
   holed.surface_of_triangle.resize(holed.triangles.size());
-  const Pair pair{square(1), holed};
+  return holed;
+}
+
+// A large triangle over a surface with a hole: the middle of the hole, which no vertex is near to.
+TEST(Farthest, FindsTheMiddleOfAHole) {
+  const Pair pair{square(1), squareWithHole()};
   const double found = std::sqrt(farthestSquared(pair.way, 0));
   EXPECT_LE(found, 0.3 + 1e-12);
   EXPECT_GE(found, 0.3 / 1.04);
   EXPECT_TRUE(isAnyFurther(pair.way, 0.29 * 0.29));
   EXPECT_FALSE(isAnyFurther(pair.way, 0.301 * 0.301));
+}
+
+TEST(Farthest, NamesThePlaceInEachTriangleThatIsFar) {
+  const Pair pair{square(1), squareWithHole()};
+  const auto places = placesFurther(pair.way, 0.25 * 0.25);
+  ASSERT_EQ(places.size(), 1U);  // the hole is below one of the two triangles
+  EXPECT_NEAR(places[0].position.x(), 0.8, 0.05);
+  EXPECT_EQ(places[0].position.z(), 0);
+  EXPECT_GE(pair.tree.squaredDistance(places[0].position), 0.25 * 0.25);
+  EXPECT_TRUE(placesFurther(pair.way, 0.301 * 0.301).empty());
 }
 
 TEST(Weld, TakesBothZerosAndTurnedTrianglesForTheSame) {

@@ -21,8 +21,9 @@ constexpr std::string_view kSmoothEngine = "cgal-lt";  // of least mean deviatio
 constexpr std::size_t kMostForOthers = 400'000;        // triangles that an engine other than ours begins with
 constexpr std::size_t kLastSteps = 6;     // times the triangles that are left: where only the last steps differ
 constexpr double kAllowedMaximum = 1.03;  // of the least maximum of all engines: below 1.05 by any measure
+constexpr int kThoroughRounds = 10;       // of least squares
 constexpr std::size_t kFittedByMean = 2;  // forms of least mean that are fitted
-constexpr double kPressing[] = {0.85, 0.75, 0.65};  // of the least maximum: where distances are far
+constexpr double kPressing[] = {0.95, 0.95, 0.9, 0.85, 0.75};  // of the least maximum: where distances are far
 constexpr int kRepairs = 6;
 constexpr std::size_t kRepairFrom = 6;  // times the triangles that are left
 constexpr double kFarSpot = 0.95;       // of the least maximum: points do not find all of it
@@ -76,8 +77,8 @@ std::vector<Attempt> attemptsFor(const FormRequest& request, bool thorough) {
 class Choice {
  public:
   // The first `whole` forms are what each engine makes of the shape by itself.
-  Choice(const FormRequest& request, std::vector<EngineForm> forms, std::size_t whole)
-      : request_(request), forms_(std::move(forms)) {
+  Choice(const FormRequest& request, std::vector<EngineForm> forms, std::size_t whole, bool thorough)
+      : request_(request), rounds_(thorough ? kThoroughRounds : FitTarget{}.rounds), forms_(std::move(forms)) {
     for (std::size_t i = 0; i < whole; ++i) {
       least_mean_m_ = std::min(least_mean_m_, forms_[i].deviation.mean_m);
       least_max_m_ = std::min(least_max_m_, forms_[i].deviation.max_m);
@@ -109,6 +110,7 @@ class Choice {
   bool markFarSpots(const Shape& form, const Shape& start, std::vector<bool>& stays) const;
 
   const FormRequest& request_;
+  int rounds_;
   std::vector<EngineForm> forms_;
   double least_mean_m_ = std::numeric_limits<double>::infinity(), least_max_m_ = least_mean_m_;
 };
@@ -119,7 +121,7 @@ bool Choice::fit(std::size_t which, double max_m, const Progress& progress) {
   player.at(steps.size());
   Shape form = forms_[which].form;
   form.wedges = player.wedges();
-  const auto moves = fitted(request_.shape, request_.tree, form, {max_m, request_.seed}, progress);
+  const auto moves = fitted(request_.shape, request_.tree, form, {max_m, rounds_, request_.seed}, progress);
   if (moves.empty()) return false;
   steps.insert(steps.end(), moves.begin(), moves.end());
   auto made = measured(request_, std::move(steps), forms_[which].engine);
@@ -135,7 +137,7 @@ bool Choice::markFarSpots(const Shape& form, const Shape& start, std::vector<boo
   for (const auto& t : start.triangles)
     for (const auto v : t)
       if (!seen[v]) seen[v] = true, free.push_back(v);
-  auto spots = farSpots(request_.shape, request_.tree, form, {kFarSpot * least_max_m_, request_.seed});
+  auto spots = farSpots(request_.shape, request_.tree, form, {.max_m = kFarSpot * least_max_m_, .seed = request_.seed});
   std::stable_sort(spots.begin(), spots.end(),
                    [](const auto& a, const auto& b) { return a.distance_m > b.distance_m; });
   for (const auto& spot : spots) {
@@ -226,7 +228,7 @@ EngineForm bestForm(const FormRequest& request, EngineForm own, bool thorough, c
     forms.push_back(std::move(*attempt.made));
     if (attempt.whole) whole = forms.size();
   }
-  Choice choice(request, std::move(forms), whole);
+  Choice choice(request, std::move(forms), whole, thorough);
   choice.fitNearest(thorough, progress);
   if (thorough) choice.press(progress);
   if (thorough)

@@ -11,6 +11,7 @@
 #include <tbb/parallel_for.h>
 
 #include "optimizer/surface/deviation.h"
+#include "optimizer/surface/farthest.h"
 #include "optimizer/surface/manifold.h"
 
 namespace standpoint {
@@ -20,7 +21,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr int kRounds = 6;
 constexpr std::size_t kPointsPerTriangle = 8, kFewestPoints = 20'000, kMostPoints = 200'000;
 constexpr std::size_t kMostVertices = 400'000;  // of the shape, that are looked at beside the points
 constexpr int kSolverSteps = 40;
@@ -82,8 +82,10 @@ class Fitter {
   FitTarget target_;
   std::vector<bool> held_;
   std::vector<SurfacePoint> points_;  // of the shape
-  std::vector<Foot> feet_;            // of the points, then of the shape's vertices, then of places on the form
-  std::size_t from_vertices_ = 0, from_form_ = 0;
+  // Of the points, of the shape's vertices, of the farthest place of each triangle that is far, then of places on the
+  // form.
+  std::vector<Foot> feet_;
+  std::size_t from_vertices_ = 0, from_far_ = 0;
   std::vector<Normal> normals_;
   std::vector<double> stay_;
   std::vector<Vector3d> moves_;
@@ -100,7 +102,7 @@ Fitter::Fitter(const Shape& shape, const TriangleTree& tree, const Shape& form, 
       static_cast<std::uint32_t>(std::clamp(kPointsPerTriangle * form.triangles.size(), kFewestPoints, kMostPoints));
   points_ = pointsByArea(shape.positions, shape.triangles, count, {target.seed, 7});
   from_vertices_ = points_.size();
-  from_form_ = from_vertices_ + (shape.positions.size() <= kMostVertices ? shape.positions.size() : 0);
+  from_far_ = from_vertices_ + (shape.positions.size() <= kMostVertices ? shape.positions.size() : 0);
 }
 
 void Fitter::setFoot(Foot& foot, const Vector3d& place, const Vector3d& goal) const {
@@ -111,25 +113,36 @@ void Fitter::setFoot(Foot& foot, const Vector3d& place, const Vector3d& goal) co
 
 void Fitter::takeFeet() {
   const TriangleTree tree(form_.positions, form_.triangles);
+  const auto farPlaces = [&](const Shape& from, const Shape& to, const TriangleTree& tree_of_to) {
+    const std::vector<std::uint32_t> unknown;
+    const double near_m = kNearLimit * target_.max_m;
+    return near_m > 0 ? placesFurther({from, to, tree_of_to, unknown}, near_m * near_m) : std::vector<SurfacePoint>();
+  };
+  const auto far = farPlaces(shape_, form_, tree);
   auto on_form =
       pointsByArea(form_.positions, form_.triangles, static_cast<std::uint32_t>(points_.size()), {target_.seed, 8});
   const auto by_area = on_form.size();
   for (std::uint32_t i = 0; i < form_.triangles.size(); ++i)  // spikes have little area
     for (int k = 0; k < 3; ++k) on_form.push_back({i, at(i, k)});
-  feet_.resize(from_form_ + on_form.size());
+  const auto far_on_form = farPlaces(form_, shape_, tree_);
+  on_form.insert(on_form.end(), far_on_form.begin(), far_on_form.end());
+  const auto first_on_form = from_far_ + far.size();
+  feet_.resize(first_on_form + on_form.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, feet_.size(), kFitChunk), [&](const auto& range) {
     for (auto i = range.begin(); i < range.end(); ++i) {
       Foot& foot = feet_[i];
-      if (i < from_form_) {
-        const Vector3d& p = i < from_vertices_ ? points_[i].position : shape_.positions[i - from_vertices_];
+      if (i < first_on_form) {
+        const Vector3d& p = i < from_vertices_ ? points_[i].position
+                            : i < from_far_    ? shape_.positions[i - from_vertices_]
+                                               : far[i - from_far_].position;
         foot.triangle = tree.nearestTriangle(p).triangle;
         foot.share = i < from_vertices_ ? 0.5 / static_cast<double>(from_vertices_) : 0;
         setFoot(foot, closestPoint(p, at(foot.triangle, 0), at(foot.triangle, 1), at(foot.triangle, 2)), p);
       } else {
-        const auto& point = on_form[i - from_form_];
+        const auto& point = on_form[i - first_on_form];
         const auto& t = shape_.triangles[tree_.nearestTriangle(point.position).triangle];
         foot.triangle = point.triangle;
-        foot.share = i - from_form_ < by_area ? 0.5 / static_cast<double>(by_area) : 0;
+        foot.share = i - first_on_form < by_area ? 0.5 / static_cast<double>(by_area) : 0;
         setFoot(foot, point.position,
                 closestPoint(point.position, shape_.positions[t[0]], shape_.positions[t[1]], shape_.positions[t[2]]));
       }
@@ -275,14 +288,14 @@ std::vector<Collapse> Fitter::run(const Progress& progress) {
   const auto before = form_.positions;
   auto best = before;
   Distances least;
-  for (int round = 0; round <= kRounds && !progress.cancelled(); ++round) {
+  for (int round = 0; round <= target_.rounds && !progress.cancelled(); ++round) {
     takeFeet();
     const auto now = distances();
     if (round == 0 || now.isBetterThan(least, target_.max_m)) {
       least = now;
       best = form_.positions;
     }
-    if (round == kRounds) break;
+    if (round == target_.rounds) break;
     sumEquations(now.mean_m);
     solve();
     apply();

@@ -12,6 +12,7 @@ namespace standpoint {
 
 struct FitTarget {
   double max_m = 0;        // places further from the shape than that weigh more and more
+  int rounds = 6;          // of least squares
   std::uint32_t seed = 0;  // of the points at which distances are taken: others than those that measure the result
 };
 
