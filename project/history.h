@@ -26,6 +26,7 @@ class History {
 
   // For the title's "modified" mark: is the current value the one that was saved?
   void markSaved() { saved_ = position_; }
+  void markUnsaved() { saved_ = kNeverSaved; }
   bool modified() const { return saved_ != position_; }
 
  private:

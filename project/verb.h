@@ -81,6 +81,9 @@ struct Verb {
   // The struct of its options, and what a job file would say for one; of a verb that is typed.
   std::type_index options_type = typeid(void);
   std::function<nlohmann::json(const std::any& options)> job_options = {};
+  // Of a verb that is too long to be run again: its change from `base` to `result`, made to the project as others have
+  // written it meanwhile.
+  std::function<Document(const Document& base, const Document& result, const Document& newest)> carry_over = {};
 };
 
 // The options of a verb as code gives them; their type says which verb is meant: start(StationOptions{.add = "S1"}).

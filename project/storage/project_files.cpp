@@ -22,6 +22,7 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr const char* kProjectFile = "project.json";
+constexpr int kMostAttempts = 20;                          // to read a project that others replace meanwhile
 constexpr auto kReplace = json::error_handler_t::replace;  // of a name that is not UTF-8 the bytes that are wrong
 
 tl::unexpected<Error> cannotWrite(const fs::path& file) {
@@ -46,12 +47,16 @@ Result<void> writeText(const fs::path& file, const std::string& text) {
   return {};
 }
 
-Result<json> readJson(const fs::path& file) {
-  TRY_ASSIGN(auto text, readText(file));
+Result<json> jsonFrom(const std::string& text, const fs::path& file) {
   json value = json::parse(text, nullptr, false);
   if (value.is_discarded())
     return failure(ErrorKind::unusable, "invalid JSON: the file is damaged or not a Standpoint project", file.string());
   return value;
+}
+
+Result<json> readJson(const fs::path& file) {
+  TRY_ASSIGN(const auto text, readText(file));
+  return jsonFrom(text, file);
 }
 
 // Parts are stored under the name of their content, so an unchanged part is not written again and an old project.json
@@ -131,6 +136,27 @@ Result<Document> fromJson(const json& project, const fs::path& folder, Progress&
   return d;
 }
 
+// `text` is that of the folder's project.json.
+Result<Document> loadedFrom(const std::string& text, const fs::path& folder, Progress& progress) {
+  const auto file = folder / kProjectFile;
+  TRY_ASSIGN(const auto project, jsonFrom(text, file));
+  try {
+    const int version = project.at("version").get<int>();
+    if (version > kProjectVersion)
+      return failure(ErrorKind::unusable,
+                     fmt::format("the project was created by a newer version of Standpoint (project version {}, "
+                                 "supported: {}); update Standpoint",
+                                 version, kProjectVersion),
+                     file.string() + " /version");
+    TRY_ASSIGN(auto document, fromJson(project, folder, progress));
+    document.name = fs::absolute(folder).filename().string();
+    if (auto wrong = inconsistency(document); !wrong.empty()) return failure(ErrorKind::unusable, wrong, file.string());
+    return document;
+  } catch (const json::exception& e) {
+    return failure(ErrorKind::unusable, fmt::format("missing or invalid entry: {}", e.what()), file.string());
+  }
+}
+
 }  // namespace
 
 std::uint64_t contentHash(const std::string& bytes) {
@@ -188,6 +214,8 @@ Result<void> saveProject(const Document& document, const fs::path& folder, Progr
   return {};
 }
 
+Result<std::string> projectText(const fs::path& folder) { return readText(folder / kProjectFile); }
+
 Result<Document> loadProject(const fs::path& folder, Progress& progress) {
   const auto file = folder / kProjectFile;
   std::error_code ignored;
@@ -197,23 +225,12 @@ Result<Document> loadProject(const fs::path& folder, Progress& progress) {
                        folder.string() + "`",
                    folder.string());
   progress.stage("Open " + folder.filename().string());
-  TRY_ASSIGN(const auto project, readJson(file));
-  try {
-    const int version = project.at("version").get<int>();
-    if (version > kProjectVersion)
-      return failure(ErrorKind::unusable,
-                     fmt::format("the project was created by a newer version of Standpoint (project version {}, "
-                                 "supported: {}); update Standpoint",
-                                 version, kProjectVersion),
-                     file.string() + " /version");
-    auto document = fromJson(project, folder, progress);
-    if (!document) return document;
-    document->name = fs::absolute(folder).filename().string();
-    if (auto wrong = inconsistency(*document); !wrong.empty())
-      return failure(ErrorKind::unusable, wrong, file.string());
-    return document;
-  } catch (const json::exception& e) {
-    return failure(ErrorKind::unusable, fmt::format("missing or invalid entry: {}", e.what()), file.string());
+  for (int attempt = 1;; ++attempt) {
+    TRY_ASSIGN(const auto text, projectText(folder));
+    auto document = loadedFrom(text, folder, progress);
+    if (document || attempt == kMostAttempts) return document;
+    // A writer removes the parts that its project.json names no more.
+    if (const auto now = projectText(folder); !now || *now == text) return document;
   }
 }
 

@@ -16,7 +16,11 @@ constexpr int kProjectVersion = 1;
 // as it was. load(save(d)) scans to the same bytes as d.
 Result<void> saveProject(const Document& document, const std::filesystem::path& folder, Progress& progress);
 
-// A newer version, a missing part, a wrong index: an error that names file and place.
+// What project.json says now: equal texts are equal projects.
+Result<std::string> projectText(const std::filesystem::path& folder);
+
+// A newer version, a missing part, a wrong index: an error that names file and place. A project
+// that another program replaces while it is read is read again.
 Result<Document> loadProject(const std::filesystem::path& folder, Progress& progress);
 
 }  // namespace standpoint

@@ -2,14 +2,17 @@
 #include "project/storage/session.h"
 
 #include <chrono>
+#include <filesystem>
 
 #include "project/answers.h"
 #include "project/storage/project_files.h"
+#include "project/storage/project_lock.h"
 
 namespace standpoint {
 
 namespace {
 
+namespace fs = std::filesystem;
 using nlohmann::json;
 
 Result<std::filesystem::path> projectFolder(const Verb& verb, const json& options) {
@@ -22,31 +25,57 @@ Result<std::filesystem::path> projectFolder(const Verb& verb, const json& option
   return std::filesystem::path(options[key].get<std::string>());
 }
 
+Result<void> checkEmpty(const fs::path& folder, const json& options) {
+  std::error_code ignored;
+  if (!fs::exists(folder, ignored) || isEmptyProjectFolder(folder) || options.value("replace", false)) return {};
+  return failure(ErrorKind::usage, "the folder is not empty; choose another folder, or use --replace", folder.string());
+}
+
+Result<Outcome> runOnNewProject(const Verb& verb, const fs::path& folder, const json& own, Progress& progress) {
+  TRY(checkEmpty(folder, own));
+  TRY_ASSIGN(auto outcome, runVerb(verb, {}, own, progress));
+  outcome.document.name = fs::absolute(folder).filename().string();
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), folder.string());
+  TRY_ASSIGN(const auto lock, ProjectLock::acquire(folder, verb.name, progress));
+  TRY(checkEmpty(folder, own));
+  TRY(saveProject(outcome.document, folder, progress));
+  return outcome;
+}
+
+// What another has written since `before` was read is not lost.
+Result<void> saveChange(const Verb& verb, const fs::path& folder, const json& own, const Document& document,
+                        const std::string& before, Outcome& outcome, Progress& progress) {
+  TRY_ASSIGN(const auto lock, ProjectLock::acquire(folder, verb.name, progress));
+  TRY_ASSIGN(const auto now, projectText(folder));
+  if (now != before) {
+    TRY_ASSIGN(const auto newest, loadProject(folder, progress));
+    if (verb.carry_over) {
+      outcome.document = verb.carry_over(document, outcome.document, newest);
+    } else {
+      TRY_ASSIGN(outcome, runVerb(verb, newest, own, progress));
+    }
+    if (outcome.document == newest) return {};
+  }
+  return saveProject(outcome.document, folder, progress);
+}
+
 Result<Outcome> runOnProject(const Verb& verb, const json& options, Progress& progress) {
   TRY_ASSIGN(auto folder, projectFolder(verb, options));
   json own = options;
   own.erase("project");
   // A wrong option is said before minutes are spent on reading.
   TRY(checkOptions(verb, own));
-  std::error_code ignored;
   const bool update = options.value("update", false);
   if (update && options.value("replace", false))
     return failure(ErrorKind::usage, "--update and --replace cannot be combined", "--update");
-  const bool creates = verb.scope == VerbScope::creates && !update;
-  if (creates && std::filesystem::exists(folder, ignored) && !std::filesystem::is_empty(folder, ignored) &&
-      !options.value("replace", false))
-    return failure(ErrorKind::usage, "the folder is not empty; choose another folder, or use --replace",
-                   folder.string());
-  Document document;
-  if (!creates) {
-    TRY_ASSIGN(auto loaded, loadProject(folder, progress));
-    document = std::move(loaded);
-  }
-  auto outcome = runVerb(verb, document, own, progress);
-  if (!outcome) return outcome;
-  if (creates) outcome->document.name = std::filesystem::absolute(folder).filename().string();
-  if (verb.scope != VerbScope::reads && outcome->document != document)
-    TRY(saveProject(outcome->document, folder, progress));
+  if (verb.scope == VerbScope::creates && !update) return runOnNewProject(verb, folder, own, progress);
+  const auto before = projectText(folder);
+  TRY_ASSIGN(const auto document, loadProject(folder, progress));
+  TRY_ASSIGN(auto outcome, runVerb(verb, document, own, progress));
+  if (verb.scope == VerbScope::reads || outcome.document == document) return outcome;
+  TRY(saveChange(verb, folder, own, document, before.value_or(""), outcome, progress));
   return outcome;
 }
 

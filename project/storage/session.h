@@ -10,6 +10,8 @@ namespace standpoint {
 // A verb on a project on disk: read it (`project`; for a creating verb nothing is read and `output` is the new
 // project), run, and write what changed. `options` has the verb's own plus "project". What the command line and job
 // files do.
+// Of many at once on one project, each change is kept: who writes holds the project's lock, and where another has
+// written since the project was read, the verb is run again on what is there now, or its change is carried over.
 Result<Outcome> runOnDisk(const Verb& verb, const nlohmann::json& options, Progress& progress);
 
 }  // namespace standpoint

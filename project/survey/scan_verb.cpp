@@ -327,6 +327,26 @@ const AnswerFields<ScanAnswer>& answerFields(const ScanAnswer*) {
   return fields;
 }
 
+Document scansCarriedOver(const Document& base, const Document& result, const Document& newest) {
+  const auto stationOf = [](auto& job, const std::string& name) {
+    const auto at =
+        std::find_if(job.stations.begin(), job.stations.end(), [&](const auto& s) { return s.name == name; });
+    return at == job.stations.end() ? nullptr : &*at;
+  };
+  Job job = *newest.job;
+  for (const auto& scanned : result.job->stations) {
+    const auto* before = stationOf(*base.job, scanned.name);
+    auto* now = stationOf(job, scanned.name);
+    if (before == nullptr || now == nullptr) continue;
+    const auto first = static_cast<std::ptrdiff_t>(before->scans.size());
+    now->scans.insert(now->scans.end(), scanned.scans.begin() + first, scanned.scans.end());
+  }
+  Document carried = newest;
+  carried.job = std::make_shared<const Job>(std::move(job));
+  carried.scanning = result.scanning;
+  return carried;
+}
+
 Result<Answered<ScanAnswer>> runScan(const Document& document, const ScanVerbOptions& options, Progress& progress) {
   return runScan(document, options, ScanSurroundings(), progress);
 }

@@ -246,6 +246,8 @@ struct ScanVerbOptions {
   std::filesystem::path output;
 };
 const Fields<ScanVerbOptions>& scanFields();
+// The scans that `result` has and `base` has not, at the stations of `newest` of the same names.
+Document scansCarriedOver(const Document& base, const Document& result, const Document& newest);
 
 struct ScanAnswerRow {
   std::string station;

@@ -20,6 +20,11 @@ namespace {
 
 using S = VerbScope;
 
+Verb carriedOver(Verb verb, Document (*how)(const Document&, const Document&, const Document&)) {
+  verb.carry_over = how;
+  return verb;
+}
+
 // The table: a new verb is a typed function in its room with a table of its fields, and one entry here. Command
 // line, help, job files and the editor's forms follow from it.
 const std::vector<Verb>& table() {
@@ -49,8 +54,9 @@ const std::vector<Verb>& table() {
              runVerify),
       verbOf("plan", "Forecast what the stations would see: coverage, overlap, points, time, holes, the next place",
              S::reads, planFields(), runPlan),
-      verbOf("scan", "Scan from the stations with an instrument into point-cloud files", S::changes, scanFields(),
-             runScan),
+      carriedOver(verbOf("scan", "Scan from the stations with an instrument into point-cloud files", S::changes,
+                         scanFields(), runScan),
+                  scansCarriedOver),
       verbOf("register",
              "Solve the stations' poses from their scans, by targets or cloud to cloud, with residuals and true errors",
              S::changes, registerFields(), runRegister),
