@@ -10,6 +10,8 @@
 #include "project/fields.h"
 #include "project/model/import_verb.h"
 #include "project/storage/project_files.h"
+#include "project/storage/project_json.h"
+#include "project/storage/project_lock.h"
 
 namespace standpoint {
 
@@ -21,6 +23,7 @@ constexpr std::size_t kRememberedTasks = 200;
 // Saving, opening and keeping a recovery copy run as tasks like every verb; only the editor has a use for them.
 struct SaveOptions {
   std::filesystem::path folder;
+  std::string seen;  // the project on disk when it was last read or written here (stateOnDisk); empty: replaced unseen
 };
 struct SaveRecoveryOptions {
   std::filesystem::path folder;
@@ -35,6 +38,7 @@ struct OpenRecoveryOptions {
 struct ProjectAnswer {
   std::filesystem::path folder;  // that was read or written
   std::string name, saved_in;    // of a recovery copy
+  std::string on_disk;           // stateOnDisk, of the folder
 };
 const AnswerFields<ProjectAnswer>& answerFields(const ProjectAnswer*) {
   using A = ProjectAnswer;
@@ -51,6 +55,11 @@ const Fields<O>& folderFields() {
   static const Fields<O> fields = {folderField<O>()};
   return fields;
 }
+const Fields<SaveOptions>& saveFields() {
+  using O = SaveOptions;
+  static const Fields<O> fields = {folderField<O>(), {"seen", &O::seen, "State on disk that may be replaced"}};
+  return fields;
+}
 const Fields<OpenRecoveryOptions>& openRecoveryFields() {
   using O = OpenRecoveryOptions;
   static const Fields<O> fields = {folderField<O>(),
@@ -59,31 +68,56 @@ const Fields<OpenRecoveryOptions>& openRecoveryFields() {
   return fields;
 }
 
-template <class O>
-Result<Answered<ProjectAnswer>> runSave(const Document& document, const O& options, Progress& progress) {
-  TRY(saveProject(document, options.folder, progress));
+// Equal for equal projects; empty where there is none.
+std::string stateOnDisk(const std::filesystem::path& folder) {
+  const auto text = projectText(folder);
+  return text ? fmt::format("{:016x}", contentHash(*text)) : std::string();
+}
+
+Result<Answered<ProjectAnswer>> saved(const Document& document, const std::filesystem::path& folder,
+                                      Progress& progress) {
+  TRY(saveProject(document, folder, progress));
   return Answered<ProjectAnswer>{
-      document, {options.folder, {}, {}}, {}, fmt::format("Saved {}", options.folder.string())};
+      document, {folder, {}, {}, stateOnDisk(folder)}, {}, fmt::format("Saved {}", folder.string())};
+}
+
+Result<Answered<ProjectAnswer>> runSave(const Document& document, const SaveOptions& options, Progress& progress) {
+  std::error_code error;
+  std::filesystem::create_directories(options.folder, error);
+  if (error)
+    return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), options.folder.string());
+  TRY_ASSIGN(const auto lock, ProjectLock::acquire(options.folder, "editor", progress));
+  const auto now = stateOnDisk(options.folder);
+  if (!options.seen.empty() && !now.empty() && now != options.seen)
+    return failure(ErrorKind::file_system,
+                   "another program has changed the project since it was opened; reload it, or save to another folder",
+                   options.folder.string());
+  return saved(document, options.folder, progress);
+}
+
+Result<Answered<ProjectAnswer>> runSaveRecovery(const Document& document, const SaveRecoveryOptions& options,
+                                                Progress& progress) {
+  return saved(document, options.folder, progress);
 }
 
 Result<Answered<ProjectAnswer>> opened(ProjectAnswer answer, Progress& progress) {
+  answer.on_disk = stateOnDisk(answer.folder);
   TRY_ASSIGN(auto document, loadProject(answer.folder, progress));
   auto description = fmt::format("Opened {}", answer.folder.string());
   return Answered<ProjectAnswer>{std::move(document), std::move(answer), {}, std::move(description)};
 }
 Result<Answered<ProjectAnswer>> runOpen(const Document&, const OpenOptions& options, Progress& progress) {
-  return opened({options.folder, {}, {}}, progress);
+  return opened({options.folder, {}, {}, {}}, progress);
 }
 Result<Answered<ProjectAnswer>> runOpenRecovery(const Document&, const OpenRecoveryOptions& options,
                                                 Progress& progress) {
-  return opened({options.folder, options.name, options.saved_in}, progress);
+  return opened({options.folder, options.name, options.saved_in, {}}, progress);
 }
 
 std::vector<Verb> fileVerbs() {
   using S = VerbScope;
-  return {verbOf("save-project", "Save the project", S::reads, folderFields<SaveOptions>(), runSave<SaveOptions>),
-          verbOf("save-recovery", "Save recovery copy", S::reads, folderFields<SaveRecoveryOptions>(),
-                 runSave<SaveRecoveryOptions>),
+  return {verbOf("save-project", "Save the project", S::reads, saveFields(), runSave),
+          verbOf("save-recovery", "Save recovery copy", S::reads, folderFields<SaveRecoveryOptions>(), runSaveRecovery),
           verbOf("open-project", "Open a project", S::creates, folderFields<OpenOptions>(), runOpen),
           verbOf("open-recovery", "Open a recovery copy", S::creates, openRecoveryFields(), runOpenRecovery)};
 }
@@ -172,7 +206,24 @@ bool Session::start(const VerbOptions& options, std::string title, Work work) {
 }
 
 bool Session::save(const std::filesystem::path& folder) {
-  return start(SaveOptions{folder}, "Save " + folder.filename().string());
+  return start(SaveOptions{folder, folder == folder_ ? on_disk_ : std::string()}, "Save " + folder.filename().string());
+}
+
+bool Session::changedOnDisk() {
+  using namespace std::chrono_literals;
+  const auto now = std::chrono::steady_clock::now();
+  if (folder_.empty() || on_disk_.empty() || !running_.empty()) return false;
+  if (now < looked_ + 1s) return changed_on_disk_;
+  looked_ = now;
+  const auto state = stateOnDisk(folder_);
+  changed_on_disk_ = !state.empty() && state != on_disk_;
+  return changed_on_disk_;
+}
+
+void Session::keepOverDisk() {
+  on_disk_ = stateOnDisk(folder_);
+  changed_on_disk_ = false;
+  history_.markUnsaved();
 }
 
 bool Session::open(const std::filesystem::path& folder) {
@@ -187,7 +238,7 @@ bool Session::recover(const RecoveryCopy& copy) {
 
 void Session::clear() {
   history_ = History();
-  folder_.clear();
+  leaveFolder();
   project_since_ = ++revision_;
 }
 
@@ -241,7 +292,7 @@ bool Session::adopt(Outcome outcome) {
 bool Session::adoptImport(Outcome outcome) {
   if (!adopt(std::move(outcome))) return false;
   project_since_ = revision_;
-  folder_.clear();
+  leaveFolder();
   return true;
 }
 
@@ -278,21 +329,21 @@ void Session::succeed(VerbTask& task, Outcome outcome) {
   say(LogLevel::done, "", text);
   const auto* project = answerAs<ProjectAnswer>(finished_.front().answer);
   if (verb_name == "save-project") {
-    folder_ = project->folder;
+    stayIn(project->folder, project->on_disk);
     history_.markSaved();
   } else if (verb_name == "open-project") {
     history_ = History(std::move(outcome.document), text);
-    folder_ = project->folder;
+    stayIn(project->folder, project->on_disk);
     ++revision_;
   } else if (verb_name == "open-recovery") {
     history_ = History();                   // an empty saved value below it: what was recovered counts as unsaved
     outcome.document.name = project->name;  // it was loaded as the copy's folder
     history_.push(std::move(outcome.document), text);
-    folder_ = project->saved_in;
+    stayIn(project->saved_in, stateOnDisk(project->saved_in));
     removeRecovery(project->folder.parent_path());
     ++revision_;
   } else if (writesDocument(task.verb())) {
-    if (begins_project) folder_.clear();
+    if (begins_project) leaveFolder();
     history_.push(std::move(outcome.document), text);
     ++revision_;
   }
@@ -300,6 +351,14 @@ void Session::succeed(VerbTask& task, Outcome outcome) {
   finished_.front().revision = revision_;
   if (done) done(task.verb(), task.options());
 }
+
+void Session::stayIn(const std::filesystem::path& folder, std::string on_disk) {
+  folder_ = folder;
+  on_disk_ = std::move(on_disk);
+  changed_on_disk_ = false;
+}
+
+void Session::leaveFolder() { stayIn({}, {}); }
 
 void Session::fail(const VerbTask& task, const Error& error) {
   const bool cancelled = error.kind == ErrorKind::cancelled;

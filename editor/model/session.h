@@ -2,6 +2,7 @@
 #pragma once
 
 #include <any>
+#include <chrono>
 #include <deque>
 #include <filesystem>
 #include <functional>
@@ -83,6 +84,7 @@ class Session {
   bool start(const VerbOptions& options, std::string title, Work work);
   // By name, as a form has filled them in.
   bool start(std::string_view verb, nlohmann::json options, std::string title = {});
+  // Refused where another program has changed the project since it was opened or saved here.
   bool save(const std::filesystem::path& folder);
   bool open(const std::filesystem::path& folder);
   bool saveRecovery(const std::filesystem::path& folder);
@@ -119,6 +121,9 @@ class Session {
   void say(LogLevel level, std::string source, std::string message);
   std::deque<ShownError>& errors() { return errors_; }  // not yet read by the user, oldest first
 
+  // Whether another program has changed the open project; looks at most once a second.
+  bool changedOnDisk();
+  void keepOverDisk();  // the next save replaces what the other program wrote
   const std::filesystem::path& folder() const { return folder_; }  // empty until saved or opened
   std::string name() const;
   bool modified() const { return history_.modified(); }
@@ -132,11 +137,16 @@ class Session {
   void takeResult(VerbTask& task);
   void succeed(VerbTask& task, Outcome outcome);
   void fail(const VerbTask& task, const Error& error);
+  void stayIn(const std::filesystem::path& folder, std::string on_disk);
+  void leaveFolder();
 
   std::vector<Verb> verbs_;
   std::function<void()> wake_;
   History history_;
   std::filesystem::path folder_;
+  std::string on_disk_;  // what the project on disk was when it was last read or written here
+  bool changed_on_disk_ = false;
+  std::chrono::steady_clock::time_point looked_;
   std::vector<std::unique_ptr<VerbTask>> running_;
   std::deque<FinishedTask> finished_;
   std::vector<LogEntry> log_;

@@ -135,6 +135,28 @@ void drawRecovery(Editor& editor) {
   ImGui::EndPopup();
 }
 
+void drawChangedOnDisk(Editor& editor) {
+  auto& session = editor.session;
+  const bool free = session.errors().empty() && editor.dialogs.recovery.empty() && !editor.dialogs.unsaved;
+  if (!beginModal(editor, "Project changed on disk###changed", free && session.changedOnDisk(), 500)) return;
+  ui::wrapped(fmt::format("Another program has changed '{}'.", session.name()));
+  if (session.modified())
+    ui::wrapped(
+        fmt::format("Reloading discards your unsaved changes. Last change: {}.", session.history().undoDescription()));
+  ui::gap(editor, 6);
+  if (ui::primaryButton("Reload###reload", session.whyNot("open-project"), {editor.px(110), 0})) {
+    session.open(session.folder());
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Keep this version", {editor.px(150), 0}) || escapePressed()) {
+    session.keepOverDisk();
+    ImGui::CloseCurrentPopup();
+  }
+  ui::tooltip("The next save replaces what the other program wrote");
+  ImGui::EndPopup();
+}
+
 struct Hint {
   const char* keys;
   const char* meaning;
@@ -227,6 +249,7 @@ void drawMessages(Editor& editor) {
   continueAfterSave(editor);
   drawRecovery(editor);
   drawUnsaved(editor);
+  drawChangedOnDisk(editor);
   drawShortcuts(editor);
   drawPreferences(editor);
   drawAbout(editor);

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <atomic>
 #include <chrono>
+#include <filesystem>
+#include <stdlib.h>
 #include <thread>
 
 #include <gtest/gtest.h>
 
 #include "demo_verbs.h"
 #include "editor/model/session.h"
+#include "project/storage/project_files.h"
+#include "project/storage/session.h"
 
 namespace standpoint {
 namespace {
@@ -75,6 +79,78 @@ TEST_F(DemoSession, BringsTheResultOfAVerbInAndUndoesIt) {
   EXPECT_EQ(session.document().name, "demo house");
   session.redo();
   EXPECT_EQ(session.document().name, "castle");
+}
+
+class SavedSession : public DemoSession {
+ protected:
+  void SetUp() override {
+    DemoSession::SetUp();
+    std::string pattern = (std::filesystem::temp_directory_path() / "standpoint-test-XXXXXX").string();
+    folder = mkdtemp(pattern.data());
+    ASSERT_TRUE(session.save(folder));
+    session.wait();
+    ASSERT_EQ(session.folder(), folder);
+  }
+  void TearDown() override {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder, ignored);
+  }
+  // As the command line does it.
+  void addStationFromOutside(const std::string& name) {
+    Progress progress;
+    const auto done =
+        runOnDisk(*findVerb(verbs(), "station"),
+                  {{"project", folder.string()}, {"add", name}, {"at", {1, 1, 1.6}}, {"stand", "free"}}, progress);
+    ASSERT_TRUE(done) << describe(done.error());
+  }
+  std::vector<std::string> stationsOnDisk() {
+    Progress progress;
+    const auto document = loadProject(folder, progress);
+    std::vector<std::string> names;
+    for (const auto& station : document->job->stations) names.push_back(station.name);
+    return names;
+  }
+  std::filesystem::path folder;
+};
+
+TEST_F(SavedSession, SeesNoChangeOnDiskOfItsOwnSaves) {
+  ASSERT_TRUE(session.start("rename", {{"to", "castle"}}));
+  session.wait();
+  ASSERT_TRUE(session.save(folder));
+  session.wait();
+  EXPECT_FALSE(session.changedOnDisk());
+  EXPECT_FALSE(session.modified());
+}
+
+TEST_F(SavedSession, DoesNotSaveOverWhatAnotherProgramWrote) {
+  addStationFromOutside("Outside");
+  ASSERT_TRUE(session.save(folder));
+  session.wait();
+  ASSERT_EQ(session.errors().size(), 1U);
+  EXPECT_EQ(session.errors().front().error.kind, ErrorKind::file_system);
+  EXPECT_EQ(stationsOnDisk().back(), "Outside");
+  EXPECT_TRUE(session.changedOnDisk());
+}
+
+TEST_F(SavedSession, ReloadsWhatAnotherProgramWrote) {
+  addStationFromOutside("Outside");
+  ASSERT_TRUE(session.changedOnDisk());
+  ASSERT_TRUE(session.open(folder));
+  session.wait();
+  EXPECT_FALSE(session.changedOnDisk());
+  EXPECT_EQ(session.document().job->stations.back().name, "Outside");
+}
+
+TEST_F(SavedSession, ReplacesWhatAnotherProgramWroteWhenTheUserKeepsTheOwnVersion) {
+  addStationFromOutside("Outside");
+  ASSERT_TRUE(session.changedOnDisk());
+  session.keepOverDisk();
+  EXPECT_FALSE(session.changedOnDisk());
+  EXPECT_TRUE(session.modified()) << "what is on disk is not what is shown";
+  ASSERT_TRUE(session.save(folder));
+  session.wait();
+  EXPECT_TRUE(session.errors().empty());
+  EXPECT_NE(stationsOnDisk().back(), "Outside");
 }
 
 TEST_F(DemoSession, RunsOneChangingTaskAtATime) {
