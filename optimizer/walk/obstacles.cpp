@@ -27,12 +27,6 @@ constexpr int kMostAdvances = 100;
 btVector3 toBullet(const Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 Vector3d fromBullet(const btVector3& p) { return {p.x(), p.y(), p.z()}; }
 
-// One convex thing: a whole shape, or one triangle of a mesh.
-struct Item {
-  std::uint32_t shape = 0;
-  std::int32_t triangle = -1;
-};
-
 // The middle line of a capsule: its radius is ours, as Bullet would make a margin of it.
 class Core : public btConvexPointCloudShape {
  public:
@@ -59,6 +53,11 @@ struct Visitor final : btDbvt::ICollide {
 }  // namespace
 
 struct Obstacles::World {
+  // One convex thing: a whole shape, or one triangle of a mesh.
+  struct Item {
+    std::uint32_t shape = 0;
+    std::int32_t triangle = -1;
+  };
   struct Shape {
     std::uint32_t product = 0;
     std::unique_ptr<btConvexHullShape> hull;  // null: a mesh
@@ -174,7 +173,7 @@ std::optional<Contact> Obstacles::sweep(const Body& body, const Vector3d& from, 
   std::optional<Contact> first;
   // Conservative advancement: the distance between convex things is a convex function of the way, so a body that does
   // not come nearer now never will, and one that goes on by (gap / speed of approach) cannot yet have met the other.
-  world_->inBox(from.cwiseMin(to) - side, from.cwiseMax(to) + side + up, [&](const Item& item) {
+  world_->inBox(from.cwiseMin(to) - side, from.cwiseMax(to) + side + up, [&](const auto& item) {
     Contact contact{0, from, -way.normalized(), item.shape, world_->shapes[item.shape].product};
     for (int i = 0; i < kMostAdvances; ++i) {
       const double gap = world_->gap(body, Core(body, from + contact.fraction * way), item, contact);
@@ -196,7 +195,7 @@ void Obstacles::near(const Body& body, const Vector3d& feet, double within_m,
   const Core core(body, feet);
   const Vector3d side(body.radius_m + within_m, body.radius_m + within_m, within_m),
       up(0, 0, std::max(body.height_m, 2 * body.radius_m));
-  world_->inBox(feet - side, feet + side + up, [&](const Item& item) {
+  world_->inBox(feet - side, feet + side + up, [&](const auto& item) {
     Contact contact{0, feet, Vector3d::UnitZ(), item.shape, world_->shapes[item.shape].product};
     if (const double gap = world_->gap(body, core, item, contact); gap < within_m) visit(contact, gap);
   });
@@ -217,7 +216,7 @@ std::optional<Contact> Obstacles::overlap(const Body& body, const Vector3d& feet
 std::optional<Contact> Obstacles::ray(const Vector3d& from, const Vector3d& to) const {
   const Vector3d way = to - from;
   std::optional<Contact> first;
-  world_->inBox(from.cwiseMin(to), from.cwiseMax(to), [&](const Item& item) {
+  world_->inBox(from.cwiseMin(to), from.cwiseMax(to), [&](const auto& item) {
     const auto& shape = world_->shapes[item.shape];
     const auto meet = [&](const Triangle& t) {
       const Vector3d &a = shape.positions[t[0]], ab = shape.positions[t[1]] - a, ac = shape.positions[t[2]] - a;

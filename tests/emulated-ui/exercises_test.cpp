@@ -409,15 +409,15 @@ TEST(Walk, IsAnActionThatReplays) {
 }
 
 TEST(Walk, TellsLengthClosureAndSpeedAndTheLastOneCounts) {
-  const std::vector<std::string> kFacts = {"walk.length",     "walk.closure", "walk.speed",
-                                           "walk.door_speed", "walk.drift",   "count.field.walk"};
-  const auto open = rehearse(exercise("E19"), {walk({{0, 0, 0}, {30, 40, 100}})}, kFacts);
+  const std::vector<std::string> kWalkFacts = {"walk.length",     "walk.closure", "walk.speed",
+                                               "walk.door_speed", "walk.drift",   "count.field.walk"};
+  const auto open = rehearse(exercise("E19"), {walk({{0, 0, 0}, {30, 40, 100}})}, kWalkFacts);
   EXPECT_NEAR(open.facts.at("walk.length"), 50, 1e-9);
   EXPECT_NEAR(open.facts.at("walk.closure"), 50, 1e-9);
   EXPECT_NEAR(open.facts.at("walk.speed"), 0.5, 1e-9);
   EXPECT_FALSE(held(open, "closed"));
-  const auto both = rehearse(exercise("E19"),
-                             {walk({{0, 0, 0}, {30, 40, 100}}), walk({{0, 0, 0}, {30, 40, 25}, {0, 0, 50}})}, kFacts);
+  const auto both = rehearse(
+      exercise("E19"), {walk({{0, 0, 0}, {30, 40, 100}}), walk({{0, 0, 0}, {30, 40, 25}, {0, 0, 50}})}, kWalkFacts);
   EXPECT_EQ(both.facts.at("count.field.walk"), 2);
   EXPECT_NEAR(both.facts.at("walk.length"), 100, 1e-9) << "of the walk that was planned last";
   EXPECT_NEAR(both.facts.at("walk.closure"), 0, 1e-9);

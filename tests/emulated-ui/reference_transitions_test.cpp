@@ -375,7 +375,9 @@ TEST_P(ReferenceTransitions, LeadWhereTheReferenceSays) {
   come(row(), d);
   EXPECT_EQ(d.state().phase, row().to);
   EXPECT_EQ(d.state().dialog, row().dialog);
-  if (row().effect) EXPECT_TRUE(row().effect(d));
+  if (row().effect) {
+    EXPECT_TRUE(row().effect(d));
+  }
 }
 
 TEST_P(ReferenceTransitions, LeadElsewhereWhereTheGuardDoesNotHold) {

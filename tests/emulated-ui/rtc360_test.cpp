@@ -150,7 +150,9 @@ TEST_F(Rtc360, RefusesToScanAndSaysWhy) {
                                                            {"battery_critical", "battery_critical"}};
   for (const auto& [trouble, dialog] : kTroubles) {
     ASSERT_TRUE(d->trouble(trouble));
-    if (!d.dialog().empty()) ASSERT_TRUE(d.press({"ok"}));
+    if (!d.dialog().empty()) {
+      ASSERT_TRUE(d.press({"ok"}));
+    }
     ASSERT_TRUE(d.press({"scan"}));
     EXPECT_EQ(d.dialog(), dialog) << trouble;
     EXPECT_FALSE(d->takeOrder()) << trouble;
@@ -167,7 +169,9 @@ TEST_F(Rtc360, AsksWhenLevelTemperatureOrDistanceAreOutsideItsLimits) {
   for (const char* trouble : {"too_hot", "not_warm", "tilted", "too_near"}) {
     TestDevice one = d;
     ASSERT_TRUE(one->trouble(trouble));
-    if (!one.dialog().empty()) ASSERT_TRUE(one.press({"ok"}));
+    if (!one.dialog().empty()) {
+      ASSERT_TRUE(one.press({"ok"}));
+    }
     ASSERT_TRUE(one.press({"scan"}));
     EXPECT_TRUE(one.dialog().ends_with("_question")) << trouble;
     TestDevice other = one;

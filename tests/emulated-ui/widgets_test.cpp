@@ -57,17 +57,19 @@ TEST_P(Widgets, PressedOnEveryScreen) {
   const std::set<WidgetKind> kShown = {WidgetKind::status, WidgetKind::readout, WidgetKind::note, WidgetKind::progress,
                                        WidgetKind::lamp,   WidgetKind::level,   WidgetKind::plan};
   for (const auto& key : (*first)->definition.keys)
-    if (!kShown.contains(key.kind))
+    if (!kShown.contains(key.kind)) {
       EXPECT_TRUE(pressed((*first)->definition.screens.front().id, key.id, true)) << "key " << key.id;
+    }
   for (const auto& screen : (*first)->definition.screens)
     for (const auto& w : screen.widgets) {
       const bool one_choice = w.kind == WidgetKind::choice && !w.setting.empty() &&
                               choicesOf(**first, w.setting) == 1;  // nothing else can be chosen
       if (one_choice || elsewhere.contains(screen.id + "/" + w.id)) continue;
       const bool only_a_list = w.kind == WidgetKind::list && w.does.empty() && w.go.empty();
-      if (!kShown.contains(w.kind) && !only_a_list)
+      if (!kShown.contains(w.kind) && !only_a_list) {
         EXPECT_TRUE(pressed(screen.id, w.id, false))
             << screen.id << "/" << w.id << " does nothing wherever it is pressed";
+      }
     }
 }
 
@@ -79,7 +81,9 @@ TEST_P(Widgets, ShowSomething) {
       if (row.shows.empty()) continue;
       const Device d = working(*type, *findPhase((*type)->definition, (*type)->definition.phases[1].id), screen.id);
       const auto shown = d.screen();
-      if (const auto* w = findWidget(shown, row.id)) EXPECT_FALSE(w->value.empty()) << screen.id << "/" << row.id;
+      if (const auto* w = findWidget(shown, row.id)) {
+        EXPECT_FALSE(w->value.empty()) << screen.id << "/" << row.id;
+      }
     }
 }
 
