@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/data_folder.h"
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/marks.h"
 #include "emulated-ui/rehearsal/rehearsal.h"
