@@ -73,13 +73,14 @@ Result<void> readMaterials(const LibraryFile& file, const SourceTable& sources, 
 }
 
 // Own materials may be the wet state of a shipped one.
-Result<std::vector<PhysicalMaterial>> finished(EntryTable entries, const std::vector<PhysicalMaterial>& shipped) {
+Result<std::vector<PhysicalMaterial>> finished(const EntryTable& entries,
+                                               const std::vector<PhysicalMaterial>& shipped) {
   std::map<std::string, PhysicalMaterial, std::less<>> dry;
   for (const auto& material : shipped) dry.insert_or_assign(material.id, material);
   for (const auto& [id, entry] : entries) dry.insert_or_assign(id, entry.material);
   std::vector<PhysicalMaterial> library;
-  for (auto& [id, read] : entries) {
-    Entry entry = std::move(read);
+  for (const auto& [id, read] : entries) {
+    Entry entry = read;
     if (!entry.material.wet_of.empty()) {
       const auto found = dry.find(entry.material.wet_of);
       TRY(wet(entry.material, found == dry.end() ? nullptr : &found->second, entry.at));
@@ -111,7 +112,7 @@ Result<std::vector<PhysicalMaterial>> readMaterialLibrary(const std::filesystem:
   for (const auto& file : files) TRY(readSources(file, sources));
   EntryTable entries;
   for (const auto& file : files) TRY(readMaterials(file, sources, entries));
-  return finished(std::move(entries), {});
+  return finished(entries, {});
 }
 
 Result<std::vector<PhysicalMaterial>> readOwnMaterials(const std::filesystem::path& file,
@@ -125,7 +126,7 @@ Result<std::vector<PhysicalMaterial>> readOwnMaterials(const std::filesystem::pa
   EntryTable entries;
   TRY(readMaterials(own, sources, entries));
   if (entries.empty()) return JsonPlace{own.name, {}}.unusable("contains no material");
-  return finished(std::move(entries), shipped);
+  return finished(entries, shipped);
 }
 
 std::vector<PhysicalMaterial> withOwn(std::vector<PhysicalMaterial> library, const std::vector<PhysicalMaterial>& own) {

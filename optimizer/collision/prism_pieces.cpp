@@ -339,7 +339,7 @@ std::vector<Piece> prismsAlong(const Shape& part, const Vector3d& axis, double v
 std::vector<Piece> sheetPieces(const Shape& part) {
   const auto directions = faceDirections(part);
   if (directions.size() != 1) return {};
-  const Vector3d axis = directions[0];
+  const Vector3d& axis = directions[0];
   const Frame frame{axis.unitOrthogonal(), axis.cross(axis.unitOrthogonal()), axis};
   Section sheet;
   double height = 0;

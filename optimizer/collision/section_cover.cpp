@@ -228,7 +228,7 @@ Outline simplified(const Outline& given, double tolerance_m) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const Line &a = lines[(i + lines.size() - 1) % lines.size()], &b = lines[i];
     const double sine = a.normal.x() * b.normal.y() - a.normal.y() * b.normal.x();
-    const Vector2d corner = loop[best[i] % n];
+    const Vector2d& corner = loop[best[i] % n];
     const double da = -a.before(corner), db = -b.before(corner);  // how far the lines are from the corner
     const Vector2d off =
         std::abs(sine) < 1e-3

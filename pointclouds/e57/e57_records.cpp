@@ -35,7 +35,7 @@ std::vector<Field> pointFields(const ScanHeader& header, Coordinates kind) {
 PacketWriter packetsFor(const std::vector<Field>& fields) {
   std::vector<unsigned> bits;
   for (const Field& field : fields) bits.push_back(field.bits);
-  return PacketWriter(std::move(bits));
+  return PacketWriter(bits);
 }
 
 }  // namespace
