@@ -82,10 +82,6 @@ Result<Answered<ProjectAnswer>> saved(const Document& document, const std::files
 }
 
 Result<Answered<ProjectAnswer>> runSave(const Document& document, const SaveOptions& options, Progress& progress) {
-  std::error_code error;
-  std::filesystem::create_directories(options.folder, error);
-  if (error)
-    return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), options.folder.string());
   TRY_ASSIGN(const auto lock, ProjectLock::acquire(options.folder, "editor", progress));
   const auto now = stateOnDisk(options.folder);
   if (!options.seen.empty() && !now.empty() && now != options.seen)

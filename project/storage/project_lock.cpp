@@ -90,6 +90,9 @@ Result<Attempt> attempt(const fs::path& file) {
 
 Result<ProjectLock> ProjectLock::acquire(const fs::path& folder, const std::string& doing, Progress& progress,
                                          std::chrono::milliseconds patience) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), folder.string());
   const auto file = folder / kLockFile;
   const auto started = Clock::now();
   bool waiting = false;

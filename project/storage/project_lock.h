@@ -19,7 +19,7 @@ class ProjectLock {
   static constexpr std::chrono::seconds kPatience{30};
 
   // Waits for another writer, and is cancelled by `progress`. Then an error of kind file_system that names the other
-  // writer and the remedy. The folder must exist. `doing` is what others are told: "station".
+  // writer and the remedy. Makes the folder where there is none. `doing` is what others are told: "station".
   static Result<ProjectLock> acquire(const std::filesystem::path& folder, const std::string& doing, Progress& progress,
                                      std::chrono::milliseconds patience = kPatience);
 

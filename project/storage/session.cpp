@@ -35,9 +35,6 @@ Result<Outcome> runOnNewProject(const Verb& verb, const fs::path& folder, const 
   TRY(checkEmpty(folder, own));
   TRY_ASSIGN(auto outcome, runVerb(verb, {}, own, progress));
   outcome.document.name = fs::absolute(folder).filename().string();
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), folder.string());
   TRY_ASSIGN(const auto lock, ProjectLock::acquire(folder, verb.name, progress));
   TRY(checkEmpty(folder, own));
   TRY(saveProject(outcome.document, folder, progress));
