@@ -2,7 +2,6 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
-#include <stdlib.h>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -11,6 +10,7 @@
 #include "editor/model/session.h"
 #include "project/storage/project_files.h"
 #include "project/storage/session.h"
+#include "tests/project/support.h"
 
 namespace standpoint {
 namespace {
@@ -85,15 +85,9 @@ class SavedSession : public DemoSession {
  protected:
   void SetUp() override {
     DemoSession::SetUp();
-    std::string pattern = (std::filesystem::temp_directory_path() / "standpoint-test-XXXXXX").string();
-    folder = mkdtemp(pattern.data());
     ASSERT_TRUE(session.save(folder));
     session.wait();
     ASSERT_EQ(session.folder(), folder);
-  }
-  void TearDown() override {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder, ignored);
   }
   // As the command line does it.
   void addStationFromOutside(const std::string& name) {
@@ -110,7 +104,8 @@ class SavedSession : public DemoSession {
     for (const auto& station : document->job->stations) names.push_back(station.name);
     return names;
   }
-  std::filesystem::path folder;
+  TemporaryFolder temporary;
+  const std::filesystem::path folder = temporary.path();
 };
 
 TEST_F(SavedSession, SeesNoChangeOnDiskOfItsOwnSaves) {
