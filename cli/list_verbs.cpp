@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "cli/verb_list.h"
+#include "core/part_file.h"
 #include "emulated-ui/rehearsal/rehearse_verb.h"
 
 int main(int count, char** arguments) {
@@ -19,7 +20,8 @@ int main(int count, char** arguments) {
     std::cerr << arguments[1] << ": the line '" << standpoint::kVerbListMark << "' is not in it\n";
     return 3;
   }
-  std::ofstream out(arguments[1]);
-  out << standpoint::verbList(standpoint::allVerbs(), page.substr(0, mark));
-  return out.flush() ? 0 : 4;
+  const auto written =
+      standpoint::writeWholeText(arguments[1], standpoint::verbList(standpoint::allVerbs(), page.substr(0, mark)));
+  if (!written) std::cerr << standpoint::describe(written.error()) << '\n';
+  return written ? 0 : 4;
 }

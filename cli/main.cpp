@@ -32,6 +32,7 @@ int main(int count, char** arguments) {
   if (count > 1 && std::string(arguments[1]) == "edit") return openEditor(arguments + 1);
   std::signal(SIGINT, cancelOnSignal);
   std::signal(SIGTERM, cancelOnSignal);
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on files is a full disk: the writer's error, not the program's end
   const std::vector<std::string> words(arguments + 1, arguments + count);
   return standpoint::runCommandLine(standpoint::allVerbs(), words, {std::cout, std::cerr, isatty(STDERR_FILENO) == 1},
                                     progress);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -144,6 +145,7 @@ int openWindow(const Arguments& arguments) {
 }  // namespace
 
 int main(int count, char** words) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on files is a full disk: the writer's error, not the program's end
   const auto arguments = parse({words + 1, words + count});
   if (!arguments) return fail(arguments.error());
   if (arguments->help) {

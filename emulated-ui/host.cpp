@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/json_file.h"
+#include "core/part_file.h"
 #include "core/units.h"
 #include "emulated-ui/memory.h"
 #include "emulated-ui/preview.h"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/part_file.h"
 #include "emulated-ui/device/replaced.h"
-#include "pointclouds/files/file_access.h"
 
 namespace standpoint {
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/data_folder.h"
+#include "core/part_file.h"
 
 namespace standpoint {
 
@@ -61,12 +62,7 @@ Result<void> writeNew(const fs::path& file, const std::string& text) {
   fs::create_directories(file.parent_path(), code);
   if (code) return failure(ErrorKind::file_system, "cannot create: " + code.message(), file.parent_path().string());
   if (fs::exists(file, code)) return failure(ErrorKind::usage, "the file already exists", file.string());
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (stream) return {};
-  fs::remove(file, code);
-  return failure(ErrorKind::file_system, "cannot write", file.string());
+  return writeWholeText(file, text);
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
-#include <fstream>
 
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "core/part_file.h"
 #include "editor/instrument/desk.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/widgets.h"
@@ -95,10 +95,8 @@ void record(InstrumentDesk& desk, Editor& editor) {
   if (ui::button("Save as exercise",
                  editor.session.folder().empty() ? "Save the project first. The file is stored next to it." : "")) {
     const auto file = editor.session.folder() / "recorded-exercise.json";
-    std::ofstream out(file);
-    out << recordedExercise(*desk.shown(), desk.recorded).dump(2) << '\n';
-    out.close();
-    desk.refused = out ? "Written: " + file.string() : "Cannot write " + file.string();
+    const auto written = writeWholeText(file, recordedExercise(*desk.shown(), desk.recorded).dump(2) + '\n');
+    desk.refused = written ? "Written: " + file.string() : describe(written.error());
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/part_file.h"
 #include "editor/model/file_list.h"
 
 namespace standpoint {
@@ -41,11 +42,7 @@ Result<void> writeRecoveryOwner(const std::filesystem::path& folder, const std::
                                 const std::string& saved_in) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  std::ofstream out(folder / "owner.json");
-  out << nlohmann::json{{"name", name}, {"saved_in", saved_in}}.dump(2) << '\n';
-  out.close();
-  if (!out) return failure(ErrorKind::file_system, "cannot write the recovery copy", folder.string());
-  return {};
+  return writeWholeText(folder / "owner.json", nlohmann::json{{"name", name}, {"saved_in", saved_in}}.dump(2) + '\n');
 }
 
 std::vector<RecoveryCopy> findRecoveryCopies(const std::filesystem::path& root) {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "core/part_file.h"
 #include "editor/model/interface_scale.h"
 
 namespace standpoint {
@@ -81,14 +82,7 @@ Settings readSettings(const std::filesystem::path& file) {
 Result<void> writeSettings(const Settings& settings, const std::filesystem::path& file) {
   std::error_code error;
   std::filesystem::create_directories(file.parent_path(), error);
-  const auto part = file.string() + ".part";
-  std::ofstream out(part);
-  out << toJson(settings).dump(2) << '\n';
-  out.close();
-  if (!out) return failure(ErrorKind::file_system, "cannot save the editor settings", part);
-  std::filesystem::rename(part, file, error);
-  if (error) return failure(ErrorKind::file_system, error.message(), file.string());
-  return {};
+  return writeWholeText(file, toJson(settings).dump(2) + '\n');
 }
 
 }  // namespace standpoint

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <unistd.h>
 
@@ -8,6 +7,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "core/part_file.h"
 #include "editor/panels/actions.h"
 #include "editor/panels/material_card_panel.h"
 #include "editor/widgets/icons.h"
@@ -99,11 +99,8 @@ void drawFields(MaterialEdit& edit) {
 // By a file, as every material comes: the verb's reader is the one judge of its figures.
 void keep(MaterialCardState& state, Actions& actions, const MaterialEdit& edit) {
   const auto file = std::filesystem::temp_directory_path() / fmt::format("standpoint-{}-{}.json", getpid(), edit.id);
-  std::ofstream out(file);
-  out << libraryFileOf(edit).dump(1);
-  out.close();
-  if (!out) {
-    actions.report("Cannot save the material", {ErrorKind::file_system, "cannot write", file.string()});
+  if (const auto written = writeWholeText(file, libraryFileOf(edit).dump(1)); !written) {
+    actions.report("Cannot save the material", written.error());
     return;
   }
   if (!actions.start(MaterialsOptions{{.libraries = {file}}}, "Save material " + edit.label)) return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/viewport/offscreen.h"
 
+#include <string>
 #include <vector>
 
 #include <EGL/egl.h>
@@ -10,6 +11,7 @@
 #include <stb/stb_image_write.h>
 #include <vtk_glew.h>
 
+#include "core/part_file.h"
 #include "editor/shell/shell.h"
 #include "editor/viewport/vtk_scene_view.h"
 #include "editor/widgets/theme.h"
@@ -116,9 +118,13 @@ class EglOffscreen : public Offscreen {
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
     stbi_flip_vertically_on_write(1);
-    if (stbi_write_png(png.c_str(), width_, height_, 3, pixels.data(), width_ * 3) == 0)
-      return failure(ErrorKind::file_system, "cannot write the image", png.string());
-    return {};
+    std::string bytes;
+    const auto append = [](void* to, void* data, int size) {
+      static_cast<std::string*>(to)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+    };
+    if (stbi_write_png_to_func(append, &bytes, width_, height_, 3, pixels.data(), width_ * 3) == 0)
+      return failure(ErrorKind::internal, "cannot encode the image", png.string());
+    return writeWholeText(png, bytes);
   }
 
  private:

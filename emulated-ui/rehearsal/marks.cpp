@@ -4,12 +4,12 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <fstream>
 #include <map>
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "core/part_file.h"
 #include "emulated-ui/device/format.h"
 #include "emulated-ui/device/numbers.h"
 
@@ -440,11 +440,7 @@ Result<void> writeMarks(const Rehearsal& rehearsal, const Marks& marks, const st
       {"result.csv", marksCsv(marks)},
       {"result.html", marksHtml(marks, rehearsal, today())}};
   for (const auto& [name, text] : kFiles) {
-    std::ofstream out(folder / name, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out)
-      return failure(ErrorKind::file_system, "cannot write the file: the disk may be full", (folder / name).string());
+    TRY(writeWholeText(folder / name, text));
   }
   return {};
 }

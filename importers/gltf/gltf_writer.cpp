@@ -4,15 +4,17 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <fstream>
 #include <map>
+#include <ostream>
 #include <set>
 #include <sstream>
+#include <streambuf>
 #include <utility>
 
 #include <Eigen/Geometry>
 
 #include "core/decompositions.h"
+#include "core/part_file.h"
 #include "importers/gltf/gltf_companions.h"
 #include "importers/gltf/gltf_georeference.h"
 #include "importers/gltf/gltf_physical_material.h"
@@ -38,6 +40,38 @@ std::string percentEncoded(const std::string& name) {
   return result;
 }
 
+// What tinygltf writes to a stream goes to a file being made.
+class PartBuffer : public std::streambuf {
+ public:
+  explicit PartBuffer(PartFile& file) : file_(file) {}
+  Result<void> flushed() {
+    sync();
+    return written_;
+  }
+
+ private:
+  static constexpr std::size_t kBuffered = 1U << 20U;
+
+  int_type overflow(int_type c) override {
+    if (traits_type::eq_int_type(c, traits_type::eof())) return traits_type::not_eof(c);
+    const char byte = traits_type::to_char_type(c);
+    return xsputn(&byte, 1) == 1 ? c : traits_type::eof();
+  }
+  std::streamsize xsputn(const char* bytes, std::streamsize count) override {
+    buffer_.append(bytes, static_cast<std::size_t>(count));
+    return buffer_.size() < kBuffered || sync() == 0 ? count : 0;
+  }
+  int sync() override {
+    if (written_) written_ = file_.append(buffer_);
+    buffer_.clear();
+    return written_ ? 0 : -1;
+  }
+
+  PartFile& file_;
+  std::string buffer_;
+  Result<void> written_;
+};
+
 // Fills a tinygltf model, which tinygltf serialises.
 class GltfWriter {
  public:
@@ -62,11 +96,11 @@ class GltfWriter {
     addNodes(companions);
   }
 
-  // JSON and a binary file of the same name beside it, which is there before the JSON names it.
+  // JSON, and beside it a binary file of the same name.
   Result<void> writeText(const std::filesystem::path& file, Progress& progress) {
     auto beside = file;
     beside.replace_extension(".bin");
-    if (auto ok = fillBuffer(file, progress); !ok) return ok;
+    TRY(fillBuffer(file, progress));
     const auto buffers = std::exchange(model_.buffers, {});  // which tinygltf would embed as text
     std::ostringstream text;
     if (!serialise(text, false)) return failure(ErrorKind::internal, "tinygltf cannot serialise it", file.string());
@@ -74,22 +108,24 @@ class GltfWriter {
     if (!buffers.empty()) {
       const auto& data = buffers[0].data;
       json["buffers"] = {{{"byteLength", data.size()}, {"uri", percentEncoded(beside.filename().string())}}};
-      std::ofstream binary(beside, std::ios::binary);
-      binary.write(reinterpret_cast<const char*>(data.data()), static_cast<std::streamsize>(data.size()));
-      if (auto ok = closed(binary, beside); !ok) return ok;
+      TRY_ASSIGN(auto binary, PartFile::create(beside));
+      TRY(binary.append(data));
+      TRY_ASSIGN(auto out, PartFile::create(file));
+      TRY(out.append(json.dump() + '\n'));
+      TRY(binary.commit());
+      return out.commit();
     }
-    std::ofstream out(file, std::ios::binary);
-    out << json.dump() << '\n';
-    return closed(out, file);
+    return writeWholeText(file, json.dump() + '\n');
   }
 
-  Result<void> write(const std::filesystem::path& file, Progress& progress) {
-    if (auto ok = fillBuffer(file, progress); !ok) return ok;
-    std::ofstream out(file, std::ios::binary);
-    if (!serialise(out, true)) return failure(ErrorKind::internal, "tinygltf cannot serialise it", file.string());
-    const bool too_large = out.tellp() > std::streamoff{kLargestGlb};  // and its header says something else
-    if (auto ok = closed(out, file); !ok) return ok;
-    return too_large ? tooLarge(file) : Result<void>{};
+  Result<void> write(PartFile& file, Progress& progress) {
+    TRY(fillBuffer(file.file(), progress));
+    PartBuffer buffer(file);
+    std::ostream out(&buffer);
+    const bool serialised = serialise(out, true);
+    TRY(buffer.flushed());
+    if (!serialised) return failure(ErrorKind::internal, "tinygltf cannot serialise it", file.file().string());
+    return file.size() > std::uint64_t{kLargestGlb} ? tooLarge(file.file()) : Result<void>{};  // its header lies then
   }
 
  private:
@@ -97,12 +133,6 @@ class GltfWriter {
 
   static Result<void> tooLarge(const std::filesystem::path& file) {
     return failure(ErrorKind::unusable, "the environment exceeds the 4 GiB limit of GLB files", file.string());
-  }
-
-  static Result<void> closed(std::ofstream& out, const std::filesystem::path& file) {
-    out.close();
-    if (!out) return failure(ErrorKind::file_system, "cannot write", file.string());
-    return {};
   }
 
   bool serialise(std::ostream& out, bool binary) const {
@@ -445,10 +475,10 @@ Result<void> writable(const Environment& environment, const std::filesystem::pat
 
 }  // namespace
 
-Result<void> writeEnvironmentGlb(const Environment& environment, const Georeference& georeference,
-                                 const std::filesystem::path& file, Progress& progress) {
+Result<void> writeEnvironmentGlb(const Environment& environment, const Georeference& georeference, PartFile& file,
+                                 Progress& progress) {
   progress.stage("Writing glTF");
-  if (auto ok = writable(environment, file); !ok) return ok;
+  TRY(writable(environment, file.file()));
   return GltfWriter(environment, georeference, GltfWriter::For::project).write(file, progress);
 }
 
@@ -456,9 +486,12 @@ Result<void> exportEnvironmentGltf(const Environment& environment, const Georefe
                                    const std::filesystem::path& file, Progress& progress,
                                    const GltfCompanions& companions) {
   progress.stage("Writing glTF");
-  if (auto ok = writable(environment, file); !ok) return ok;
+  TRY(writable(environment, file));
   GltfWriter writer(environment, georeference, GltfWriter::For::others, companions);
-  return file.extension() == ".gltf" ? writer.writeText(file, progress) : writer.write(file, progress);
+  if (file.extension() == ".gltf") return writer.writeText(file, progress);
+  TRY_ASSIGN(auto part, PartFile::create(file));
+  TRY(writer.write(part, progress));
+  return part.commit();
 }
 
 }  // namespace standpoint

@@ -8,6 +8,7 @@
 
 #include "core/environment.h"
 #include "core/georeference.h"
+#include "core/part_file.h"
 #include "core/physical_material.h"
 #include "core/progress.h"
 #include "core/result.h"
@@ -17,8 +18,8 @@ namespace standpoint {
 // glTF binary. Exactly invertible: readEnvironmentGlb(writeEnvironmentGlb(e)) has the same meshes with
 // their texture coordinates and colours, surfaces, images and instances bit for bit (product records are not in it;
 // nodes carry the product's index in `extras`).
-Result<void> writeEnvironmentGlb(const Environment& environment, const Georeference& georeference,
-                                 const std::filesystem::path& file, Progress& progress);
+Result<void> writeEnvironmentGlb(const Environment& environment, const Georeference& georeference, PartFile& file,
+                                 Progress& progress);
 Result<Environment> readEnvironmentGlb(const std::filesystem::path& file, Progress& progress);
 
 // A simpler level of detail of the same products, and what it costs each.

@@ -5,10 +5,10 @@
 #include "importers/helios/helios_writer.h"
 
 #include <cctype>
-#include <fstream>
 
 #include <fmt/format.h>
 
+#include "core/part_file.h"
 #include "core/visible_colour.h"
 #include "importers/obj/obj_writer.h"
 
@@ -20,14 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr int kHeaderLines = 26;
 constexpr double kFirst_nm = 300, kLast_nm = 2600;  // the figures at both ends are held constant up to here
-
-Result<void> writeText(const fs::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) return failure(ErrorKind::file_system, "cannot write", file.string());
-  return {};
-}
 
 std::string spectrumText(const PhysicalMaterial& m) {
   std::string text = "Name: " + m.label + "\nType: " + m.id +
@@ -94,17 +86,16 @@ Result<void> writeHeliosScene(const Environment& environment, const std::vector<
   for (auto& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.') c = '_';  // stands in XML and in paths
   auto obj = file.parent_path() / (name + ".obj"), mtl = file.parent_path() / (name + ".mtl");
-  if (auto ok = writeEnvironmentObj(named, georeference, obj, progress); !ok) return ok;
-  if (auto ok = writeText(mtl, materialText(named, physical)); !ok) return ok;
+  TRY(writeEnvironmentObj(named, georeference, obj, progress));
+  TRY(writeWholeText(mtl, materialText(named, physical)));
   const auto spectra = file.parent_path() / "spectra";
   std::error_code error;
   fs::create_directories(spectra, error);
   if (error) return failure(ErrorKind::file_system, error.message(), spectra.string());
   for (const auto* m : physical)
-    if (m != nullptr && !m->reflectance.empty())
-      if (auto ok = writeText(spectra / (m->id + ".txt"), spectrumText(*m)); !ok) return ok;
+    if (m != nullptr && !m->reflectance.empty()) TRY(writeWholeText(spectra / (m->id + ".txt"), spectrumText(*m)));
   tellLosses(physical, report);
-  return writeText(file, sceneText(name, obj.filename().string()));
+  return writeWholeText(file, sceneText(name, obj.filename().string()));
 }
 
 }  // namespace standpoint

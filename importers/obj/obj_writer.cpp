@@ -2,7 +2,8 @@
 #include "importers/obj/obj_writer.h"
 
 #include <charconv>
-#include <fstream>
+
+#include "core/part_file.h"
 
 namespace standpoint {
 
@@ -30,8 +31,7 @@ std::string materialName(const Environment& environment, std::uint32_t surface) 
   return asName(name, "surface." + number);
 }
 
-Result<void> writeMaterials(const Environment& environment, const std::vector<std::string>& names,
-                            const std::filesystem::path& file) {
+std::string materialsText(const Environment& environment, const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto& s = environment.surfaces[i];
@@ -42,11 +42,7 @@ Result<void> writeMaterials(const Environment& environment, const std::vector<st
     if (s.roughness) append(text += "\nPr ", *s.roughness);
     text += "\n\n";
   }
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) return failure(ErrorKind::file_system, "cannot write", file.string());
-  return {};
+  return text;
 }
 
 void appendInstance(const Environment& environment, const Instance& instance, const Eigen::Vector3d& shift,
@@ -80,12 +76,12 @@ Result<void> writeEnvironmentObj(const Environment& environment, const Georefere
   mtl.replace_extension(".mtl");
   std::vector<std::string> names;
   for (std::uint32_t i = 0; i < environment.surfaces.size(); ++i) names.push_back(materialName(environment, i));
-  if (auto ok = writeMaterials(environment, names, mtl); !ok) return ok;
-
-  std::ofstream out(file, std::ios::binary);
-  out << "# metres, Z up (import with --up z)\nmtllib " << mtl.filename().string() << '\n';
+  TRY_ASSIGN(auto materials, PartFile::create(mtl));
+  TRY(materials.append(materialsText(environment, names)));
+  TRY_ASSIGN(auto out, PartFile::create(file));
+  TRY(out.append("# metres, Z up (import with --up z)\nmtllib " + mtl.filename().string() + '\n'));
   std::size_t first_vertex = 1;
-  for (std::size_t i = 0; i < environment.instances.size() && out; ++i) {
+  for (std::size_t i = 0; i < environment.instances.size(); ++i) {
     const auto& instance = environment.instances[i];
     std::string text;
     if (i == 0 || environment.instances[i - 1].product != instance.product)
@@ -93,13 +89,12 @@ Result<void> writeEnvironmentObj(const Environment& environment, const Georefere
              std::to_string(instance.product) + '\n';
     appendInstance(environment, instance, georeference.shift_m, names, first_vertex, text);
     first_vertex += environment.meshes[instance.mesh]->positions.size();
-    out << text;
-    if (auto ok = progress.check(); !ok) return ok;
+    TRY(out.append(text));
+    TRY(progress.check());
     progress.advance(static_cast<double>(i + 1) / static_cast<double>(environment.instances.size()));
   }
-  out.close();
-  if (!out) return failure(ErrorKind::file_system, "cannot write", file.string());
-  return {};
+  TRY(materials.commit());
+  return out.commit();
 }
 
 }  // namespace standpoint

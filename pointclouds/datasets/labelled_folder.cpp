@@ -47,32 +47,25 @@ Result<void> BufferedFile::finish(const std::string& head) {
   return file_.commit();
 }
 
-LabelledFolder::LabelledFolder(fs::path folder, ClassMap map)
-    : folder_(std::move(folder)), part_(folder_), map_(std::move(map)) {
-  if (!folder_.has_filename()) part_ = folder_ = folder_.parent_path();
-  part_ += ".part";
-}
-
-LabelledFolder::~LabelledFolder() {
-  std::error_code ignored;
-  if (!closed_) fs::remove_all(part_, ignored);
+LabelledFolder::LabelledFolder(fs::path folder, ClassMap map) : folder_(std::move(folder)), map_(std::move(map)) {
+  if (!folder_.has_filename()) folder_ = folder_.parent_path();
 }
 
 Result<void> LabelledFolder::start() {
   std::error_code error;
   if (fs::exists(folder_, error) && !(fs::is_directory(folder_, error) && fs::is_empty(folder_, error)))
     return failure(ErrorKind::usage, "the folder is not empty: specify a new folder", folder_.string());
-  fs::remove_all(part_, error);
-  fs::create_directories(part_, error);
-  if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), folder_.string());
+  fs::create_directories(folder_.parent_path(), error);
+  TRY_ASSIGN(auto part, PartFolder::create(folder_));
+  part_.emplace(std::move(part));
   return {};
 }
 
 Result<BufferedFile> LabelledFolder::create(const std::string& inside) const {
   std::error_code error;
-  fs::create_directories((part_ / inside).parent_path(), error);
+  fs::create_directories(path(inside).parent_path(), error);
   if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), folder_.string());
-  return BufferedFile::create(part_ / inside);
+  return BufferedFile::create(path(inside));
 }
 
 std::string LabelledFolder::uniqueName(const std::string& name) const {
@@ -179,11 +172,7 @@ Result<void> LabelledFolder::close() {
   }
   if (auto written = writeText("instances.csv", instances); !written) return written;
   if (auto written = writeText("dataset.json", description()); !written) return written;
-  std::error_code error;
-  fs::rename(part_, folder_, error);
-  if (error) return failure(ErrorKind::file_system, "cannot finish: " + error.message(), folder_.string());
-  closed_ = true;
-  return {};
+  return part_->commit();
 }
 
 }  // namespace standpoint

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/part_file.h"
 #include "pointclouds/datasets/class_map.h"
-#include "pointclouds/files/file_access.h"
 #include "pointclouds/files/scan_text.h"
 #include "pointclouds/formats.h"
 
@@ -39,7 +39,6 @@ class BufferedFile {
 class LabelledFolder : public CloudWriter {
  public:
   LabelledFolder(std::filesystem::path folder, ClassMap map);
-  ~LabelledFolder() override;
   Result<void> start();
   Result<void> begin(const ScanHeader& header) final;
   Result<void> write(const PointBlock& block) final;
@@ -69,7 +68,7 @@ class LabelledFolder : public CloudWriter {
   const ClassMap& map() const { return map_; }
   Station& station() { return stations_.back(); }
   const std::vector<Station>& stations() const { return stations_; }
-  std::filesystem::path path(const std::string& inside) const { return part_ / inside; }
+  std::filesystem::path path(const std::string& inside) const { return part_->path() / inside; }
   // Makes the folders on the way.
   Result<BufferedFile> create(const std::string& inside) const;
   Eigen::Vector3d place(const Point& p) const;               // in the set's frame
@@ -80,7 +79,8 @@ class LabelledFolder : public CloudWriter {
   std::string uniqueName(const std::string& name) const;
   Result<void> writeText(const char* name, const std::string& text) const;
   std::string description() const;
-  std::filesystem::path folder_, part_;
+  std::filesystem::path folder_;
+  std::optional<PartFolder> part_;  // from start() to close()
   ClassMap map_;
   std::optional<ScanHeader> header_;
   std::vector<std::array<std::size_t, 2>> class_of_product_;
@@ -88,7 +88,6 @@ class LabelledFolder : public CloudWriter {
   Eigen::Vector3d shift_ = Eigen::Vector3d::Zero();
   JointTable table_;
   std::uint32_t first_product_ = 0;
-  bool closed_ = false;
 };
 
 }  // namespace standpoint

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/part_file.h"
 #include "pointclouds/files/file_access.h"
 
 namespace standpoint::e57 {

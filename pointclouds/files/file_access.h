@@ -4,37 +4,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
-#include <string_view>
+#include <string>
 
 #include "core/result.h"
 
 namespace standpoint {
-
-// A file being made: everything goes to FILE.part, which becomes FILE in commit() and vanishes when that never comes.
-class PartFile {
- public:
-  static Result<PartFile> create(const std::filesystem::path& file);
-  PartFile(PartFile&& other) noexcept;
-  PartFile(const PartFile&) = delete;
-  ~PartFile();
-
-  Result<void> append(std::span<const std::uint8_t> bytes);
-  // Both need [at, at + bytes.size()) to lie inside what was appended.
-  Result<void> overwrite(std::uint64_t at, std::span<const std::uint8_t> bytes);
-  Result<void> read(std::uint64_t at, std::span<std::uint8_t> bytes) const;
-  Result<void> commit();
-  std::uint64_t size() const { return size_; }
-  const std::filesystem::path& file() const { return file_; }
-
- private:
-  PartFile(std::filesystem::path file, std::filesystem::path part, int descriptor);
-  std::filesystem::path file_, part_;
-  int descriptor_ = -1;
-  std::uint64_t size_ = 0;
-};
-
-// A whole text file, by PartFile.
-Result<void> writeWholeText(const std::filesystem::path& file, std::string_view text);
 
 // A regular file that is read at any place.
 class InputFile {

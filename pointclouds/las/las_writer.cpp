@@ -4,8 +4,8 @@
 #include <limits>
 #include <optional>
 
+#include "core/part_file.h"
 #include "pointclouds/files/block_check.h"
-#include "pointclouds/files/file_access.h"
 #include "pointclouds/files/scan_text.h"
 #include "pointclouds/las/las.h"
 #include "pointclouds/las/las_packer.h"

@@ -4,8 +4,8 @@
 #include <limits>
 #include <optional>
 
+#include "core/part_file.h"
 #include "pointclouds/files/block_check.h"
-#include "pointclouds/files/file_access.h"
 #include "pointclouds/files/number_text.h"
 #include "pointclouds/files/raw_bytes.h"
 #include "pointclouds/files/scan_text.h"

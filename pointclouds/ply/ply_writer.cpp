@@ -2,8 +2,8 @@
 #include <cstring>
 #include <optional>
 
+#include "core/part_file.h"
 #include "pointclouds/files/block_check.h"
-#include "pointclouds/files/file_access.h"
 #include "pointclouds/files/raw_bytes.h"
 #include "pointclouds/files/scan_text.h"
 #include "pointclouds/ply/ply.h"

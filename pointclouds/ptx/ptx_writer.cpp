@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "core/part_file.h"
 #include "pointclouds/files/block_check.h"
-#include "pointclouds/files/file_access.h"
 #include "pointclouds/files/number_text.h"
 #include "pointclouds/ptx/ptx.h"
 

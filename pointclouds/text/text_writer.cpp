@@ -4,8 +4,8 @@
 #include <optional>
 #include <type_traits>
 
+#include "core/part_file.h"
 #include "pointclouds/files/block_check.h"
-#include "pointclouds/files/file_access.h"
 #include "pointclouds/files/number_text.h"
 #include "pointclouds/text/text_points.h"
 

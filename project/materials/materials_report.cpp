@@ -2,13 +2,11 @@
 #include "project/materials/materials_report.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 
 #include <fmt/format.h>
 
 #include "core/html_text.h"
+#include "core/part_file.h"
 #include "project/materials/material_findings.h"
 
 namespace standpoint {
@@ -122,13 +120,7 @@ Result<void> writeMaterialReport(const Document& document, const std::filesystem
   const auto ending = file.extension().string();
   if (ending != ".html" && ending != ".csv")
     return failure(ErrorKind::usage, "unsupported report format: use .html or .csv", file.string());
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  out << (ending == ".html" ? htmlReport(document) : csvReport(document));
-  out.flush();
-  if (!out)
-    return failure(ErrorKind::file_system, fmt::format("cannot write the file ({})", std::strerror(errno)),
-                   file.string());
-  return {};
+  return writeWholeText(file, ending == ".html" ? htmlReport(document) : csvReport(document));
 }
 
 }  // namespace standpoint

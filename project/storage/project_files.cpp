@@ -5,10 +5,12 @@
 #include <cstring>
 #include <fstream>
 #include <set>
+#include <span>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/part_file.h"
 #include "importers/gltf/gltf_writer.h"
 #include "project/materials/verification_json.h"
 #include "project/storage/project_json.h"
@@ -25,26 +27,12 @@ constexpr const char* kProjectFile = "project.json";
 constexpr int kMostAttempts = 20;                          // to read a project that others replace meanwhile
 constexpr auto kReplace = json::error_handler_t::replace;  // of a name that is not UTF-8 the bytes that are wrong
 
-tl::unexpected<Error> cannotWrite(const fs::path& file) {
-  return failure(ErrorKind::file_system,
-                 fmt::format("cannot write the file ({}); the project is unchanged", std::strerror(errno)),
-                 file.string());
-}
-
 Result<std::string> readText(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in)
     return failure(ErrorKind::file_system, fmt::format("cannot read the file ({})", std::strerror(errno)),
                    file.string());
   return std::string(std::istreambuf_iterator<char>(in), {});
-}
-
-Result<void> writeText(const fs::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  out.write(text.data(), static_cast<std::streamsize>(text.size()));
-  out.flush();
-  if (!out) return cannotWrite(file);
-  return {};
 }
 
 Result<json> jsonFrom(const std::string& text, const fs::path& file) {
@@ -59,36 +47,39 @@ Result<json> readJson(const fs::path& file) {
   return jsonFrom(text, file);
 }
 
+Result<std::uint64_t> hashOf(const PartFile& file) {
+  std::string text(file.size(), '\0');
+  TRY(file.read(0, std::span(reinterpret_cast<std::uint8_t*>(text.data()), text.size())));
+  return contentHash(text);
+}
+
+bool holds(const fs::path& file, std::uintmax_t size, std::uint64_t hash) {
+  std::error_code error;
+  if (fs::file_size(file, error) != size || error) return false;
+  const auto text = readText(file);
+  return text && contentHash(*text) == hash;
+}
+
 // Parts are stored under the name of their content, so an unchanged part is not written again and an old project.json
 // keeps pointing at its own parts until the new one replaces it.
-Result<std::string> storeUnderContentName(const fs::path& fresh, const std::string& stem) {
-  TRY_ASSIGN(auto text, readText(fresh));
-  const auto name = fmt::format("{}-{:016x}{}", stem, contentHash(text), fresh.extension().string());
-  std::error_code error;
-  fs::rename(fresh, fresh.parent_path() / name, error);
-  if (error) return failure(ErrorKind::file_system, "cannot rename: " + error.message(), fresh.string());
+Result<std::string> storeUnderContentName(PartFile part, const std::string& stem) {
+  TRY_ASSIGN(const auto hash, hashOf(part));
+  auto name = fmt::format("{}-{:016x}{}", stem, hash, part.file().extension().string());
+  if (!holds(part.file().parent_path() / name, part.size(), hash)) TRY(part.commitAs(name));
   return name;
 }
 
 Result<std::string> storeEnvironment(const Environment& environment, const Georeference& georeference,
                                      const fs::path& geometry, const std::string& stem, Progress& progress) {
-  const auto fresh = geometry / (".new-" + stem + ".glb");
-  if (auto written = writeEnvironmentGlb(environment, georeference, fresh, progress); !written) {
-    std::error_code ignored;
-    fs::remove(fresh, ignored);
-    return failure(written.error());
-  }
-  return storeUnderContentName(fresh, stem);
+  TRY_ASSIGN(auto part, PartFile::create(geometry / (stem + ".glb")));
+  TRY(writeEnvironmentGlb(environment, georeference, part, progress));
+  return storeUnderContentName(std::move(part), stem);
 }
 
 Result<std::string> storeJson(const json& value, const fs::path& geometry, const std::string& stem) {
-  const auto fresh = geometry / (".new-" + stem + ".json");
-  if (auto written = writeText(fresh, value.dump(-1, ' ', false, kReplace)); !written) {
-    std::error_code ignored;
-    fs::remove(fresh, ignored);
-    return failure(written.error());
-  }
-  return storeUnderContentName(fresh, stem);
+  TRY_ASSIGN(auto part, PartFile::create(geometry / (stem + ".json")));
+  TRY(part.append(value.dump(-1, ' ', false, kReplace)));
+  return storeUnderContentName(std::move(part), stem);
 }
 
 // Only what an earlier save of ours left in geometry/ and no project.json names any more.
@@ -97,7 +88,7 @@ void removeUnreferenced(const fs::path& geometry, const std::set<std::string>& n
   for (const auto& entry : fs::directory_iterator(geometry, ignored)) {
     const auto name = entry.path().filename().string();
     const bool ours = name.rfind("imported-", 0) == 0 || name.rfind("products-", 0) == 0 ||
-                      name.rfind("light-", 0) == 0 || name.rfind("collision-", 0) == 0 || name.rfind(".new-", 0) == 0;
+                      name.rfind("light-", 0) == 0 || name.rfind("collision-", 0) == 0 || isPart(name);
     if (ours && !named.contains(name)) fs::remove(entry.path(), ignored);
   }
 }
@@ -201,15 +192,7 @@ Result<void> saveProject(const Document& document, const fs::path& folder, Progr
     TRY(store(project["collision"], "geometry",
               storeEnvironment(collisionEnvironment(*document.collision), g, geometry, "collision", progress)));
 
-  const auto fresh = folder / ".project.json.new";
-  if (auto written = writeText(fresh, project.dump(2, ' ', false, kReplace) + "\n"); !written) {
-    fs::remove(fresh, error);
-    return written;
-  }
-  fs::rename(fresh, folder / kProjectFile, error);
-  if (error)
-    return failure(ErrorKind::file_system, "cannot replace the file: " + error.message(),
-                   (folder / kProjectFile).string());
+  TRY(writeWholeText(folder / kProjectFile, project.dump(2, ' ', false, kReplace) + "\n"));
   removeUnreferenced(geometry, named);
   return {};
 }

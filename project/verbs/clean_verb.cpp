@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <fstream>
-
 #include <fmt/format.h>
 
 #include "core/output_place.h"
+#include "core/part_file.h"
 #include "pointclouds/filters/cleaning.h"
 #include "project/verbs/file_verbs.h"
 
@@ -92,14 +91,6 @@ std::string table(const Cleaning& cleaning) {
   return text;
 }
 
-Result<void> writeReport(const fs::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) return failure(ErrorKind::file_system, "cannot write the file", file.string());
-  return {};
-}
-
 }  // namespace
 
 Result<std::vector<ChosenFilter>> filtersFrom(const std::vector<std::string>& texts) {
@@ -184,8 +175,8 @@ Result<Answered<CleanAnswer>> runClean(const Document& document, const CleanOpti
   for (const auto& filter : cleaning.filters) answer.filters.push_back(filterRow(filter));
   answer.files = cleaning.files;
   if (!report.empty())
-    TRY(writeReport(report, report.extension() == ".csv" ? csv(cleaning)
-                                                         : AnswerValue<CleanFigures>::write(answer).dump(2) + "\n"));
+    TRY(writeWholeText(report, report.extension() == ".csv" ? csv(cleaning)
+                                                            : AnswerValue<CleanFigures>::write(answer).dump(2) + "\n"));
   outcome.description =
       fmt::format("Cleaned {}: kept {} of {} points", in.filename().string(), cleaning.points_out, cleaning.points_in);
   outcome.text = table(cleaning);

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pointclouds/e57/crc32c.h"
+#include "pointclouds/files/file_access.h"
 
 namespace standpoint {
 

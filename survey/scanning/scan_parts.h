@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
+#include "core/part_file.h"
 #include "core/points.h"
 #include "core/progress.h"
-#include "pointclouds/files/file_access.h"
 #include "scanners/engine/ray_engine.h"
 
 namespace standpoint {

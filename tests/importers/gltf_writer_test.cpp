@@ -6,6 +6,7 @@
 
 #include "core/random.h"
 #include "tests/importers/mesh_files.h"
+#include "tests/importers/written_glb.h"
 
 namespace standpoint::test {
 namespace {
@@ -127,7 +128,7 @@ void expectSame(const Environment& a, const Environment& b) {
 
 Environment throughGlb(const Environment& e, const Georeference& g, const std::filesystem::path& file) {
   Progress progress;
-  const auto written = writeEnvironmentGlb(e, g, file, progress);
+  const auto written = testing::putGlb(e, g, file, progress);
   EXPECT_TRUE(written) << describe(written.error());
   auto back = readEnvironmentGlb(file, progress);
   EXPECT_TRUE(back) << describe(back.error());
@@ -242,14 +243,14 @@ TEST(GltfExport, ComesBackByImportWithProductsPropertiesAndImages) {
 TEST(GltfWriter, ProgressCancelStopsTheWriting) {
   Progress progress;
   progress.cancel();
-  const auto written = writeEnvironmentGlb(everything(), {}, scratch() / "a.glb", progress);
+  const auto written = testing::putGlb(everything(), {}, scratch() / "a.glb", progress);
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().kind, ErrorKind::cancelled);
 }
 
 TEST(GltfWriter, FolderThatDoesNotExistIsAFileSystemError) {
   Progress progress;
-  const auto written = writeEnvironmentGlb(everything(), {}, scratch() / "no/such/a.glb", progress);
+  const auto written = testing::putGlb(everything(), {}, scratch() / "no/such/a.glb", progress);
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().kind, ErrorKind::file_system);
 }

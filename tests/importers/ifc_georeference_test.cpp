@@ -9,6 +9,7 @@
 #include "importers/gltf/gltf_writer.h"
 #include "importers/obj/obj_writer.h"
 #include "tests/importers/ifc_fixture.h"
+#include "tests/importers/written_glb.h"
 
 namespace standpoint::test {
 namespace {
@@ -207,7 +208,7 @@ TEST(IfcGeoreference, AModelFarAwayKeepsItsNumbersThroughObjAndGlb) {
     }
   expectNear(written.min, {e, n, h}, 1e-4);
   expectNear(written.max, {e + 2, n + 1, h + 3}, 1e-4);
-  ASSERT_TRUE(writeEnvironmentGlb(model.environment, model.georeference, glb.path(), progress));
+  ASSERT_TRUE(testing::putGlb(model.environment, model.georeference, glb.path(), progress));
   const auto back = importFile(glb.path(), {}, progress);
   ASSERT_TRUE(back.has_value()) << describe(back.error());
   const Bounds b = bounds(back->environment);

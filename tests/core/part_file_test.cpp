@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/part_file.h"
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace standpoint {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string textOf(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void put(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
+
+class PartFiles : public ::testing::Test {
+ protected:
+  PartFiles() {
+    std::string pattern = (fs::temp_directory_path() / "standpoint-part-XXXXXX").string();
+    folder = mkdtemp(pattern.data());
+    file = folder / "house.glb";
+  }
+  ~PartFiles() override { fs::remove_all(folder); }
+  std::vector<std::string> names() const {
+    std::vector<std::string> all;
+    for (const auto& entry : fs::directory_iterator(folder)) all.push_back(entry.path().filename());
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+  fs::path folder, file;
+};
+
+TEST_F(PartFiles, ReplaceTheOldFileOnlyInCommit) {
+  put(file, "old");
+  auto part = PartFile::create(file);
+  ASSERT_TRUE(part);
+  ASSERT_TRUE(part->append("new"));
+  EXPECT_EQ(textOf(file), "old");
+  ASSERT_TRUE(part->commit());
+  EXPECT_EQ(textOf(file), "new");
+  EXPECT_EQ(names(), std::vector<std::string>{"house.glb"});
+}
+
+TEST_F(PartFiles, VanishWithoutACommit) {
+  put(file, "old");
+  {
+    auto part = PartFile::create(file);
+    ASSERT_TRUE(part && part->append("new"));
+    EXPECT_TRUE(isPart(folder / names().front()));
+  }
+  EXPECT_EQ(textOf(file), "old");
+  EXPECT_EQ(names(), std::vector<std::string>{"house.glb"});
+}
+
+TEST_F(PartFiles, OfSeveralWritersDoNotMeet) {
+  auto first = PartFile::create(file);
+  auto second = PartFile::create(file);
+  ASSERT_TRUE(first && second);
+  ASSERT_TRUE(first->append("first") && second->append("second"));
+  ASSERT_TRUE(second->commit());
+  EXPECT_EQ(textOf(file), "second");
+  ASSERT_TRUE(first->commit());
+  EXPECT_EQ(textOf(file), "first");
+  EXPECT_EQ(names(), std::vector<std::string>{"house.glb"});
+}
+
+TEST_F(PartFiles, OfAKilledWriterAreUsedAgain) {
+  put(file, "old");
+  if (const auto child = fork(); child == 0) {
+    auto part = PartFile::create(file);
+    if (part && part->append("far more than the next one writes")) std::raise(SIGKILL);
+    _exit(1);
+  } else {
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFSIGNALED(status));
+  }
+  EXPECT_EQ(textOf(file), "old");
+  EXPECT_EQ(names().size(), 2U);
+  ASSERT_TRUE(writeWholeText(file, "new"));
+  EXPECT_EQ(textOf(file), "new");
+  EXPECT_EQ(names(), std::vector<std::string>{"house.glb"});
+}
+
+TEST_F(PartFiles, FollowALinkAndKeepPermissions) {
+  const auto other = folder / "other";
+  fs::create_directory(other);
+  put(other / "real.glb", "old");
+  ::chmod((other / "real.glb").c_str(), 0640);
+  fs::create_symlink("other/real.glb", file);
+  ASSERT_TRUE(writeWholeText(file, "new"));
+  EXPECT_TRUE(fs::is_symlink(file));
+  EXPECT_EQ(textOf(other / "real.glb"), "new");
+  struct stat status {};
+  ASSERT_EQ(::stat((other / "real.glb").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777U, 0640U);
+}
+
+TEST_F(PartFiles, RefuseWhatIsNoRegularFile) {
+  for (const auto& place : {folder, fs::path("/dev/null")}) {
+    const auto part = PartFile::create(place);
+    ASSERT_FALSE(part);
+    EXPECT_EQ(part.error().kind, ErrorKind::file_system);
+    EXPECT_EQ(part.error().source, place.string());
+  }
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST_F(PartFiles, TakeALongNameAndOneInTheCurrentFolder) {
+  ASSERT_TRUE(writeWholeText(folder / std::string(255, 'x'), "new"));
+  const auto before = fs::current_path();
+  fs::current_path(folder);
+  EXPECT_TRUE(writeWholeText("here.txt", "new"));
+  fs::current_path(before);
+  EXPECT_EQ(textOf(folder / "here.txt"), "new");
+}
+
+TEST_F(PartFiles, OnAFullDiskNameTheFileAndARemedy) {
+  put(file, "old");
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit limit{2, before.rlim_max};
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+  const auto written = writeWholeText(file, "new text");
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().source, file.string());
+  EXPECT_NE(written.error().message.find("free some space"), std::string::npos);
+  EXPECT_EQ(textOf(file), "old");
+  EXPECT_EQ(names(), std::vector<std::string>{"house.glb"});
+}
+
+TEST_F(PartFiles, OfAFolderAreThereWholeOrNotAtAll) {
+  const auto set = folder / "set";
+  {
+    auto part = PartFolder::create(set);
+    ASSERT_TRUE(part);
+    put(part->path() / "a", "a");
+  }
+  EXPECT_TRUE(names().empty());
+  auto part = PartFolder::create(set);
+  auto other = PartFolder::create(set);
+  ASSERT_TRUE(part && other);
+  put(part->path() / "a", "a");
+  put(other->path() / "b", "b");
+  ASSERT_TRUE(part->commit());
+  EXPECT_FALSE(other->commit()) << "the set that is there stays";
+  EXPECT_EQ(textOf(set / "a"), "a");
+}
+
+TEST_F(PartFiles, OfAFolderWhoseWriterWasKilledAreEmptiedAndUsedAgain) {
+  const auto left = folder / ".set.standpoint-part";
+  fs::create_directory(left);
+  put(left / "old", "old");
+  auto part = PartFolder::create(folder / "set");
+  ASSERT_TRUE(part);
+  EXPECT_EQ(part->path(), left);
+  EXPECT_TRUE(fs::is_empty(left));
+}
+
+}  // namespace
+}  // namespace standpoint
