@@ -79,6 +79,11 @@ TargetSight sightFrom(const Station& station, const RayScene& scene, const Targe
   const Vector3d& from = station.true_pose.translation;
   const Vector3d way = from - target.centre;
   s.distance_m = way.norm();
+  if (s.distance_m < target.size_m) {  // a direction to it need not exist
+    s.seen_fraction = 1;
+    s.why_not = fmt::format("only {:.2f} m from the instrument", s.distance_m);
+    return s;
+  }
   if (target.kind == TargetKind::checkerboard)
     s.incidence_rad = std::acos(std::clamp(target.normal.dot(way) / s.distance_m, -1.0, 1.0));
   look(scene, target, from, s);

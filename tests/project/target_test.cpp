@@ -95,6 +95,12 @@ TEST(Target, SaysWhatStationsCannotMeasureIt) {
   EXPECT_THAT(said(flat->report), HasSubstr("incidence 68° exceeds the limit of 60°"));
 }
 
+TEST(Target, WhereAStationStandsCannotBeMeasuredFromIt) {
+  const auto done = run("target", withStation(), {{"add", "T"}, {"at", {500002, 5600001.5, 1.6}}});
+  ASSERT_TRUE(done) << describe(done.error());
+  EXPECT_THAT(said(done->report), HasSubstr("not measurable from S1: only 0.00 m from the instrument"));
+}
+
 // instrument-facts.md §4.3: a sphere of 145 mm gets 60 points of a FARO at 1/16 up to 108.1 m / 16, and here it is 3.9
 // m away.
 TEST(Target, IsMeasuredAsFarAsTheGridLaysSixtyPointsOnIt) {
