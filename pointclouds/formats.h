@@ -35,7 +35,7 @@ struct CloudExtent {
 // Reads all points once, in memory that does not grow with them.
 Result<CloudExtent> measureCloud(const std::filesystem::path& file, Progress& progress);
 
-// Writers create `file` + ".part" and rename it in close(), so a full disk or a crash leaves the old file as it was.
+// Writers make the file by PartFile, so a full disk or a crash leaves the old one as it was.
 
 // Copies all scans of IN to OUT; OUT's format must be writable. When OUT cannot hold many scans and IN has several,
 // each gets its own file: name-<station>.ext. `as` names a variant of OUT's format, or is empty. `through` may put a

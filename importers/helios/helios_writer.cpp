@@ -85,9 +85,8 @@ Result<void> writeHeliosScene(const Environment& environment, const std::vector<
   auto name = file.stem().string();
   for (auto& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.') c = '_';  // stands in XML and in paths
-  auto obj = file.parent_path() / (name + ".obj"), mtl = file.parent_path() / (name + ".mtl");
-  TRY(writeEnvironmentObj(named, georeference, obj, progress));
-  TRY(writeWholeText(mtl, materialText(named, physical)));
+  const auto obj = file.parent_path() / (name + ".obj");
+  TRY(writeEnvironmentObj(named, georeference, obj, progress, materialText(named, physical)));
   const auto spectra = file.parent_path() / "spectra";
   std::error_code error;
   fs::create_directories(spectra, error);

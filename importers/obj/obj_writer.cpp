@@ -69,15 +69,16 @@ void appendInstance(const Environment& environment, const Instance& instance, co
 }  // namespace
 
 Result<void> writeEnvironmentObj(const Environment& environment, const Georeference& georeference,
-                                 const std::filesystem::path& file, Progress& progress) {
+                                 const std::filesystem::path& file, Progress& progress,
+                                 const std::optional<std::string>& materials) {
   progress.stage("Writing OBJ");
   if (auto wrong = validate(environment); !wrong.empty()) return failure(ErrorKind::internal, wrong, file.string());
   auto mtl = file;
   mtl.replace_extension(".mtl");
   std::vector<std::string> names;
   for (std::uint32_t i = 0; i < environment.surfaces.size(); ++i) names.push_back(materialName(environment, i));
-  TRY_ASSIGN(auto materials, PartFile::create(mtl));
-  TRY(materials.append(materialsText(environment, names)));
+  TRY_ASSIGN(auto beside, PartFile::create(mtl));
+  TRY(beside.append(materials ? *materials : materialsText(environment, names)));
   TRY_ASSIGN(auto out, PartFile::create(file));
   TRY(out.append("# metres, Z up (import with --up z)\nmtllib " + mtl.filename().string() + '\n'));
   std::size_t first_vertex = 1;
@@ -93,7 +94,7 @@ Result<void> writeEnvironmentObj(const Environment& environment, const Georefere
     TRY(progress.check());
     progress.advance(static_cast<double>(i + 1) / static_cast<double>(environment.instances.size()));
   }
-  TRY(materials.commit());
+  TRY(beside.commit());
   return out.commit();
 }
 

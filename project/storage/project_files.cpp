@@ -14,6 +14,7 @@
 #include "importers/gltf/gltf_writer.h"
 #include "project/materials/verification_json.h"
 #include "project/storage/project_json.h"
+#include "project/storage/project_lock.h"
 #include "project/survey/underlays.h"
 
 namespace standpoint {
@@ -82,14 +83,18 @@ Result<std::string> storeJson(const json& value, const fs::path& geometry, const
   return storeUnderContentName(std::move(part), stem);
 }
 
-// Only what an earlier save of ours left in geometry/ and no project.json names any more.
+// What a save of ours puts into geometry/, whole or not.
+bool isOurs(const std::string& name) {
+  return name.rfind("imported-", 0) == 0 || name.rfind("products-", 0) == 0 || name.rfind("light-", 0) == 0 ||
+         name.rfind("collision-", 0) == 0 || isPart(name);
+}
+
+// Only what an earlier save of ours left and no project.json names any more.
 void removeUnreferenced(const fs::path& geometry, const std::set<std::string>& named) {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(geometry, ignored)) {
     const auto name = entry.path().filename().string();
-    const bool ours = name.rfind("imported-", 0) == 0 || name.rfind("products-", 0) == 0 ||
-                      name.rfind("light-", 0) == 0 || name.rfind("collision-", 0) == 0 || isPart(name);
-    if (ours && !named.contains(name)) fs::remove(entry.path(), ignored);
+    if (isOurs(name) && !named.contains(name)) fs::remove(entry.path(), ignored);
   }
 }
 
@@ -195,6 +200,17 @@ Result<void> saveProject(const Document& document, const fs::path& folder, Progr
   TRY(writeWholeText(folder / kProjectFile, project.dump(2, ' ', false, kReplace) + "\n"));
   removeUnreferenced(geometry, named);
   return {};
+}
+
+bool isEmptyProjectFolder(const fs::path& folder) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.path().filename() != kProjectLockFile && entry.path().filename() != "geometry" && !isPart(entry.path()))
+      return false;
+  if (error) return false;
+  for (const auto& entry : fs::directory_iterator(folder / "geometry", error))
+    if (!isOurs(entry.path().filename().string())) return false;
+  return true;
 }
 
 Result<std::string> projectText(const fs::path& folder) { return readText(folder / kProjectFile); }

@@ -16,6 +16,9 @@ constexpr int kProjectVersion = 1;
 // as it was. load(save(d)) scans to the same bytes as d.
 Result<void> saveProject(const Document& document, const std::filesystem::path& folder, Progress& progress);
 
+// Is there nothing in the folder but what a save leaves that was broken off before there was a project?
+bool isEmptyProjectFolder(const std::filesystem::path& folder);
+
 // What project.json says now: equal texts are equal projects.
 Result<std::string> projectText(const std::filesystem::path& folder);
 

@@ -25,7 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* kLockFile = ".lock";
 constexpr std::chrono::milliseconds kBetweenAttempts{20};
 
 tl::unexpected<Error> cannotLock(const fs::path& file, int number) {
@@ -93,7 +92,7 @@ Result<ProjectLock> ProjectLock::acquire(const fs::path& folder, const std::stri
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), folder.string());
-  const auto file = folder / kLockFile;
+  const auto file = folder / kProjectLockFile;
   const auto started = Clock::now();
   bool waiting = false;
   while (true) {
@@ -124,13 +123,6 @@ ProjectLock::~ProjectLock() {
   if (descriptor_ < 0) return;
   ::unlink(file_.c_str());
   ::close(descriptor_);
-}
-
-bool isEmptyProjectFolder(const fs::path& folder) {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (entry.path().filename() != kLockFile) return false;
-  return !error;
 }
 
 }  // namespace standpoint

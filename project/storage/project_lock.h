@@ -10,6 +10,8 @@
 
 namespace standpoint {
 
+constexpr const char* kProjectLockFile = ".lock";
+
 // The right to change a project: one writer at a time holds it, from reading the project to having replaced it.
 // Advisory, by flock(2) on a file in the project's folder that says who writes and since when. The system takes it back
 // when its process ends, however it ends, so no lock outlives its writer; readers need none (see loadProject).
@@ -33,8 +35,5 @@ class ProjectLock {
   std::filesystem::path file_;
   int descriptor_;
 };
-
-// Is there nothing in the folder but a lock?
-bool isEmptyProjectFolder(const std::filesystem::path& folder);
 
 }  // namespace standpoint
