@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/option_words.h"
 #include "project/answers.h"
 #include "project/storage/session.h"
 
@@ -32,18 +33,6 @@ struct Words {
   bool allow_loss = false;
 };
 
-std::string placeholder(const Parameter& p) {
-  switch (p.kind) {
-    case ParameterKind::number:
-    case ParameterKind::integer: return *p.unit != 0 ? p.unit : "N";
-    case ParameterKind::choice: return fmt::format("{}", fmt::join(p.choices, "|"));
-    case ParameterKind::triple: return "X,Y,Z";
-    case ParameterKind::pairs: return "KEY=VALUE ...";
-    case ParameterKind::path: return "PATH";
-    default: return "TEXT";
-  }
-}
-
 std::string helpOf(const Parameter& p) {
   std::string help = p.help;
   const auto& value = p.default_value;
@@ -56,8 +45,7 @@ std::string helpOf(const Parameter& p) {
 
 void describeVerb(Words& words) {
   CLI::App& app = *words.app;
-  if (words.verb->scope == VerbScope::changes || words.verb->scope == VerbScope::reads)
-    app.add_option("project", words.project, "project folder")->required();
+  if (takesProject(*words.verb)) app.add_option("project", words.project, "project folder")->required();
   for (const auto& p : words.verb->parameters) {
     if (p.kind == ParameterKind::flag) {
       app.add_flag(fmt::format("--{}", p.name), words.flags[p.name], helpOf(p));

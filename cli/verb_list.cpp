@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/option_words.h"
+
 namespace standpoint {
 
 namespace {
@@ -12,31 +14,6 @@ namespace {
 std::string inCell(std::string text) {
   for (std::size_t i = 0; (i = text.find('|', i)) != std::string::npos; i += 2) text.insert(i, 1, '\\');
   return text;
-}
-
-std::string defaultOf(const Parameter& p) {
-  const auto& value = p.default_value;
-  if (p.required) return "required";
-  if (value.is_null()) return "";
-  if (value.is_string()) return value.get<std::string>();
-  return value.is_number_float() ? fmt::format("{}", value.get<double>()) : value.dump();
-}
-
-std::string spelling(const Parameter& p) {
-  if (p.positional) return p.kind == ParameterKind::list ? fmt::format("{}...", p.name) : p.name;
-  return (std::string_view(p.name) == "output" ? "-o, --" : "--") + std::string(p.name);
-}
-
-// With what it needs, and without what may be left out.
-std::string call(const Verb& verb) {
-  std::string line = verb.name;
-  if (verb.scope == VerbScope::changes || verb.scope == VerbScope::reads) line += " PROJECT";
-  for (const auto& p : verb.parameters) {
-    if (p.positional) line += p.required ? " " + spelling(p) : " [" + spelling(p) + "]";
-    if (!p.positional && p.required)
-      line += std::string_view(p.name) == "output" ? " -o OUT" : " " + spelling(p) + " …";
-  }
-  return verb.scope == VerbScope::creates ? line + " -o PROJECT" : line;
 }
 
 // `page` with a row for each verb below the head of its table of verbs, where it has one.

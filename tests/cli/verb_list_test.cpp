@@ -6,14 +6,13 @@
 
 #include <gtest/gtest.h>
 
-#include "core/data_folder.h"
 #include "emulated-ui/rehearsal/rehearse_verb.h"
 
 namespace standpoint {
 namespace {
 
 TEST(VerbList, DocsListEveryVerbWithEveryOption) {
-  std::ifstream in(dataFolder() / "docs" / "reference" / "verbs.md");
+  std::ifstream in(SOURCE_DIR "/docs/reference/verbs.md");
   const std::string page{std::istreambuf_iterator<char>(in), {}};
   const auto mark = page.find(kVerbListMark);
   ASSERT_NE(mark, std::string::npos) << "docs/reference/verbs.md has lost the line above its generated part";
