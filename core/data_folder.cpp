@@ -5,9 +5,33 @@
 
 namespace standpoint {
 
-std::filesystem::path dataFolder() {
-  if (const char* folder = std::getenv("STANDPOINT_DATA")) return folder;
-  return STANDPOINT_SOURCE_FOLDER;
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* given(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value != nullptr && *value != 0 ? value : nullptr;
+}
+
+}  // namespace
+
+fs::path dataFolderOf(const fs::path& program) {
+  const auto beside = (program.parent_path() / "../share/standpoint").lexically_normal();
+  std::error_code error;
+  const bool found = beside.is_absolute() && fs::is_regular_file(beside / kDataMark, error);
+  return found ? beside : fs::path(STANDPOINT_INSTALLED_DATA);
+}
+
+fs::path dataFolder() {
+  if (const char* folder = given("STANDPOINT_DATA")) return folder;
+  std::error_code error;
+  return dataFolderOf(fs::read_symlink("/proc/self/exe", error));
+}
+
+fs::path samplesFolder() {
+  if (const char* folder = given("STANDPOINT_SAMPLES")) return folder;
+  return dataFolder() / "samples";
 }
 
 }  // namespace standpoint

@@ -5,8 +5,19 @@
 
 namespace standpoint {
 
-// Where the program's own data lies: instruments, materials, rules, schemas, samples. STANDPOINT_DATA, else beside the
-// program's sources as built.
+// Where the program's own data lies: instruments, materials, rules, schemas, samples. STANDPOINT_DATA, else as
+// dataFolderOf this program. A build folder is laid out as an installed tree (cmake/install.cmake), so there is one
+// rule.
 std::filesystem::path dataFolder();
+
+// share/standpoint beside the folder of the program, if it is data of ours, so that a tree can be moved; else where the
+// build was told to install it.
+std::filesystem::path dataFolderOf(const std::filesystem::path& program);
+
+// A file by which such a folder is recognised.
+inline constexpr const char* kDataMark = "materials/schema.json";
+
+// The models of the sample environments: STANDPOINT_SAMPLES, else with the data.
+std::filesystem::path samplesFolder();
 
 }  // namespace standpoint

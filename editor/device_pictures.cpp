@@ -5,11 +5,11 @@
 
 #include <imgui.h>
 
+#include "core/data_folder.h"
 #include "editor/instrument/preview_picture.h"
 #include "emulated-ui/draw/device_view.h"
 #include "emulated-ui/menus.h"
 #include "emulated-ui/preview.h"
-#include "emulated-ui/rehearsal/rehearsal.h"
 
 namespace standpoint {
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/data_folder.h"
 #include "core/nearest_name.h"
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/events.h"

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <thread>
 
 #include <fmt/format.h>
 
+#include "core/data_folder.h"
 #include "core/nearest_name.h"
 #include "emulated-ui/device/format.h"
 #include "emulated-ui/menus.h"
@@ -51,11 +51,6 @@ bool asksThePoints(const Exercise& e) {
 }
 
 }  // namespace
-
-fs::path samplesFolder() {
-  if (const char* folder = std::getenv("STANDPOINT_SAMPLES")) return folder;
-  return STANDPOINT_SAMPLES_FOLDER;
-}
 
 Result<std::unique_ptr<Rehearsal>> Rehearsal::start(Exercise exercise, const std::string& device,
                                                     const fs::path& folder, std::function<void()> wake,

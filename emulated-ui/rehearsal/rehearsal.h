@@ -115,7 +115,5 @@ class Rehearsal {
 std::optional<FactDomain> rehearsalDomain(const Exercise& exercise, const std::string& name);
 // Facts that conditions of the exercise may ask on the device, but for counters and those with figures in their names.
 std::vector<std::string> factNames(const Exercise& exercise, const Device& device);
-// Where the sample environments' models lie: STANDPOINT_SAMPLES, else where the build makes them.
-std::filesystem::path samplesFolder();
 
 }  // namespace standpoint

@@ -17,7 +17,7 @@ class DeviceFolder : public testing::TestWithParam<const EmulatedDevice*> {};
 
 TEST_P(DeviceFolder, HasItsDataItsTutorialItsPageAndAPictureOfEachScreen) {
   const std::string id = GetParam()->id;
-  const auto reference = dataFolder() / "docs" / "reference" / "devices";
+  const fs::path reference = SOURCE_DIR "/docs/reference/devices";
   std::vector<fs::path> needed = {GetParam()->folder() / "device.json", GetParam()->folder() / "words.json",
                                   GetParam()->folder() / "tutorial.json", reference / (id + ".md"),
                                   reference / id / "off.png"};
@@ -25,7 +25,7 @@ TEST_P(DeviceFolder, HasItsDataItsTutorialItsPageAndAPictureOfEachScreen) {
   ASSERT_TRUE(type) << describe(type.error());
   for (const auto& screen : (*type)->definition.screens) needed.push_back(reference / id / (screen.id + ".png"));
   for (const auto& file : needed) EXPECT_TRUE(fs::exists(file)) << "missing: " << file.string();
-  std::ifstream in(dataFolder() / "docs" / "README.md");
+  std::ifstream in(SOURCE_DIR "/docs/README.md");
   const std::string list{std::istreambuf_iterator<char>(in), {}};
   EXPECT_TRUE(list.find("(reference/devices/" + id + ".md)") != std::string::npos)
       << "missing: reference/devices/" << id << ".md in the list of devices of docs/README.md";

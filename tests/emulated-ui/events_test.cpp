@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/data_folder.h"
 #include "project/verb.h"
 #include "tests/emulated-ui/support.h"
 
@@ -21,7 +20,7 @@ namespace fs = std::filesystem;
 std::set<std::string> notedInSources() {
   static const std::regex kNote("\\bnote\\(\"([a-z_]+)\"");
   std::set<std::string> found;
-  for (const auto& entry : fs::recursive_directory_iterator(dataFolder() / "emulated-ui")) {
+  for (const auto& entry : fs::recursive_directory_iterator(SOURCE_DIR "/emulated-ui")) {
     if (entry.path().extension() != ".cpp") continue;
     std::ifstream in(entry.path());
     const std::string text(std::istreambuf_iterator<char>(in), {});

@@ -31,7 +31,7 @@ std::string wholeText(const std::filesystem::path& file) {
 
 // The example in the documentation, as a lecturer would copy it.
 std::string documentedExample() {
-  const auto text = wholeText(dataFolder() / "docs" / "reference" / "exercises.md");
+  const auto text = wholeText(SOURCE_DIR "/docs/reference/exercises.md");
   const std::string fence = "```json\n";
   const auto from = text.find(fence);
   EXPECT_NE(from, std::string::npos);
@@ -127,7 +127,7 @@ TEST(RehearseNames, ListsForEachDeviceWhatAnExerciseMayUse) {
 TEST(RehearseDocs, HaveTheTableOfDevicesAsItIs) {
   const auto names = rehearseVerb({{"names", true}});
   ASSERT_TRUE(names) << describe(names.error());
-  const auto docs = wholeText(dataFolder() / "docs" / "reference" / "exercises.md");
+  const auto docs = wholeText(SOURCE_DIR "/docs/reference/exercises.md");
   for (const auto& row : names->answer["devices"]) {
     const auto& start = row["start"];
     const auto listed = "| `" + row["id"].get<std::string>() + "` | `" + start["key"].get<std::string>() + "` | " +

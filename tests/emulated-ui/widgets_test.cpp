@@ -4,7 +4,6 @@
 #include <iterator>
 #include <set>
 
-#include "core/data_folder.h"
 #include "emulated-ui/widget_list.h"
 #include "project/verb.h"
 #include "tests/emulated-ui/working.h"
@@ -92,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(Devices, Widgets, testing::ValuesIn(everyDevice()), dev
 TEST(WidgetList, DocsListThemAll) {
   const auto list = widgetList();
   ASSERT_TRUE(list) << describe(list.error());
-  std::ifstream in(dataFolder() / "docs" / "reference" / "widgets.md");
+  std::ifstream in(SOURCE_DIR "/docs/reference/widgets.md");
   const std::string page{std::istreambuf_iterator<char>(in), {}};
   EXPECT_TRUE(page == *list)
       << "docs/reference/widgets.md is out of date: build/release/bin/list-widgets > docs/reference/widgets.md";
