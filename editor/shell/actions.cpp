@@ -6,6 +6,7 @@
 
 #include <imgui.h>
 
+#include "core/data_folder.h"
 #include "editor/model/input_queue.h"
 #include "editor/model/interface_scale.h"
 #include "editor/shell/dialogs.h"
@@ -37,6 +38,7 @@ void openProject(Editor& e) {
   whenSaved(e, [&e] { askForProject(e); });
 }
 void importModel(Editor& e) { askForModel(e); }
+void openSample(Editor& e) { openPath(e, (samplesFolder() / "house.ifc").string()); }
 void save(Editor& e) {
   if (e.session.folder().empty())
     askWhereToSave(e);
@@ -148,6 +150,7 @@ const std::array kActions = {
     Action{"new", "New project", ICON_FILE_NEW, {'N', true}, newProject, whyOpenNot},
     Action{"open", "Open project…", ICON_FOLDER_OPEN, {'O', true}, openProject, whyOpenNot},
     Action{"import", "Import model…", ICON_IMPORT, {'I', true}, importModel, whyImportNot},
+    Action{"sample", "Open sample house", ICON_BUILDING, {}, openSample, whyImportNot},
     Action{"update", "Update from a changed model…", "", {}, askForChangedModel, whyUpdateNot},
     Action{"save", "Save", ICON_SAVE, {'S', true}, save, whySaveNot},
     Action{"save-as", "Save as…", "", {'S', true, true}, askWhereToSave, whySaveNot},

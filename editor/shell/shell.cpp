@@ -142,7 +142,7 @@ void drawMenuBar(Editor& editor) {
   ImGui::PopStyleVar();
   if (!open) return;
   if (ImGui::BeginMenu("File")) {
-    items(editor, {"new", "open"});
+    items(editor, {"new", "open", "sample"});
     recentMenu(editor);
     items(editor, {"import", "update", "", "save", "save-as", "export", "", "preferences", "quit"});
     ImGui::EndMenu();

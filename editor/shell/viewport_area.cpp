@@ -198,6 +198,11 @@ void drawWelcome(Editor& editor, ImVec2 origin, ImVec2 size) {
                  {button, editor.px(30)}))
     invoke(editor, "open");
   ui::gap(editor, 8);
+  ImGui::SetCursorPosX((width - button) / 2);
+  if (ui::button(ICON_BUILDING "  Open sample house###welcome-sample", editor.session.whyNot("import"),
+                 {button, editor.px(30)}))
+    invoke(editor, "sample");
+  ui::gap(editor, 8);
   const auto recent = editor.settings.recent;
   for (std::size_t i = 0; i < std::min<std::size_t>(recent.size(), 5); ++i) {
     const std::filesystem::path path = recent[i];
