@@ -37,3 +37,37 @@ foreach(file ${data_files})
 endforeach()
 install(FILES ${CMAKE_BINARY_DIR}/samples/house.ifc ${CMAKE_BINARY_DIR}/samples/street.ifc
   DESTINATION ${data}/samples)
+
+# Manual pages and completion from the table of verbs.
+set(manual ${CMAKE_BINARY_DIR}/manual)
+file(MAKE_DIRECTORY ${manual})
+add_custom_command(
+  OUTPUT ${manual}/standpoint.1.gz ${manual}/standpoint.bash
+  COMMAND sh -c "rm -f *.1.gz"
+  COMMAND list-verbs --man ${PROJECT_SOURCE_DIR}/packaging/man/standpoint.1 ${manual}
+  COMMAND list-verbs --bash-completion ${manual}/standpoint.bash
+  COMMAND ${CMAKE_COMMAND} -E copy ${PROJECT_SOURCE_DIR}/packaging/man/standpoint-editor.1 ${manual}
+  COMMAND sh -c "gzip -9n *.1"
+  DEPENDS list-verbs ${PROJECT_SOURCE_DIR}/packaging/man/standpoint.1
+          ${PROJECT_SOURCE_DIR}/packaging/man/standpoint-editor.1
+  WORKING_DIRECTORY ${manual} COMMENT "Writing the manual pages" VERBATIM)
+add_custom_target(manual DEPENDS ${manual}/standpoint.1.gz ${manual}/standpoint.bash)
+install(DIRECTORY ${manual}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 FILES_MATCHING PATTERN "*.1.gz")
+install(FILES ${manual}/standpoint.bash
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME standpoint)
+
+# What desktops show of us: menu, icon, kinds of files, the entry of software centres.
+set(id org.standpoint.standpoint)
+install(FILES packaging/${id}.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
+set(STANDPOINT_HOMEPAGE "https://standpoint.example" CACHE STRING "Where the packages say the project is at home")
+configure_file(packaging/${id}.metainfo.xml.in ${CMAKE_BINARY_DIR}/${id}.metainfo.xml @ONLY)
+install(FILES ${CMAKE_BINARY_DIR}/${id}.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo)
+install(FILES packaging/${id}.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages)
+install(FILES packaging/icons/${id}.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)
+foreach(size 16 24 32 48 64 128 256)  # rsvg-convert -w SIZE -h SIZE packaging/icons/ID.svg -o packaging/icons/SIZE.png
+  install(FILES packaging/icons/${size}.png RENAME ${id}.png
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/${size}x${size}/apps)
+endforeach()
+
+# What `cmake --install` and CPack need built.
+add_custom_target(installable DEPENDS standpoint standpoint-editor samples manual)

@@ -1,10 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # headless.sh FILE...: the main job without a display. Leaves in out/: job.json (replay it with `standpoint run`), project/,
-# scan.e57, report.json and pictures/ of the editor.
+# scan.e57, report.json and pictures/ of the editor. STANDPOINT_BIN: folder of the programs, if not that of the build.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-bin=$PWD/build/release/bin
+bin=${STANDPOINT_BIN:-$PWD/build/release/bin}
 mkdir -p out
 cd out
 rm -rf project pictures scan.e57 report.json job.json
