@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -12,27 +13,59 @@ namespace standpoint {
 
 namespace {
 
-constexpr int kDeepest = 32;
+constexpr std::size_t kDeepest = 32;
 
-// nlohmann-json keeps the last of two equal keys; a figure given twice must not vanish, so keys are watched while
-// parsing.
-class KeyWatch {
+// nlohmann-json keeps the last of two equal keys; a figure given twice must not vanish. A pass of its own looks for
+// them: the callback of json::parse() walks through the whole list again after each of its objects.
+class KeyWatch : public nlohmann::json_sax<nlohmann::json> {
  public:
-  bool operator()(int depth, nlohmann::json::parse_event_t event, const nlohmann::json& parsed) {
-    using Event = nlohmann::json::parse_event_t;
-    if (depth > kDeepest) wrong_ = "is nested deeper than " + std::to_string(kDeepest) + " levels";
-    if (!wrong_.empty()) return false;
-    if (event == Event::object_start) levels_.emplace_back();
-    if (event == Event::object_end) levels_.pop_back();
-    if (event == Event::key && !levels_.back().insert(parsed.get<std::string>()).second)
-      wrong_ = "has the key '" + parsed.get<std::string>() + "' more than once in one object";
-    return wrong_.empty();
+  explicit KeyWatch(const std::string& text) : text_(text) {}
+
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool start_object(std::size_t) override {
+    levels_.emplace_back();
+    return isShallow();
   }
+  bool end_object() override { return levels_.pop_back(), true; }
+  bool start_array(std::size_t) override {
+    levels_.emplace_back();
+    return isShallow();
+  }
+  bool end_array() override { return levels_.pop_back(), true; }
+  bool key(string_t& key) override {
+    if (levels_.back().insert(key).second) return true;
+    wrong_ = "has the key '" + key + "' more than once in one object";
+    return false;
+  }
+  bool parse_error(std::size_t position, const std::string&, const nlohmann::json::exception& error) override {
+    wrong_ = "is not JSON: " + std::string(error.what());
+    if (dynamic_cast<const nlohmann::json::parse_error*>(&error) == nullptr) return false;  // a number out of range
+    const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(position, text_.size()));
+    line_ = 1 + std::count(text_.begin(), end, '\n');
+    return false;
+  }
+
+  // What is wrong, and in which line where the text is no JSON.
   const std::string& wrong() const { return wrong_; }
+  std::optional<std::ptrdiff_t> line() const { return line_; }
 
  private:
-  std::vector<std::set<std::string>> levels_;
+  bool isShallow() {
+    if (levels_.size() <= kDeepest) return true;
+    wrong_ = "is nested deeper than " + std::to_string(kDeepest) + " levels";
+    return false;
+  }
+
+  const std::string& text_;
+  std::vector<std::set<std::string>> levels_;  // the keys so far, of a list none
   std::string wrong_;
+  std::optional<std::ptrdiff_t> line_;
 };
 
 }  // namespace
@@ -72,21 +105,12 @@ Result<nlohmann::json> readJsonArray(const std::filesystem::path& file) {
 }
 
 Result<nlohmann::json> parseJson(const std::string& text, const std::string& file_name) {
-  const JsonPlace root{file_name, {}};
-  KeyWatch watch;
-  nlohmann::json result;
-  try {
-    result =
-        nlohmann::json::parse(text, [&](int depth, auto event, auto& parsed) { return watch(depth, event, parsed); });
-  } catch (const nlohmann::json::parse_error& error) {
-    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
-    return failure(ErrorKind::unusable, "is not JSON: " + std::string(error.what()),
-                   root.file + " line " + std::to_string(1 + std::count(text.begin(), end, '\n')));
-  } catch (const nlohmann::json::exception& error) {
-    return root.unusable("is not JSON: " + std::string(error.what()));
+  KeyWatch watch(text);
+  if (!nlohmann::json::sax_parse(text, &watch)) {
+    const auto line = watch.line();
+    return failure(ErrorKind::unusable, watch.wrong(), line ? file_name + " line " + std::to_string(*line) : file_name);
   }
-  if (!watch.wrong().empty()) return root.unusable(watch.wrong());
-  return result;
+  return nlohmann::json::parse(text);
 }
 
 }  // namespace standpoint
