@@ -104,8 +104,25 @@ Result<Instrument> instrumentById(const std::string& id) {
   TRY_ASSIGN(auto all, knownInstruments());
   for (auto& i : all)
     if (i.id == id) return std::move(i);
-  return failure(ErrorKind::usage, fmt::format("unknown instrument '{}'; available: {}", id, idsOf(all)),
+  return failure(ErrorKind::usage,
+                 fmt::format("unknown instrument '{}'; available: {}; or specify a file", id, idsOf(all)),
                  "--instrument");
+}
+
+bool isInstrumentFile(const std::string& id_or_file) {
+  return id_or_file.find('/') != std::string::npos || id_or_file.ends_with(".json");
+}
+
+Result<Instrument> instrumentNamed(const std::string& id_or_file) {
+  if (!isInstrumentFile(id_or_file)) return instrumentById(id_or_file);
+  auto instrument = readInstrument(id_or_file);
+  if (instrument) return instrument;
+  Error error = instrument.error();
+  if (error.kind == ErrorKind::file_system)
+    error.message += "; specify a file or an id that `standpoint instruments` lists";
+  else
+    error.message += fmt::format(" (in the instrument's file, {})", id_or_file);
+  return failure(std::move(error));
 }
 
 Result<fs::path> copyInstrument(const std::string& id, const std::string& new_id) {

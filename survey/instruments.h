@@ -27,6 +27,9 @@ Result<std::vector<Instrument>> knownInstruments();
 std::string idsOf(const std::vector<Instrument>& instruments);
 // By id; an unknown one is an error of --instrument that lists those there are.
 Result<Instrument> instrumentById(const std::string& id);
+// As --instrument names it: by id, or by the path of a file, which has a slash or ends in .json.
+bool isInstrumentFile(const std::string& id_or_file);
+Result<Instrument> instrumentNamed(const std::string& id_or_file);
 // Writes the file of an instrument under another id into the user's folder; gives the new file.
 Result<std::filesystem::path> copyInstrument(const std::string& id, const std::string& new_id);
 

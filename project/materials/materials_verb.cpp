@@ -142,18 +142,18 @@ Result<RuleSet> rulesOf(MaterialChoice& choice, const std::vector<PhysicalMateri
 }
 
 Result<std::vector<double>> wavelengths(const Document& document, const std::string& instrument) {
+  if (!instrument.empty()) {
+    TRY_ASSIGN(const auto named, instrumentNamed(instrument));
+    return std::vector<double>{named.wavelength_nm};
+  }
   std::vector<std::string> ids;
-  if (!instrument.empty())
-    ids.push_back(instrument);
-  else
-    for (const auto& station : document.job->stations)
-      for (const auto& scan : station.scans) ids.push_back(scan.instrument);
+  for (const auto& station : document.job->stations)
+    for (const auto& scan : station.scans) ids.push_back(scan.instrument);
   if (ids.empty()) return std::vector<double>();
   TRY_ASSIGN(const auto instruments, knownInstruments());
   std::vector<double> result;
   for (const auto& each : instruments)
     if (std::find(ids.begin(), ids.end(), each.id) != ids.end()) result.push_back(each.wavelength_nm);
-  if (!instrument.empty() && result.empty()) return failure(ErrorKind::usage, "unknown instrument", instrument);
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
@@ -200,7 +200,9 @@ Result<Answered<MaterialsAnswer>> assignDocumentMaterials(const Document& docume
     choice.rules_file = request.rules == "default" ? "" : request.rules.string();
     choice.rules_text.clear();
   }
-  if (!request.instrument.empty()) choice.instrument = request.instrument;
+  if (!request.instrument.empty())  // kept: a file is found from any folder
+    choice.instrument =
+        isInstrumentFile(request.instrument) ? fs::absolute(request.instrument).string() : request.instrument;
   std::vector<LibraryRow> taken;
   for (const auto& file : request.libraries) {
     TRY_ASSIGN(auto news, takeLibrary(choice, file, shipped));
@@ -270,7 +272,7 @@ const Fields<MaterialsOptions>& materialsFields() {
       {"because", &O::because, "reason for accepting; kept in the project until the cause changes"},
       {"reopen", &O::reopen, "ids of accepted findings to reopen"},
       {"instrument", &O::instrument,
-       "id of the instrument whose wavelength needs figures (default: those used for scanning)"},
+       "id or file of the instrument whose wavelength needs figures (default: those used for scanning)"},
       {"report", &O::report, "printable report to write (.html, .csv)"}};
   return fields;
 }

@@ -47,7 +47,7 @@ Result<std::shared_ptr<const Underlay>> underlayFor(const Document& document, co
 
 // The one that is named, else the one whose maker and model the cloud's scans name.
 Result<Instrument> instrumentFor(const VerifyOptions& options, const CloudSample& sample, Report& report) {
-  if (!options.instrument.empty()) return instrumentById(options.instrument);
+  if (!options.instrument.empty()) return instrumentNamed(options.instrument);
   TRY_ASSIGN(const auto all, knownInstruments());
   // The longest model that fits: "Focus S350" before "Focus".
   const Instrument* best = nullptr;
@@ -170,7 +170,7 @@ const Fields<VerifyOptions>& verifyFields() {
   static const Fields<O> fields = {
       {"underlay", &O::underlay, "name of the underlay (default: the only one)", {.positional = true}},
       {"instrument", &O::instrument,
-       "id of the instrument that measured, for its wavelength (default: as the cloud says)"},
+       "id or file of the instrument that measured, for its wavelength (default: as the cloud says)"},
       {"from", &O::from, "X,Y,Z of the station in the model's file frame, where the cloud has none", {.unit = "m"}},
       {"tolerance",
        &O::tolerance_m,

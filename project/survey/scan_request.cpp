@@ -193,7 +193,7 @@ const Fields<ScanVerbOptions>& scanFields() {
   static const std::string effects = "effects to leave out: " + effectList();
   static const Fields<O> fields = {
       {"stations", &O::stations, "all, or names separated by commas"},
-      {"instrument", &O::instrument, "id of the instrument, such as leica-rtc360", {.required = true}},
+      {"instrument", &O::instrument, "id or file of the instrument, such as leica-rtc360", {.required = true}},
       {"set", &O::settings, "settings in the device's own words, such as resolution=12mm"},
       {"seed", &O::seed, "seed of the noise", {.minimum = 0, .maximum = 9007199254740991.0}},
       {"ideal", &O::ideal, "no effects: the first surface on the axis of each pulse, exactly"},
@@ -232,7 +232,7 @@ const Fields<ScanVerbOptions>& scanFields() {
 
 Result<ScanRequest> scanRequestFrom(const Document& document, const ScanVerbOptions& options) {
   ScanRequest request;
-  TRY_ASSIGN(request.instrument, instrumentById(options.instrument));
+  TRY_ASSIGN(request.instrument, instrumentNamed(options.instrument));
   TRY_ASSIGN(request.settings, resolveSettings(request.instrument, options.settings));
   request.instrument.camera = request.settings.camera;
   if (const auto most = chosenEffect(request.instrument, request.settings.values, "most_returns"))

@@ -22,7 +22,7 @@ constexpr double kEnoughSeen = 0.6;  // of its face: less moves the centre of a 
 Result<std::optional<ScanSettings>> settingsAt(const Station& station, const SightRequest& request) {
   if (request.instrument.empty() && station.scans.empty()) return std::nullopt;
   const bool asked = !request.instrument.empty();
-  TRY_ASSIGN(const auto instrument, instrumentById(asked ? request.instrument : station.scans.back().instrument));
+  TRY_ASSIGN(const auto instrument, instrumentNamed(asked ? request.instrument : station.scans.back().instrument));
   TRY_ASSIGN(auto settings, resolveSettings(instrument, asked ? request.settings : station.scans.back().settings));
   return settings;
 }

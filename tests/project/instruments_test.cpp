@@ -94,6 +94,26 @@ TEST_F(OwnInstruments, AreNotCopiedOverOthersOrOutOfTheirFolder) {
   EXPECT_FALSE(fs::exists(own()));
 }
 
+TEST_F(OwnInstruments, AreReadFromAnyFileToo) {
+  const auto copied = answer({{"copy", "leica-rtc360"}, {"as", "lab"}});
+  const fs::path file = own().parent_path() / "lab.json";
+  fs::rename(copied["copied"]["file"].get<std::string>(), file);
+  EXPECT_EQ(instrumentNamed(file.string())->id, "lab");
+  EXPECT_EQ(instrumentNamed("leica-rtc360")->id, "leica-rtc360");
+  EXPECT_EQ(instrumentNamed("lab").error().kind, ErrorKind::usage);
+  EXPECT_THAT(instrumentNamed("lab").error().message, HasSubstr("or specify a file"));
+  const auto missing = instrumentNamed(own().string() + "/none.json").error();
+  EXPECT_EQ(missing.kind, ErrorKind::file_system);
+  EXPECT_EQ(missing.source, (own() / "none.json").string());
+  EXPECT_THAT(missing.message, HasSubstr("standpoint instruments"));
+  auto text = contentOf(file);
+  text.replace(text.find("\"range_noise\""), 13, "\"range_nois\"");
+  std::ofstream(file) << text;
+  const auto wrong = instrumentNamed(file.string()).error();
+  EXPECT_EQ(wrong.source, "lab.json /range_noise");
+  EXPECT_THAT(wrong.message, HasSubstr(file.string()));
+}
+
 TEST_F(OwnInstruments, ThatCannotBeWrittenAreAnError) {
   std::ofstream(own()) << "a file where the folder should be";
   EXPECT_EQ(refused({{"copy", "leica-rtc360"}, {"as", "mine"}}).kind, ErrorKind::file_system);
