@@ -306,7 +306,7 @@ Mesh rawWalkable(const Soup& raw) {
   skins[0].mesh.triangles = raw.triangles;
   skins[0].mesh.surface_of_triangle.assign(raw.triangles.size(), 0);
   Progress progress;
-  auto truth = walkableSurface(skins, {}, progress);
+  auto truth = walkableSurface(skins, {}, {}, progress);
   return truth ? std::move(truth->mesh) : Mesh{};
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "core/ceiling.h"
 #include "optimizer/collision/pieces.h"
 #include "optimizer/optimizer.h"
 #include "optimizer/simplify/collapses/collapse.h"
@@ -36,6 +37,12 @@ std::vector<bool> stopping(const Environment& environment, const CollideOptions&
   for (std::size_t i = 0; i < result.size(); ++i)
     result[i] = (result[i] || door_of[i] < 0) && environment.products[i].inScene();
   return result;
+}
+
+std::vector<bool> ceilingsOf(const Environment& environment) {
+  std::vector<bool> ceilings;
+  for (const auto& product : environment.products) ceilings.push_back(isSuspendedCeiling(product));
+  return ceilings;
 }
 
 // The first product that is where no shape can be.
@@ -133,7 +140,7 @@ Result<CollideResult> collide(const Environment& environment, const CollideOptio
     result.products[shape.product].triangles += shape.mesh.triangles.size();
   }
   progress.stage("Find the walkable surface", 0.5, 0.9);
-  TRY_ASSIGN(auto walkable, walkableSurface(result.shapes, options, progress));
+  TRY_ASSIGN(auto walkable, walkableSurface(result.shapes, ceilingsOf(environment), options, progress));
   if (walkable.cell_m > options.agent_radius_m / 10 + 1e-6)
     result.report.note(
         "walkable",

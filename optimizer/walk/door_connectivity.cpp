@@ -121,8 +121,9 @@ void addCell(Walkable& walkable, const Vector2d& low, double level, std::uint32_
 }
 
 // A strip from the last point before the door's middle that is on the surface to the first behind it.
-bool join(const Obstacles& obstacles, const Passage& passage, const CollideOptions& options, Walkable& walkable) {
-  const auto way = freeWay(obstacles, passage, options);
+bool join(const Environment& environment, const Obstacles& obstacles, const Passage& passage,
+          const CollideOptions& options, Walkable& walkable) {
+  const auto way = freeWay(environment, obstacles, passage, options);
   if (!way) return false;
   const auto path = floorUnder(obstacles, *way, walkable.cell_m);
   const auto near = rectanglesNear(walkable, passage, options.agent_radius_m + 2 * kBeyond);
@@ -188,8 +189,8 @@ void joinThroughDoors(const Environment& environment, const std::vector<Collisio
     if (!door.passable || !door.floor) continue;
     const auto passage = passageOf(environment, door.product);
     if (!passage) continue;
-    door.led_through =
-        leadsThrough(walkable, *passage, options.agent_radius_m) || join(obstacles, *passage, options, walkable);
+    door.led_through = leadsThrough(walkable, *passage, options.agent_radius_m) ||
+                       join(environment, obstacles, *passage, options, walkable);
     const auto& product = environment.products[door.product];
     if (!door.led_through)
       report.warn(product.id, fmt::format("door {} is passable, but not connected by walkable surface: check for a "

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "core/ceiling.h"
 #include "optimizer/surface/piece.h"
 #include "optimizer/walk/walkable.h"
 
@@ -28,27 +29,30 @@ bool isDoor(const Product& product) {
   return product.ifc_class == "IfcDoor" || product.ifc_class == "IfcDoorStandardCase";
 }
 
-// Height of the uppermost surface below or above p within reach.
-std::optional<double> floorAt(const Obstacles& obstacles, const Vector3d& p) {
+// Height of the uppermost surface below or above p within reach, unless it is a suspended ceiling's.
+std::optional<double> floorAt(const Environment& environment, const Obstacles& obstacles, const Vector3d& p) {
   const Vector3d reach(0, 0, kFloorReach);
   const auto hit = obstacles.ray(p + reach, p - reach);
-  return hit ? std::optional(hit->point.z()) : std::nullopt;
+  if (!hit || isSuspendedCeiling(environment.products[hit->product])) return std::nullopt;
+  return hit->point.z();
 }
 
 struct Way {
   Vector3d from, to;  // of the feet of what passes, in the door's middle
   Body upper;         // the agent without what it steps over, as in the walkable surface
-  bool floor = false;
+  int floors = 0;     // of two sides
 };
 
-Way wayThrough(const Passage& passage, const Obstacles& obstacles, const CollideOptions& options) {
+Way wayThrough(const Environment& environment, const Passage& passage, const Obstacles& obstacles,
+               const CollideOptions& options) {
   const Vector3d reach = passage.through * (passage.half_depth + options.agent_radius_m);
-  const auto before = floorAt(obstacles, passage.middle - reach), behind = floorAt(obstacles, passage.middle + reach);
+  const auto before = floorAt(environment, obstacles, passage.middle - reach),
+             behind = floorAt(environment, obstacles, passage.middle + reach);
   const double lift = std::min(kStepHeight, options.agent_height_m - 2 * options.agent_radius_m);
   Way way{passage.middle - reach,
           passage.middle + reach,
           {options.agent_radius_m, options.agent_height_m - lift},
-          before && behind};
+          static_cast<int>(before.has_value()) + static_cast<int>(behind.has_value())};
   way.from.z() = way.to.z() = std::max({passage.middle.z(), before.value_or(-1e300), behind.value_or(-1e300)}) + lift;
   return way;
 }
@@ -84,6 +88,7 @@ double clearWidth(const Obstacles& obstacles, const Passage& passage, const Way&
 struct Verdict {
   Door door;
   bool shapeless = false;
+  int floors = 0;                           // of two sides
   std::optional<std::uint32_t> blocked_by;  // product
 };
 
@@ -94,9 +99,10 @@ Verdict judge(const Environment& environment, std::uint32_t product, const Obsta
   const auto passage = passageOf(environment, product);
   verdict.shapeless = !passage;
   if (!passage) return verdict;
-  const auto way = wayThrough(*passage, obstacles, options);
+  const auto way = wayThrough(environment, *passage, obstacles, options);
   verdict.door.position = passage->middle;
-  verdict.door.floor = way.floor;
+  verdict.floors = way.floors;
+  verdict.door.floor = way.floors == 2;
   verdict.blocked_by = tryWays(obstacles, *passage, way, options.agent_radius_m).blocked_by;
   verdict.door.passable = !verdict.blocked_by;
   verdict.door.clear_width_m = clearWidth(obstacles, *passage, way);
@@ -114,7 +120,10 @@ void reportDoor(const Environment& environment, const Verdict& verdict, Report& 
   const auto& product = environment.products[verdict.door.product];
   if (verdict.shapeless)
     return report.warn(product.id, fmt::format("door {} has no geometry: passability unknown", product.name));
-  if (!verdict.door.floor) report.warn(product.id, fmt::format("door {} has no floor on both sides", product.name));
+  if (!verdict.door.floor)
+    report.warn(product.id,
+                fmt::format("door {} has no floor on {}", product.name,
+                            verdict.floors == 0 ? "either side" : "one side: add what one steps onto there"));
   if (!verdict.blocked_by || verdict.door.closed) return;
   const auto& other = environment.products[*verdict.blocked_by];
   report.warn(product.id, verdict.door.clear_width_m > 0
@@ -168,8 +177,14 @@ std::optional<Passage> passageOf(const Environment& environment, std::uint32_t p
   return passage;
 }
 
-std::optional<FreeWay> freeWay(const Obstacles& obstacles, const Passage& passage, const CollideOptions& options) {
-  const auto way = wayThrough(passage, obstacles, options);
+int floorSides(const Environment& environment, const Obstacles& obstacles, const Passage& passage,
+               const CollideOptions& options) {
+  return wayThrough(environment, passage, obstacles, options).floors;
+}
+
+std::optional<FreeWay> freeWay(const Environment& environment, const Obstacles& obstacles, const Passage& passage,
+                               const CollideOptions& options) {
+  const auto way = wayThrough(environment, passage, obstacles, options);
   const auto beside = tryWays(obstacles, passage, way, options.agent_radius_m).beside;
   if (!beside) return std::nullopt;
   const Vector3d down(0, 0, way.upper.height_m - options.agent_height_m);
@@ -207,7 +222,7 @@ void closeWhatIsOpen(const Environment& environment, const CollideOptions& optio
   std::vector<CollisionShape> plates;
   for (const auto door : doorsOf(environment)) {
     const auto passage = closed[door] ? passageOf(environment, door) : std::nullopt;
-    if (!passage || !freeWay(obstacles, *passage, options)) continue;
+    if (!passage || !freeWay(environment, obstacles, *passage, options)) continue;
     std::vector<Vector3d> bottom;
     for (const auto& [along, beside] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
       bottom.push_back(passage->middle + passage->through * (along * kPlate / 2) +

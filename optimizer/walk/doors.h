@@ -28,7 +28,12 @@ struct FreeWay {
 };
 
 // The one nearest to the door's middle; nothing where none is free.
-std::optional<FreeWay> freeWay(const Obstacles& obstacles, const Passage& passage, const CollideOptions& options);
+std::optional<FreeWay> freeWay(const Environment& environment, const Obstacles& obstacles, const Passage& passage,
+                               const CollideOptions& options);
+
+// On how many of its sides there is a floor at the door's lower edge, 0 to 2; a suspended ceiling is none.
+int floorSides(const Environment& environment, const Obstacles& obstacles, const Passage& passage,
+               const CollideOptions& options);
 
 // For each product the door that it is, or is a part of; -1 for all else.
 std::vector<std::int32_t> doorOf(const Environment& environment);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "optimizer/walk/doors.h"
 #include "project/answers.h"
 #include "project/model/model_verbs.h"
 
@@ -39,6 +41,35 @@ Result<void> setDoors(const Document& document, const CollideVerbOptions& option
 std::size_t passableDoors(const CollideResult& result) {
   return static_cast<std::size_t>(
       std::count_if(result.doors.begin(), result.doors.end(), [](const Door& d) { return d.passable; }));
+}
+
+// Storeys whose doors stand on nothing: what is missing is not a threshold but the slab.
+void reportMissingSlabs(const Environment& environment, const CollideResult& result, const CollideOptions& options,
+                        double shift_z_m, Report& report) {
+  struct Storey {
+    std::size_t doors = 0;
+    std::vector<double> on_nothing;  // lower edges
+  };
+  std::map<std::string, Storey> storeys;
+  const Obstacles obstacles(result.shapes);
+  for (const auto& door : result.doors) {
+    auto& storey = storeys[environment.products[door.product].storey];
+    ++storey.doors;
+    const auto passage = door.floor ? std::nullopt : passageOf(environment, door.product);
+    if (passage && floorSides(environment, obstacles, *passage, options) == 0)
+      storey.on_nothing.push_back(passage->middle.z() + shift_z_m);
+  }
+  for (auto& [name, storey] : storeys) {
+    auto& heights = storey.on_nothing;
+    if (heights.empty()) continue;
+    std::sort(heights.begin(), heights.end());
+    report.warn(
+        name.empty() ? "collide" : name,
+        fmt::format("the floor slab at {:.2f} m is missing: {} of {} doors{} have no floor on either side; add a "
+                    "floor plane at that height with `standpoint add PROJECT floor.obj --up z`",
+                    heights[heights.size() / 2], heights.size(), storey.doors,
+                    name.empty() ? std::string() : fmt::format(" of storey '{}'", name)));
+  }
 }
 
 CollideAnswer answerOf(const Environment& environment, const CollideResult& result, const Eigen::Vector3d& shift_m) {
@@ -131,6 +162,7 @@ Result<Answered<CollideAnswer>> runCollide(const Document& document, const Colli
   const Eigen::Vector3d shift_m = document.georeference ? document.georeference->shift_m : Eigen::Vector3d::Zero();
   TRY_ASSIGN(auto result, collide(environment, typed, progress));
   Answered<CollideAnswer> outcome{document, answerOf(environment, result, shift_m), result.report};
+  reportMissingSlabs(environment, result, typed, shift_m.z(), outcome.report);
   outcome.description =
       fmt::format("Created {} collision shapes; {:.1f} m² walkable, {} of {} doors passable", result.shapes.size(),
                   result.walkable_area_m2, passableDoors(result), result.doors.size());

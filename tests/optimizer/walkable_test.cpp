@@ -24,7 +24,7 @@ Walkable walkableOf(const Environment& environment) {
     shapes.push_back(std::move(shape));
   }
   Progress progress;
-  auto result = walkableSurface(shapes, {}, progress);
+  auto result = walkableSurface(shapes, {}, {}, progress);
   EXPECT_TRUE(result);
   return std::move(*result);
 }
