@@ -101,7 +101,7 @@ std::string textOf(const SurveyPlan& plan, const PlanAnswer& answer) {
 
 Result<PlanRequest> planRequestFrom(const Document& document, const PlanOptions& options) {
   PlanRequest request;
-  TRY_ASSIGN(request.instrument, instrumentById(options.instrument));
+  TRY_ASSIGN(request.instrument, instrumentNamed(options.instrument));
   TRY_ASSIGN(request.settings, resolveSettings(request.instrument, options.settings));
   if (!document.job->stations.empty()) {
     TRY_ASSIGN(request.stations, stationsFrom(*document.job, options.stations));
@@ -127,8 +127,9 @@ Result<std::optional<PlanProposal>> proposalFor(const Document& document, const 
                            std::max(SightLimits{}.min_cosine, std::cos(request.wanted.max_incidence_rad)),
                            request.settings.elevation_from_rad, request.settings.elevation_to_rad};
   progress.stage("Search for next station", 0.7, 1);
-  const auto next = nextStation(*document.job, document.walkable(), placement, plan.samples, seen, limits,
-                                request.instrument.tripod_height_m, progress);
+  const GroundSearch search{document.walkable(), request.instrument.tripod_height_m,
+                            document.georeference->shift_m.z()};
+  const auto next = nextStation(*document.job, search, placement, plan.samples, seen, limits, progress);
   TRY(progress.check());
   if (!next) return std::optional<PlanProposal>();
   return std::optional(PlanProposal{next->centre + document.georeference->shift_m, next->adds_m2});
@@ -140,7 +141,7 @@ const Fields<PlanOptions>& planFields() {
   using O = PlanOptions;
   static const Fields<O> fields = {
       {"stations", &O::stations, "all, or names separated by commas"},
-      {"instrument", &O::instrument, "id of the instrument, such as leica-rtc360", {.required = true}},
+      {"instrument", &O::instrument, "id or file of the instrument, such as leica-rtc360", {.required = true}},
       {"set", &O::settings, "settings in the device's own words, such as resolution=12mm"},
       {"spacing",
        &O::spacing_m,

@@ -31,7 +31,7 @@ Result<Setup> setupFrom(const StationOptions& options) {
   TRY_ASSIGN(auto stand, readTripodStand(tripodStandFile()));
   setup.stand = stand;
   if (!options.instrument.empty()) {
-    TRY_ASSIGN(const auto instrument, instrumentById(options.instrument));
+    TRY_ASSIGN(const auto instrument, instrumentNamed(options.instrument));
     if (instrument.moving)
       return failure(
           ErrorKind::usage,
@@ -70,7 +70,7 @@ StationRow stationRow(const Station& s, const Georeference& g) {
 
 // Beside other stations: what is not seen from any of them yet.
 Result<std::optional<NextStation>> addingMost(const Document& document, const StationPlacement& placement,
-                                              double height_m, Progress& progress) {
+                                              const GroundSearch& search, Progress& progress) {
   constexpr std::size_t kSamples = 12000;
   TRY_ASSIGN(const auto samples, sampleSurfaces(placement.scene(), kSamples, 1, progress));
   std::vector<std::uint8_t> seen;
@@ -78,24 +78,24 @@ Result<std::optional<NextStation>> addingMost(const Document& document, const St
     seen.push_back(static_cast<std::uint8_t>(std::any_of(
         document.job->stations.begin(), document.job->stations.end(),
         [&](const Station& s) { return inSight(placement.scene(), s.true_pose.translation, sample.place, {}); })));
-  return nextStation(*document.job, document.walkable(), placement, samples, seen, {}, height_m, progress);
+  return nextStation(*document.job, search, placement, samples, seen, {}, progress);
 }
 
 // Where nothing was said.
 Result<Eigen::Vector3d> bestPlace(const Document& document, const StationPlacement& placement, double height_m,
                                   Report& report, Progress& progress) {
   const auto& scene = placement.scene();
+  const GroundSearch search{document.walkable(), height_m, document.georeference->shift_m.z()};
   if (!document.job->stations.empty()) {
-    TRY_ASSIGN(auto next, addingMost(document, placement, height_m, progress));
+    TRY_ASSIGN(auto next, addingMost(document, placement, search, progress));
     if (next) return next->centre;
   }
   const auto worth = [&](const Eigen::Vector3d& centre) { return roomAround(scene, centre); };
-  if (const auto chosen = bestOf(floorsToTry(document.walkable(), scene, height_m), *document.job, placement, height_m,
-                                 worth, progress))
-    return *chosen;
-  if (const auto beside = bestOf(groundBeside(scene), *document.job, placement, height_m, worth, progress)) {
-    report.warn("station", "no free floor in the model: the tripod was placed next to the model at its lowest level");
-    return *beside;
+  const auto grounds = groundsToTry(*document.job, scene, search);
+  if (const auto chosen = bestOf(grounds, *document.job, placement, height_m, worth, progress)) return *chosen;
+  if (const auto lowest = bestOf({groundWithoutFloor(scene)}, *document.job, placement, height_m, worth, progress)) {
+    report.warn("station", "no free floor in the model: the tripod was placed at the model's lowest level");
+    return *lowest;
   }
   TRY(progress.check());
   return failure(ErrorKind::unusable,
@@ -187,7 +187,7 @@ const Fields<StationOptions>& stationFields() {
        &O::height_m,
        "height of the instrument's centre above the floor (default: the instrument's, else 1.6)",
        {.unit = "m", .minimum = 0.1, .maximum = 10}},
-      {"instrument", &O::instrument, "id of the instrument to set up, for its heights"},
+      {"instrument", &O::instrument, "id or file of the instrument to set up, for its heights"},
       {"stand", &O::stand, "free: suspended or hand-held; only its clearance is checked"},
       {"tilt-deg",
        &O::tilt_deg,

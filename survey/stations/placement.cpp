@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/ceiling.h"
 #include "core/units.h"
 #include "optimizer/surface/triangle_tree.h"
 #include "survey/scene/bodies.h"
@@ -89,9 +90,10 @@ std::optional<Refusal> StationPlacement::noHeadroom(const Eigen::Vector3d& centr
 std::optional<Ground> StationPlacement::groundBelow(const Eigen::Vector3d& centre) const {
   if (all_.empty()) return std::nullopt;
   if (const auto hit = scene_.intersect(centre, kDown, centre.z() - all_.min.z() + 1))
-    return Ground{hit->position.z(), slopeOf(*hit), productText(scene_.environment().products[hit->product])};
+    return Ground{hit->position.z(), slopeOf(*hit), productText(scene_.environment().products[hit->product]),
+                  isSuspendedCeiling(scene_.environment().products[hit->product])};
   if (all_.min.z() > centre.z()) return std::nullopt;
-  return Ground{all_.min.z(), 0, {}};
+  return Ground{all_.min.z(), 0, {}, false};
 }
 
 std::optional<Refusal> StationPlacement::badGround(const Eigen::Vector3d& centre) const {
@@ -99,6 +101,9 @@ std::optional<Refusal> StationPlacement::badGround(const Eigen::Vector3d& centre
   const char* elsewhere =
       "use --on X,Y[,Z] with a point on a floor, or --stand free for suspended or handheld instruments";
   if (!ground) return Refusal{"no ground below: the whole model is above the station, or there is no model", elsewhere};
+  if (ground->ceiling)
+    return Refusal{fmt::format("the ground below is {}, a suspended ceiling, which bears nobody", ground->product),
+                   elsewhere};
   const double height = centre.z() - ground->z;
   if (height > highest_m() + 1e-3)
     return Refusal{

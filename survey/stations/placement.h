@@ -19,7 +19,8 @@ struct Refusal {
 struct Ground {
   double z = 0;  // local frame
   double slope_rad = 0;
-  std::string product;  // "IfcSlab #12 'Floor'"; empty where the model ends and its lowest height stands in
+  std::string product;   // "IfcSlab #12 'Floor'"; empty where the model ends and its lowest height stands in
+  bool ceiling = false;  // a suspended one
   bool modelled() const { return !product.empty(); }
 };
 

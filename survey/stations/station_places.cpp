@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "core/ceiling.h"
 #include "core/units.h"
+#include "survey/stations/storeys.h"
 
 namespace standpoint {
 
@@ -33,39 +35,19 @@ std::vector<double> heightsBelow(const RayScene& scene, double x, double y) {
   while (true) {
     const auto hit = scene.intersect({x, y, z}, -Eigen::Vector3d::UnitZ(), z - b.min.z() + 1);
     if (!hit) return heights;
-    if (slopeOf(*hit) < kNoFloor_rad) heights.push_back(hit->position.z());
+    const bool bears = !isSuspendedCeiling(scene.environment().products[hit->product]);
+    if (bears && slopeOf(*hit) < kNoFloor_rad) heights.push_back(hit->position.z());
     z = hit->position.z() - 1e-4;
     if (heights.size() > 10000) return heights;
   }
 }
 
-}  // namespace
-
-std::vector<double> floorsAt(const RayScene& scene, double x_m, double y_m, double instrument_height_m) {
-  const auto heights = heightsBelow(scene, x_m, y_m);  // falling
-  std::vector<double> floors;
-  for (auto h = heights.rbegin(); h != heights.rend(); ++h)
-    if (!scene.intersect({x_m, y_m, *h + 1e-3}, Eigen::Vector3d::UnitZ(), instrument_height_m + kRoomAbove_m))
-      floors.push_back(*h);
-  return floors;
-}
-
-Result<double> chosenFloor(const std::vector<double>& floors, std::optional<double> z_file_m, double shift_z_m) {
-  constexpr double kSearch_m = 0.5;  // how far a stated height may be off
-  if (!z_file_m) return floors.front();
-  const double z = *z_file_m - shift_z_m;
-  const double nearest = *std::min_element(floors.begin(), floors.end(),
-                                           [z](double a, double b) { return std::abs(a - z) < std::abs(b - z); });
-  if (std::abs(nearest - z) <= kSearch_m) return nearest;
-  return failure(ErrorKind::unusable, fmt::format("no floor within {} m of height {}; the nearest floor is at {:.3f}",
-                                                  kSearch_m, *z_file_m, nearest + shift_z_m));
-}
-
-std::vector<Eigen::Vector3d> floorsToTry(const Mesh* walkable, const RayScene& scene, double height_m) {
+// All floors of the model.
+std::vector<Eigen::Vector3d> allFloors(const RayScene& scene, const GroundSearch& search) {
   std::vector<Eigen::Vector3d> places;
   constexpr std::size_t kMost = 400;
-  if (walkable != nullptr && !walkable->triangles.empty()) {
-    const auto& mesh = *walkable;
+  if (search.walkable != nullptr && !search.walkable->triangles.empty()) {
+    const auto& mesh = *search.walkable;
     const std::size_t step = mesh.triangles.size() / kMost + 1;
     for (std::size_t i = 0; i < mesh.triangles.size(); i += step) {
       const auto& t = mesh.triangles[i];
@@ -79,16 +61,70 @@ std::vector<Eigen::Vector3d> floorsToTry(const Mesh* walkable, const RayScene& s
     for (int i = 1; i < 16; ++i) {
       const double x = b.min.x() + (b.max.x() - b.min.x()) * i / 16;
       const double y = b.min.y() + (b.max.y() - b.min.y()) * j / 16;
-      for (const double z : floorsAt(scene, x, y, height_m)) places.emplace_back(x, y, z);
+      for (const double z : floorsAt(scene, x, y, search.height_m)) places.emplace_back(x, y, z);
     }
   return places;
 }
 
-std::vector<Eigen::Vector3d> groundBeside(const RayScene& scene) {
+// The product that a ground is of.
+const Product* productAt(const RayScene& scene, const Eigen::Vector3d& ground) {
+  constexpr double kReach_m = 0.3;  // the walkable surface is level, a floor need not be
+  const auto hit = scene.intersect(ground + Eigen::Vector3d(0, 0, kReach_m), -Eigen::Vector3d::UnitZ(), 2 * kReach_m);
+  return hit ? &scene.environment().products[hit->product] : nullptr;
+}
+
+}  // namespace
+
+std::vector<double> floorsAt(const RayScene& scene, double x_m, double y_m, double instrument_height_m) {
+  const auto heights = heightsBelow(scene, x_m, y_m);  // falling
+  std::vector<double> floors;
+  for (auto h = heights.rbegin(); h != heights.rend(); ++h)
+    if (isRoomAbove(scene, {x_m, y_m, *h}, instrument_height_m)) floors.push_back(*h);
+  return floors;
+}
+
+bool isRoomAbove(const RayScene& scene, const Eigen::Vector3d& floor, double instrument_height_m) {
+  return !scene.intersect(floor + Eigen::Vector3d(0, 0, 1e-3), Eigen::Vector3d::UnitZ(),
+                          instrument_height_m + kRoomAbove_m);
+}
+
+Result<double> chosenFloor(const std::vector<double>& floors, std::optional<double> z_file_m, double shift_z_m) {
+  constexpr double kSearch_m = 0.5;  // how far a stated height may be off
+  if (!z_file_m) return floors.front();
+  const double z = *z_file_m - shift_z_m;
+  const double nearest = *std::min_element(floors.begin(), floors.end(),
+                                           [z](double a, double b) { return std::abs(a - z) < std::abs(b - z); });
+  if (std::abs(nearest - z) <= kSearch_m) return nearest;
+  return failure(ErrorKind::unusable, fmt::format("no floor within {} m of height {}; the nearest floor is at {:.3f}",
+                                                  kSearch_m, *z_file_m, nearest + shift_z_m));
+}
+
+std::vector<std::vector<Eigen::Vector3d>> groundsToTry(const Job& job, const RayScene& scene,
+                                                       const GroundSearch& search) {
+  std::vector<std::vector<Eigen::Vector3d>> lists;
+  if (job.stations.empty())
+    for (const auto& storey : storeysFromGround(scene.environment(), search.shift_z_m))
+      lists.push_back(placesIn(storey, scene, search.height_m));
+  std::vector<Eigen::Vector3d> floors, other;
+  for (const auto& ground : allFloors(scene, search)) {
+    const auto* product = productAt(scene, ground);
+    if (product == nullptr || isSuspendedCeiling(*product)) continue;
+    (isMadeForStanding(*product) ? floors : other).push_back(ground);
+  }
+  lists.push_back(std::move(floors));
+  lists.push_back(std::move(other));
+  return lists;
+}
+
+std::vector<Eigen::Vector3d> groundWithoutFloor(const RayScene& scene) {
   constexpr std::size_t kProducts = 40;
+  constexpr int kWithin = 12;
   std::vector<Eigen::Vector3d> places;
   const Bounds all = bounds(scene.environment());
   if (all.empty()) return places;
+  for (int k = 0; k < kWithin * kWithin; ++k)
+    places.emplace_back(all.min.x() + (all.max.x() - all.min.x()) * (k % kWithin + 0.5) / kWithin,
+                        all.min.y() + (all.max.y() - all.min.y()) * (k / kWithin + 0.5) / kWithin, all.min.z());
   addPlacesAround(all, 16, places);
   const auto each = productBounds(scene.environment());
   for (std::size_t p = 0; p < each.size(); p += each.size() / kProducts + 1)
@@ -110,23 +146,26 @@ double roomAround(const RayScene& scene, const Eigen::Vector3d& centre) {
   return sum / kDirections;
 }
 
-std::optional<Eigen::Vector3d> bestOf(const std::vector<Eigen::Vector3d>& grounds, const Job& job,
+std::optional<Eigen::Vector3d> bestOf(const std::vector<std::vector<Eigen::Vector3d>>& grounds, const Job& job,
                                       const StationPlacement& placement, double height_m,
                                       const std::function<double(const Eigen::Vector3d&)>& worth, Progress& progress) {
   constexpr double kApart_m = 2.5;
   double best = 0;
   std::optional<Eigen::Vector3d> chosen;
-  for (std::size_t k = 0; k < grounds.size() && !progress.cancelled(); ++k) {
-    progress.advance(static_cast<double>(k) / static_cast<double>(grounds.size()));
-    const Eigen::Vector3d centre = grounds[k] + Eigen::Vector3d(0, 0, height_m);
-    const bool apart = std::all_of(job.stations.begin(), job.stations.end(), [&](const Station& s) {
-      return (s.true_pose.translation - centre).norm() >= kApart_m;
-    });
-    if (!apart || !placement.worthTrying(centre)) continue;
-    if (const double value = worth(centre); value > best && !placement.whyNot(centre)) {
-      best = value;
-      chosen = centre;
+  for (const auto& list : grounds) {
+    for (std::size_t k = 0; k < list.size() && !progress.cancelled(); ++k) {
+      progress.advance(static_cast<double>(k) / static_cast<double>(list.size()));
+      const Eigen::Vector3d centre = list[k] + Eigen::Vector3d(0, 0, height_m);
+      const bool apart = std::all_of(job.stations.begin(), job.stations.end(), [&](const Station& s) {
+        return (s.true_pose.translation - centre).norm() >= kApart_m;
+      });
+      if (!apart || !placement.worthTrying(centre)) continue;
+      if (const double value = worth(centre); value > best && !placement.whyNot(centre)) {
+        best = value;
+        chosen = centre;
+      }
     }
+    if (chosen) break;
   }
   return chosen;
 }

@@ -17,26 +17,36 @@ constexpr double kUsualTrunnion_m = 0.2;  // above the tripod's plate, likewise
 constexpr double kRoomAbove_m = 0.3;  // of the tilting axis, for a height to count as a floor
 
 // Where a tripod of that height can stand at (x, y): upward faces below which the beam from above ends, with room for
-// the instrument. Heights of the floor in the local frame, ascending.
+// the instrument; a suspended ceiling bears none. Heights of the floor in the local frame, ascending.
 std::vector<double> floorsAt(const RayScene& scene, double x_m, double y_m, double instrument_height_m);
+bool isRoomAbove(const RayScene& scene, const Eigen::Vector3d& floor, double instrument_height_m);
 // Of these floors the lowest, or the one at a stated height of the file's frame. Refused where it is farther than 0.5
 // m.
 Result<double> chosenFloor(const std::vector<double>& floors, std::optional<double> z_file_m, double shift_z_m);
 
-// Ground to try for another station, in the local frame: `walkable` where there is such a surface, else a grid over the
-// model's floors.
-std::vector<Eigen::Vector3d> floorsToTry(const Mesh* walkable, const RayScene& scene, double height_m);
-// For models without a floor (a roof, a set of frames, a line of masts): beside the whole and beside some of its
-// products, on the lowest height.
-std::vector<Eigen::Vector3d> groundBeside(const RayScene& scene);
+// Grounds to try for another station, in the local frame, one list after the other until a tripod can stand on one of
+// it. For the first station of a job the storeys, from the ground up (storeys.h); then the floors of the whole model
+// that are made for standing, and then whatever else is level: of `walkable` where there is such a surface, else of a
+// grid.
+struct GroundSearch {
+  const Mesh* walkable = nullptr;
+  double height_m = kUsualHeight_m;
+  double shift_z_m = 0;  // of the georeference
+};
+std::vector<std::vector<Eigen::Vector3d>> groundsToTry(const Job& job, const RayScene& scene,
+                                                       const GroundSearch& search);
+// For models without a floor (walls alone, a roof, a set of frames, a line of masts): within and beside the whole and
+// beside some of its products, on the lowest height.
+std::vector<Eigen::Vector3d> groundWithoutFloor(const RayScene& scene);
 
 // How much a station would see: the mean distance to what it meets, capped so that neither a long corridor nor the open
 // ground outside outweighs a room, and nothing for beams that leave the model.
 double roomAround(const RayScene& scene, const Eigen::Vector3d& centre);
 
-// Of the places the one that is worth most (more than nothing), where a tripod can stand at least 2.5 m from every
-// station that is there already. The instrument's centre; none where there is no such place.
-std::optional<Eigen::Vector3d> bestOf(const std::vector<Eigen::Vector3d>& grounds, const Job& job,
+// Of the places in the first of these lists that has such a place the one that is worth most (more than nothing), where
+// a tripod can stand at least 2.5 m from every station that is there already. The instrument's centre; none where there
+// is no such place.
+std::optional<Eigen::Vector3d> bestOf(const std::vector<std::vector<Eigen::Vector3d>>& grounds, const Job& job,
                                       const StationPlacement& placement, double height_m,
                                       const std::function<double(const Eigen::Vector3d&)>& worth, Progress& progress);
 

@@ -111,9 +111,9 @@ Result<SurveyPlan> planSurvey(const Job& job, std::shared_ptr<const RayScene> sc
   return plan;
 }
 
-std::optional<NextStation> nextStation(const Job& job, const Mesh* walkable, const StationPlacement& placement,
+std::optional<NextStation> nextStation(const Job& job, const GroundSearch& search, const StationPlacement& placement,
                                        const SurfaceSamples& samples, const std::vector<std::uint8_t>& seen,
-                                       const SightLimits& limits, double height_m, Progress& progress) {
+                                       const SightLimits& limits, Progress& progress) {
   constexpr std::size_t kMost = 3000;  // of the places that are not seen yet: evenly taken
   std::vector<const SurfacePlace*> unseen;
   for (std::size_t k = 0; k < samples.samples.size(); ++k)
@@ -128,8 +128,9 @@ std::optional<NextStation> nextStation(const Job& job, const Mesh* walkable, con
     });
     return each * static_cast<double>(std::count(gained.begin(), gained.end(), 1));
   };
-  auto centre = bestOf(floorsToTry(walkable, scene, height_m), job, placement, height_m, worth, progress);
-  if (!centre) centre = bestOf(groundBeside(scene), job, placement, height_m, worth, progress);
+  auto grounds = groundsToTry(job, scene, search);
+  grounds.push_back(groundWithoutFloor(scene));
+  const auto centre = bestOf(grounds, job, placement, search.height_m, worth, progress);
   if (!centre) return std::nullopt;
   return NextStation{*centre, worth(*centre)};
 }

@@ -10,6 +10,7 @@
 #include "core/survey.h"
 #include "scanners/forecast/scan_forecast.h"
 #include "survey/stations/placement.h"
+#include "survey/stations/station_places.h"
 
 namespace standpoint {
 
@@ -58,8 +59,8 @@ struct NextStation {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double adds_m2 = 0;
 };
-std::optional<NextStation> nextStation(const Job& job, const Mesh* walkable, const StationPlacement& placement,
+std::optional<NextStation> nextStation(const Job& job, const GroundSearch& search, const StationPlacement& placement,
                                        const SurfaceSamples& samples, const std::vector<std::uint8_t>& seen,
-                                       const SightLimits& limits, double height_m, Progress& progress);
+                                       const SightLimits& limits, Progress& progress);
 
 }  // namespace standpoint
