@@ -9,6 +9,7 @@
 
 #include "core/ceiling.h"
 #include "core/units.h"
+#include "survey/scene/bodies.h"
 #include "survey/stations/storeys.h"
 
 namespace standpoint {
@@ -120,7 +121,8 @@ std::vector<Eigen::Vector3d> groundWithoutFloor(const RayScene& scene) {
   constexpr std::size_t kProducts = 40;
   constexpr int kWithin = 12;
   std::vector<Eigen::Vector3d> places;
-  const Bounds all = bounds(scene.environment());
+  Bounds all;
+  for (const auto& box : instanceBounds(scene.environment())) all.extend(box);
   if (all.empty()) return places;
   for (int k = 0; k < kWithin * kWithin; ++k)
     places.emplace_back(all.min.x() + (all.max.x() - all.min.x()) * (k % kWithin + 0.5) / kWithin,

@@ -101,9 +101,10 @@ TEST(FirstStation, IsAmongStoreysOfOneLevelWhereMostRoomsAre) {
 TEST(FirstStation, IsNotOnATable) {
   House house{0};
   house.furnish(1, 0, 4, 1);
-  house.add(1, "IfcFurniture", {0.3, 0.3, 0}, {3.7, 5.7, 0.75});
+  house.add(1, "IfcFurniture", {0.2, 0.2, 0}, {2.2, 5.8, 0.75});
   const auto placed = run("station", house.document(), {{"add", "S1"}});
-  if (placed) EXPECT_NEAR(placed->document.job->stations.front().true_pose.translation.z(), 1.6, 1e-4);
+  ASSERT_TRUE(placed) << describe(placed.error());
+  EXPECT_NEAR(placed->document.job->stations.front().true_pose.translation.z(), 1.6, 1e-4);
 }
 
 TEST(FirstStation, IsNotOnASuspendedCeilingOfAModelWithoutSlabs) {
