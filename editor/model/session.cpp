@@ -98,9 +98,10 @@ Result<Answered<ProjectAnswer>> runSaveRecovery(const Document& document, const 
 
 Result<Answered<ProjectAnswer>> opened(ProjectAnswer answer, Progress& progress) {
   answer.on_disk = stateOnDisk(answer.folder);
-  TRY_ASSIGN(auto document, loadProject(answer.folder, progress));
+  Report dropped;
+  TRY_ASSIGN(auto document, loadProject(answer.folder, progress, &dropped));
   auto description = fmt::format("Opened {}", answer.folder.string());
-  return Answered<ProjectAnswer>{std::move(document), std::move(answer), {}, std::move(description)};
+  return Answered<ProjectAnswer>{std::move(document), std::move(answer), std::move(dropped), std::move(description)};
 }
 Result<Answered<ProjectAnswer>> runOpen(const Document&, const OpenOptions& options, Progress& progress) {
   return opened({options.folder, {}, {}, {}}, progress);

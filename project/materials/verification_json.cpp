@@ -135,9 +135,9 @@ json verificationToJson(const Verification& verification) {
 
 std::shared_ptr<const Verification> verificationFrom(const json& part) {
   Verification v;
-  v.basis = std::strtoull(part.at("basis").get<std::string>().c_str(), nullptr, 16);
-  v.rest = std::strtoull(part.value("rest", "").c_str(), nullptr, 16);  // an old project has none: compare again
   try {
+    v.basis = std::strtoull(part.at("basis").get<std::string>().c_str(), nullptr, 16);
+    v.rest = std::strtoull(part.value("rest", "").c_str(), nullptr, 16);  // an old project has none: compare again
     v.answer = answerFrom(part.at("answer"));
   } catch (const json::exception&) {
     return nullptr;

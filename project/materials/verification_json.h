@@ -12,7 +12,7 @@
 namespace standpoint {
 
 nlohmann::json verificationToJson(const Verification& verification);
-// Nothing where its answer cannot be read, because somebody edited it; else as the readers of project_json.h.
+// Nothing where it cannot be read, because somebody edited it.
 std::shared_ptr<const Verification> verificationFrom(const nlohmann::json& part);
 
 }  // namespace standpoint

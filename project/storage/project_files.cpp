@@ -108,7 +108,7 @@ Result<Environment> loadEnvironment(const fs::path& file, const Environment& rec
   return environment;
 }
 
-Result<Document> fromJson(const json& project, const fs::path& folder, Progress& progress) {
+Result<Document> fromJson(const json& project, const fs::path& folder, Report& report, Progress& progress) {
   const auto geometry = folder / "geometry";
   TRY_ASSIGN(auto records, readJson(geometry / project.at("products").get<std::string>()));
   Environment named = recordsFrom(records);
@@ -127,13 +127,18 @@ Result<Document> fromJson(const json& project, const fs::path& folder, Progress&
     TRY_ASSIGN(auto shapes, readEnvironmentGlb(geometry / part.at("geometry").get<std::string>(), progress));
     d.collision = collisionFrom(part, shapes);
   }
-  if (project.contains("verification")) d.verification = verificationFrom(project.at("verification"));
+  if (project.contains("verification")) {
+    d.verification = verificationFrom(project.at("verification"));
+    if (!d.verification)
+      report.warn((folder / kProjectFile).string() + " /verification",
+                  "the comparison with an underlay is damaged and was dropped; compare again with `standpoint verify`");
+  }
   if (project.contains("underlays")) d.underlays = underlaysFrom(project.at("underlays"), folder);
   return d;
 }
 
 // `text` is that of the folder's project.json.
-Result<Document> loadedFrom(const std::string& text, const fs::path& folder, Progress& progress) {
+Result<Document> loadedFrom(const std::string& text, const fs::path& folder, Report& report, Progress& progress) {
   const auto file = folder / kProjectFile;
   TRY_ASSIGN(const auto project, jsonFrom(text, file));
   try {
@@ -144,7 +149,7 @@ Result<Document> loadedFrom(const std::string& text, const fs::path& folder, Pro
                                  "supported: {}); update Standpoint",
                                  version, kProjectVersion),
                      file.string() + " /version");
-    TRY_ASSIGN(auto document, fromJson(project, folder, progress));
+    TRY_ASSIGN(auto document, fromJson(project, folder, report, progress));
     document.name = fs::absolute(folder).filename().string();
     if (auto wrong = inconsistency(document); !wrong.empty()) return failure(ErrorKind::unusable, wrong, file.string());
     return document;
@@ -215,7 +220,7 @@ bool isEmptyProjectFolder(const fs::path& folder) {
 
 Result<std::string> projectText(const fs::path& folder) { return readText(folder / kProjectFile); }
 
-Result<Document> loadProject(const fs::path& folder, Progress& progress) {
+Result<Document> loadProject(const fs::path& folder, Progress& progress, Report* report) {
   const auto file = folder / kProjectFile;
   std::error_code ignored;
   if (!fs::exists(file, ignored))
@@ -226,7 +231,9 @@ Result<Document> loadProject(const fs::path& folder, Progress& progress) {
   progress.stage("Open " + folder.filename().string());
   for (int attempt = 1;; ++attempt) {
     TRY_ASSIGN(const auto text, projectText(folder));
-    auto document = loadedFrom(text, folder, progress);
+    Report dropped;
+    auto document = loadedFrom(text, folder, dropped, progress);
+    if (document && report != nullptr) report->append(dropped);
     if (document || attempt == kMostAttempts) return document;
     // A writer removes the parts that its project.json names no more.
     if (const auto now = projectText(folder); !now || *now == text) return document;

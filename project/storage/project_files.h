@@ -24,6 +24,7 @@ Result<std::string> projectText(const std::filesystem::path& folder);
 
 // A newer version, a missing part, a wrong index: an error that names file and place. A project
 // that another program replaces while it is read is read again.
-Result<Document> loadProject(const std::filesystem::path& folder, Progress& progress);
+// `report`: what could be read without, and is dropped.
+Result<Document> loadProject(const std::filesystem::path& folder, Progress& progress, Report* report = nullptr);
 
 }  // namespace standpoint

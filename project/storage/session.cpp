@@ -69,8 +69,10 @@ Result<Outcome> runOnProject(const Verb& verb, const json& options, Progress& pr
     return failure(ErrorKind::usage, "--update and --replace cannot be combined", "--update");
   if (verb.scope == VerbScope::creates && !update) return runOnNewProject(verb, folder, own, progress);
   const auto before = projectText(folder);
-  TRY_ASSIGN(const auto document, loadProject(folder, progress));
+  Report dropped;
+  TRY_ASSIGN(const auto document, loadProject(folder, progress, &dropped));
   TRY_ASSIGN(auto outcome, runVerb(verb, document, own, progress));
+  outcome.report.append(dropped);
   if (verb.scope == VerbScope::reads || outcome.document == document) return outcome;
   TRY(saveChange(verb, folder, own, document, before.value_or(""), outcome, progress));
   return outcome;

@@ -209,8 +209,9 @@ Result<Answered<InfoAnswer>> runInfo(const Document& document, const InfoOptions
   TRY(mustExist(file));
   progress.stage("Read " + file.filename().string());
   if (fs::is_directory(file)) {
-    TRY_ASSIGN(const auto project, loadProject(file, progress));
-    return Answered<InfoAnswer>{document, projectInfo(project)};
+    Report dropped;
+    TRY_ASSIGN(const auto project, loadProject(file, progress, &dropped));
+    return Answered<InfoAnswer>{document, projectInfo(project), dropped};
   }
   if (const auto* format = readableCloudFormat(file)) {
     TRY_ASSIGN(const auto cloud, format->info(file));

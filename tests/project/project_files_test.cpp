@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "project/storage/session.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
@@ -134,6 +135,49 @@ TEST(Project, FromANewerProgramIsRefusedWithARemedy) {
   EXPECT_EQ(back.error().kind, ErrorKind::unusable);
   EXPECT_NE(back.error().message.find("newer"), std::string::npos);
   EXPECT_NE(back.error().source.find("/version"), std::string::npos);
+}
+
+TEST(Project, OfEachVersionThatThereWasIsRead) {
+  int versions = 0;
+  for (const auto& sample : fs::directory_iterator(SOURCE_DIR "/tests/projects")) {
+    Progress progress;
+    Report report;
+    const auto d = loadProject(sample.path(), progress, &report);
+    ASSERT_TRUE(d) << describe(d.error());
+    EXPECT_EQ(said(report), "") << sample.path();
+    ++versions;
+    ASSERT_EQ(d->job->stations.size(), 2U);
+    EXPECT_EQ(d->job->stations[0].name, "S1");
+    EXPECT_EQ(d->job->stations[0].scans.size(), 1U);
+    EXPECT_TRUE(d->job->stations[1].solved_pose);
+    EXPECT_EQ(d->job->targets.size(), 1U);
+    EXPECT_TRUE(d->simplified && d->collision && d->materials && d->scanning && d->verification && d->treatments);
+    EXPECT_EQ(d->underlays.size(), 1U);
+    EXPECT_EQ(d->georeference->crs, "EPSG:25832");
+    EXPECT_GT(triangleCount(*d->imported), 100U);
+  }
+  EXPECT_EQ(versions, kProjectVersion) << "a new version keeps a sample of the one before";
+}
+
+TEST(Project, SaysThatADamagedComparisonIsDropped) {
+  const TemporaryFolder folder;
+  Progress progress;
+  for (const char* part : {"{}", "7", "{\"basis\": 5}", "{\"basis\": \"1\", \"answer\": []}"}) {
+    ASSERT_TRUE(saveProject(fullDocument(), folder.path(), progress));
+    auto text = textOf(folder.path() / "project.json");
+    text.insert(1, std::string("\"verification\": ") + part + ",");
+    writeText(folder.path() / "project.json", text);
+    Report report;
+    const auto back = loadProject(folder.path(), progress, &report);
+    ASSERT_TRUE(back) << part << ": " << describe(back.error());
+    EXPECT_FALSE(back->verification);
+    EXPECT_NE(said(report).find("/verification: the comparison with an underlay is damaged"), std::string::npos)
+        << part;
+    Progress again;
+    const auto listed = runOnDisk(*findVerb(verbs(), "station"), {{"project", folder.path().string()}}, again);
+    ASSERT_TRUE(listed) << describe(listed.error());
+    EXPECT_NE(said(listed->report).find("standpoint verify"), std::string::npos);
+  }
 }
 
 TEST(Project, ThatIsNotThereIsAFileSystemErrorWithARemedy) {
