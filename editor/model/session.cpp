@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -227,7 +228,21 @@ bool Session::open(const std::filesystem::path& folder) {
   return start(OpenOptions{folder}, "Open " + folder.filename().string());
 }
 
-bool Session::saveRecovery(const std::filesystem::path& folder) { return start(SaveRecoveryOptions{folder}); }
+bool Session::saveRecovery(const std::filesystem::path& folder) {
+  const SaveRecoveryOptions options{folder};
+  auto work = [folder, before = kept_.folder == folder ? kept_.document : Document()](
+                  const Document& document, Progress& progress) -> Result<Outcome> {
+    TRY(saveChanges(before, document, folder, progress));
+    return Outcome{document};
+  };
+  keeping_ = {folder, document(), revision_};
+  return start(options, "Save recovery copy", std::move(work));
+}
+
+bool Session::keepsRecovery() const {
+  return std::any_of(running_.begin(), running_.end(),
+                     [](const auto& task) { return std::string_view(task->verb().name) == "save-recovery"; });
+}
 
 bool Session::recover(const RecoveryCopy& copy) {
   return start(OpenRecoveryOptions{copy.project, copy.name, copy.saved_in}, "Recover " + copy.name);
@@ -317,7 +332,7 @@ void Session::takeResult(VerbTask& task) {
 
 void Session::succeed(VerbTask& task, Outcome outcome) {
   const std::string_view verb_name = task.verb().name;
-  if (verb_name == "save-recovery") return;
+  if (verb_name == "save-recovery") return succeedKeeping();
   const bool begins_project = task.verb().scope == VerbScope::creates && !task.options().value("update", false);
   const std::string text = outcome.description.empty() ? task.title() : outcome.description;
   finished_.push_front(
@@ -328,6 +343,7 @@ void Session::succeed(VerbTask& task, Outcome outcome) {
   if (verb_name == "save-project") {
     stayIn(project->folder, project->on_disk);
     history_.markSaved();
+    forgetRecovered();
   } else if (verb_name == "open-project") {
     history_ = History(std::move(outcome.document), text);
     stayIn(project->folder, project->on_disk);
@@ -337,7 +353,7 @@ void Session::succeed(VerbTask& task, Outcome outcome) {
     outcome.document.name = project->name;  // it was loaded as the copy's folder
     history_.push(std::move(outcome.document), text);
     stayIn(project->saved_in, stateOnDisk(project->saved_in));
-    removeRecovery(project->folder.parent_path());
+    recovered_from_ = project->folder.parent_path();
     ++revision_;
   } else if (writesDocument(task.verb())) {
     if (begins_project) leaveFolder();
@@ -347,6 +363,18 @@ void Session::succeed(VerbTask& task, Outcome outcome) {
   if (begins_project) project_since_ = revision_;
   finished_.front().revision = revision_;
   if (done) done(task.verb(), task.options());
+}
+
+void Session::succeedKeeping() {
+  kept_ = std::move(keeping_);
+  keeping_failed_ = false;
+  forgetRecovered();
+}
+
+// What was recovered has been written again.
+void Session::forgetRecovered() {
+  if (!recovered_from_.empty() && recovered_from_ != kept_.folder.parent_path()) removeRecovery(recovered_from_);
+  recovered_from_.clear();
 }
 
 void Session::stayIn(const std::filesystem::path& folder, std::string on_disk) {
@@ -359,6 +387,7 @@ void Session::leaveFolder() { stayIn({}, {}); }
 
 void Session::fail(const VerbTask& task, const Error& error) {
   const bool cancelled = error.kind == ErrorKind::cancelled;
+  const bool keeps = std::string_view(task.verb().name) == "save-recovery";
   finished_.push_front({task.title(),
                         task.verb().name,
                         false,
@@ -372,7 +401,9 @@ void Session::fail(const VerbTask& task, const Error& error) {
     return;
   }
   say(LogLevel::error, error.source, error.message);
-  errors_.push_back({task.title(), error});
+  const bool again =
+      std::exchange(keeping_failed_, keeps || keeping_failed_) && keeps;  // nobody reads it after every change
+  if (!again) errors_.push_back({task.title(), error});
 }
 
 const FinishedTask* Session::lastOf(std::string_view name) const {

@@ -87,9 +87,13 @@ class Session {
   // Refused where another program has changed the project since it was opened or saved here.
   bool save(const std::filesystem::path& folder);
   bool open(const std::filesystem::path& folder);
+  // A copy of what is unsaved; what it shares with the last one in that folder is not written again.
   bool saveRecovery(const std::filesystem::path& folder);
-  bool recover(const RecoveryCopy& copy);  // opens it as unsaved work of the project it is a copy of
-  void clear();                            // a new, empty project
+  bool keepsRecovery() const;                                    // right now
+  std::uint64_t keptRevision() const { return kept_.revision; }  // of the newest copy that is whole; 0: none
+  // Opens it as unsaved work of the project it is a copy of. It is removed when a newer copy or the project is written.
+  bool recover(const RecoveryCopy& copy);
+  void clear();  // a new, empty project
   void undo();
   void redo();
 
@@ -137,6 +141,8 @@ class Session {
   void takeResult(VerbTask& task);
   void succeed(VerbTask& task, Outcome outcome);
   void fail(const VerbTask& task, const Error& error);
+  void succeedKeeping();
+  void forgetRecovered();
   void stayIn(const std::filesystem::path& folder, std::string on_disk);
   void leaveFolder();
 
@@ -152,7 +158,15 @@ class Session {
   std::vector<LogEntry> log_;
   std::deque<ShownError> errors_;
   std::uint64_t revision_ = 0;
-  std::uint64_t project_since_ = 0;  // its first revision
+  struct Kept {
+    std::filesystem::path folder;
+    Document document;
+    std::uint64_t revision = 0;
+  };
+  Kept kept_, keeping_;  // the recovery copy that is whole, and the one that is being written
+  bool keeping_failed_ = false;
+  std::filesystem::path recovered_from_;  // a copy that is still needed
+  std::uint64_t project_since_ = 0;       // its first revision
 };
 
 }  // namespace standpoint

@@ -45,7 +45,7 @@ json toJson(const Settings& settings) {
           {"areas", std::move(areas)},
           {"last_folder", settings.last_folder},
           {"user_scale", settings.user_scale},
-          {"recovery_minutes", settings.recovery_minutes}};
+          {"recovery", settings.recovery}};
 }
 
 Settings settingsFrom(const json& object) {
@@ -63,7 +63,10 @@ Settings settingsFrom(const json& object) {
   if (const auto folder = object.find("last_folder"); folder != object.end() && folder->is_string())
     result.last_folder = folder->get<std::string>();
   read(object, "user_scale", result.user_scale, kUserScales.front(), kUserScales.back());
-  read(object, "recovery_minutes", result.recovery_minutes, 0, 60);
+  // Before, a copy was kept every so many minutes, or never.
+  if (object.value("recovery_minutes", json()) == 0) result.recovery = false;
+  if (const auto recovery = object.find("recovery"); recovery != object.end() && recovery->is_boolean())
+    result.recovery = recovery->get<bool>();
   return result;
 }
 

@@ -26,9 +26,9 @@ struct Settings {
   std::vector<std::string> recent;  // projects and models, newest first
   std::array<AreaSizes, kWorkspaces> areas = {AreaSizes{}, AreaSizes{350, 320, 170}, AreaSizes{330, 340, 170},
                                               AreaSizes{260, 620, 130}};
-  std::string last_folder;   // of the file dialog
-  double user_scale = 1;     // on top of the monitor's
-  int recovery_minutes = 3;  // 0 = keep no recovery copy
+  std::string last_folder;  // of the file dialog
+  double user_scale = 1;    // on top of the monitor's
+  bool recovery = true;     // keep a copy of unsaved work after every change
   bool operator==(const Settings&) const = default;
 
   void remember(const std::filesystem::path& path);

@@ -204,9 +204,8 @@ void drawPreferences(Editor& editor) {
           editor.settings.user_scale = size;
       ImGui::EndCombo();
     }
-    ui::propertyLabel("Recovery copy interval");
-    ImGui::SliderInt("###recovery", &editor.settings.recovery_minutes, 0, 30,
-                     editor.settings.recovery_minutes == 0 ? "never" : "%d min");
+    ui::propertyLabel("Recovery copy after every change");
+    ImGui::Checkbox("###recovery", &editor.settings.recovery);
     ui::endProperties();
   }
   if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || escapePressed())

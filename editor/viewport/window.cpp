@@ -108,8 +108,8 @@ class Window {
         invoke(editor_, "quit");
         frames_wanted_ = kFramesAfterInput;
       }
-      keepRecoveryCopy();
       drawFrame();
+      if (editor_.settings.recovery) keeper_.keep(editor_.session);
     }
   }
 
@@ -182,8 +182,6 @@ class Window {
     } else if (!editor_.fine_picture) {
       glfwWaitEventsTimeout(std::max(0.01, last_input_s_ + kStill_s - glfwGetTime()));
       editor_.fine_picture = !input_.pending() && glfwGetTime() - last_input_s_ >= kStill_s;
-    } else if (editor_.settings.recovery_minutes > 0 && editor_.session.modified()) {
-      glfwWaitEventsTimeout(editor_.settings.recovery_minutes * 60.0);
     } else {
       glfwWaitEvents();
     }
@@ -286,28 +284,14 @@ class Window {
     glfwSetWindowTitle(handle_, title.c_str());
   }
 
-  void keepRecoveryCopy() {
-    const auto& session = editor_.session;
-    const int minutes = editor_.settings.recovery_minutes;
-    const double now = glfwGetTime();
-    if (minutes == 0 || !session.modified() || kept_revision_ == session.revision() ||
-        now - last_kept_s_ < minutes * 60.0)
-      return;
-    const auto folder = recoveryFolder(recoveryRoot(), getpid());
-    if (!writeRecoveryOwner(folder, session.name(), session.folder().string())) return;
-    if (!editor_.session.saveRecovery(folder / "copy")) return;
-    last_kept_s_ = now;
-    kept_revision_ = session.revision();
-  }
-
   Editor& editor_;
   GLFWwindow* handle_;
   InputQueue input_;
   std::unique_ptr<SceneView> scene_, beside_;
   GLFWcursor* cursors_[ImGuiMouseCursor_COUNT] = {};
   int frames_wanted_ = kFramesAfterInput;
-  double last_input_s_ = 0, last_frame_s_ = 0, last_kept_s_ = 0;
-  std::uint64_t kept_revision_ = 0;
+  double last_input_s_ = 0, last_frame_s_ = 0;
+  RecoveryKeeper keeper_{recoveryFolder(recoveryRoot(), getpid())};
   float built_scale_ = 0;
   bool focus_lost_ = false;
   std::string title_;

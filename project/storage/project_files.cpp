@@ -98,6 +98,34 @@ void removeUnreferenced(const fs::path& geometry, const std::set<std::string>& n
   }
 }
 
+// Files in geometry/; empty: to be written.
+struct PartNames {
+  std::string products, imported, light, collision;
+};
+
+// Of those that the folder names the ones that hold what the document has, as `before` is what was saved there.
+PartNames sharedParts(const Document& before, const Document& document, const fs::path& folder) {
+  PartNames names;
+  if (!before.imported || before.georeference != document.georeference) return names;
+  const auto project = readJson(folder / kProjectFile);
+  const auto named = [&](const json& at, const char* key) {
+    std::error_code ignored;
+    const auto name = at.is_object() ? at.value(key, json()) : json();
+    if (!name.is_string() || !fs::exists(folder / "geometry" / name.get<std::string>(), ignored)) return std::string();
+    return name.get<std::string>();
+  };
+  if (!project || !project->is_object()) return names;
+  if (before.imported == document.imported) {
+    names.products = named(*project, "products");
+    names.imported = named(*project, "imported");
+  }
+  if (document.simplified && before.simplified && before.simplified->environment == document.simplified->environment)
+    names.light = named(project->value("lightening", json()), "geometry");
+  if (document.collision && before.collision == document.collision)
+    names.collision = named(project->value("collision", json()), "geometry");
+  return names;
+}
+
 Result<Environment> loadEnvironment(const fs::path& file, const Environment& records, Progress& progress) {
   auto environment = readEnvironmentGlb(file, progress);
   if (!environment) return environment;
@@ -175,6 +203,10 @@ std::uint64_t contentHash(const std::string& bytes) {
 }
 
 Result<void> saveProject(const Document& document, const fs::path& folder, Progress& progress) {
+  return saveChanges({}, document, folder, progress);
+}
+
+Result<void> saveChanges(const Document& before, const Document& document, const fs::path& folder, Progress& progress) {
   if (!document.imported) return failure(ErrorKind::usage, "nothing to save: import a model first");
   progress.stage("Save " + folder.filename().string());
   const auto geometry = folder / "geometry";
@@ -185,22 +217,27 @@ Result<void> saveProject(const Document& document, const fs::path& folder, Progr
   json project = documentToJson(document);
   if (!document.underlays.empty()) project["underlays"] = underlaysToJson(document.underlays, folder);
   if (document.verification) project["verification"] = verificationToJson(*document.verification);
+  const auto there = sharedParts(before, document, folder);
   std::set<std::string> named;
-  const auto store = [&](json& at, const char* key, Result<std::string> name) -> Result<void> {
-    TRY_ASSIGN(auto part, std::move(name));
+  const auto store = [&](json& at, const char* key, const std::string& name, const auto& write) -> Result<void> {
+    TRY_ASSIGN(auto part, name.empty() ? write() : Result<std::string>(name));
     at[key] = part;
     named.insert(std::move(part));
     return {};
   };
   const auto& g = *document.georeference;
-  TRY(store(project, "products", storeJson(recordsToJson(*document.imported), geometry, "products")));
-  TRY(store(project, "imported", storeEnvironment(*document.imported, g, geometry, "imported", progress)));
+  const auto write = [&](const Environment& environment, const char* stem) {
+    return storeEnvironment(environment, g, geometry, stem, progress);
+  };
+  TRY(store(project, "products", there.products,
+            [&] { return storeJson(recordsToJson(*document.imported), geometry, "products"); }));
+  TRY(store(project, "imported", there.imported, [&] { return write(*document.imported, "imported"); }));
   if (document.simplified)
-    TRY(store(project["lightening"], "geometry",
-              storeEnvironment(*document.simplified->environment, g, geometry, "light", progress)));
+    TRY(store(project["lightening"], "geometry", there.light,
+              [&] { return write(*document.simplified->environment, "light"); }));
   if (document.collision)
-    TRY(store(project["collision"], "geometry",
-              storeEnvironment(collisionEnvironment(*document.collision), g, geometry, "collision", progress)));
+    TRY(store(project["collision"], "geometry", there.collision,
+              [&] { return write(collisionEnvironment(*document.collision), "collision"); }));
 
   TRY(writeWholeText(folder / kProjectFile, project.dump(2, ' ', false, kReplace) + "\n"));
   removeUnreferenced(geometry, named);

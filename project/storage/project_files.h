@@ -16,6 +16,11 @@ constexpr int kProjectVersion = 1;
 // as it was. load(save(d)) scans to the same bytes as d.
 Result<void> saveProject(const Document& document, const std::filesystem::path& folder, Progress& progress);
 
+// The same into a folder that holds `before` by the hand of this program: parts that are the same ones are not written
+// again. A `before` without a model, or a folder that was changed since, costs no more than saveProject.
+Result<void> saveChanges(const Document& before, const Document& document, const std::filesystem::path& folder,
+                         Progress& progress);
+
 // Is there nothing in the folder but what a save leaves that was broken off before there was a project?
 bool isEmptyProjectFolder(const std::filesystem::path& folder);
 

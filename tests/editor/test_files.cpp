@@ -104,6 +104,9 @@ TEST_F(Folder, OffersOnlyTheCopiesOfProcessesThatAreGone) {
   EXPECT_EQ(copies[0].saved_in, "/projects/school");
   removeRecovery(copies[0].folder);
   EXPECT_TRUE(findRecoveryCopies(root).empty());
+  write(fs::path(std::to_string(getpid())) / "owner.json",
+        "{\"name\": \"house\", \"process_start\": \"another boot 7\"}");
+  ASSERT_EQ(findRecoveryCopies(root).size(), 1U) << "another process has its number now";
 }
 
 TEST(ReadableSize, HasThreeDigitsOrSo) {

@@ -2,6 +2,7 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -211,7 +212,52 @@ TEST_F(DemoSession, SavesOpensAndRecovers) {
   EXPECT_EQ(other.document().name, "castle");
   EXPECT_TRUE(other.modified());
   EXPECT_EQ(other.folder(), root / "house");
-  EXPECT_FALSE(std::filesystem::exists(root / "recovery"));
+  EXPECT_TRUE(std::filesystem::exists(root / "recovery")) << "it is all there is of the work";
+  ASSERT_TRUE(other.saveRecovery(root / "next" / "copy"));
+  other.wait();
+  EXPECT_FALSE(std::filesystem::exists(root / "recovery")) << "now there is another one";
+}
+
+TEST_F(DemoSession, KeepsACopyOfEveryChangeUntilItIsSaved) {
+  const TemporaryFolder folder;
+  const auto root = folder.path() / "recovery";
+  RecoveryKeeper keeper(root);
+  const auto kept = [&] {
+    keeper.keep(session);
+    session.wait();
+    EXPECT_TRUE(keeper.upToDate(session));
+    Progress progress;
+    return loadProject(root / "copy", progress);
+  };
+  EXPECT_FALSE(keeper.upToDate(session));
+  ASSERT_TRUE(kept());
+  const auto part = std::filesystem::last_write_time(*std::filesystem::directory_iterator(root / "copy" / "geometry"));
+  ASSERT_TRUE(session.start("rename", {{"to", "castle"}}));
+  session.wait();
+  EXPECT_FALSE(keeper.upToDate(session));
+  ASSERT_TRUE(kept());
+  EXPECT_EQ(std::filesystem::last_write_time(*std::filesystem::directory_iterator(root / "copy" / "geometry")), part)
+      << "a part that has not changed is not written again";
+  session.undo();
+  EXPECT_FALSE(keeper.upToDate(session));
+  ASSERT_TRUE(kept());
+  ASSERT_TRUE(session.save(folder.path() / "house"));
+  session.wait();
+  EXPECT_TRUE(keeper.upToDate(session));
+  keeper.keep(session);
+  EXPECT_FALSE(std::filesystem::exists(root)) << "what is saved needs no copy";
+}
+
+TEST_F(DemoSession, SaysOnceThatNoCopyCanBeKept) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "recovery") << "a file where the folder should be";
+  for (const char* name : {"castle", "tower"}) {
+    ASSERT_TRUE(session.start("rename", {{"to", name}}));
+    session.wait();
+    ASSERT_TRUE(session.saveRecovery(folder.path() / "recovery"));
+    session.wait();
+  }
+  EXPECT_EQ(session.errors().size(), 1U);
 }
 
 TEST_F(DemoSession, KeepsWhatIsOpenWhenAnotherProjectCannotBeRead) {
