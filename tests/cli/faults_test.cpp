@@ -4,20 +4,16 @@
 // them.
 #include <algorithm>
 #include <cstdlib>
-#include <fcntl.h>
 #include <fstream>
-#include <iostream>
 #include <iterator>
 #include <set>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <gtest/gtest.h>
 
 #include "core/part_file.h"
 #include "emulated-ui/rehearsal/rehearse_verb.h"
 #include "project/storage/project_files.h"
+#include "tests/project/killed_process.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
@@ -108,7 +104,7 @@ void put(const fs::path& file, const std::string& text) {
 
 // The program, in `folder`. Returns its exit code, −1 when it was killed.
 int run(const Words& words, const fs::path& folder, const Words& faults = {}) {
-  Words all = {"env", "-C", folder.string(), "STANDPOINT_INSTRUMENTS=" + (folder / "own").string()};
+  Words all = {"/usr/bin/env", "-C", folder.string(), "STANDPOINT_INSTRUMENTS=" + (folder / "own").string()};
   all.insert(all.end(), faults.begin(), faults.end());
   all.emplace_back(PROGRAM);
   for (const auto& word : words) {
@@ -118,18 +114,7 @@ int run(const Words& words, const fs::path& folder, const Words& faults = {}) {
     const bool setting = word.find('=') != word.npos || word.find(',') != word.npos;
     all.push_back(place && !setting ? (folder / word).string() : word);
   }
-  std::vector<char*> arguments;
-  for (auto& word : all) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  for (const int descriptor : {1, 2}) posix_spawn_file_actions_addopen(&actions, descriptor, "/dev/null", O_WRONLY, 0);
-  pid_t child = 0;
-  const int failed = ::posix_spawnp(&child, "env", &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  int status = 0;
-  if (failed != 0 || ::waitpid(child, &status, 0) != child) return -2;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return Process(all).wait();
 }
 
 class Faults : public ::testing::TestWithParam<Writer> {
