@@ -6,13 +6,13 @@
 #include <numbers>
 
 #include <benchmark/benchmark.h>
-#include <embree3/rtcore.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include "core/data_folder.h"
 #include "pointclouds/formats.h"
 #include "project/verb.h"
+#include "scanners/engine/embree.h"
 #include "scanners/engine/ray_engine.h"
 
 namespace standpoint {
@@ -189,8 +189,7 @@ void bareEmbree(benchmark::State& state) {
     arena.execute([&] {
       tbb::parallel_for(0, kPeerColumns, [&](int column) {
         const double azimuth = 2 * std::numbers::pi * column / kPeerColumns;
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
+        RayQuery query(RayQuery::Rays::single);
         alignas(32) const int valid[8] = {-1, -1, -1, -1, -1, -1, -1, -1};
         for (int row = 0; row < kRows; row += 8) {
           RTCRayHit8 rays{};
@@ -205,7 +204,7 @@ void bareEmbree(benchmark::State& state) {
             rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
             rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
           }
-          rtcIntersect8(valid, scene, &context, &rays);
+          query.trace(valid, scene, rays);
           benchmark::DoNotOptimize(rays.ray.tfar[0]);
         }
       });

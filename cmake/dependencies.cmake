@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Debian 12 packages only (packages.txt). Each is linked privately by the one folder that DESIGN allows to see it.
+# Packages of Debian 12 and 13 only (packages.txt). Each is linked privately by the one folder that DESIGN allows to see it.
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 find_package(Eigen3 REQUIRED)
@@ -7,7 +7,10 @@ find_package(tl-expected REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)
 find_package(TBB REQUIRED)
-find_package(embree 3 REQUIRED)
+find_package(embree REQUIRED)
+if(embree_VERSION VERSION_LESS 3 OR embree_VERSION VERSION_GREATER_EQUAL 5)
+  message(FATAL_ERROR "Embree ${embree_VERSION}: scanners/engine/embree.h knows 3 and 4")
+endif()
 find_package(OpenGL REQUIRED COMPONENTS OpenGL EGL)
 find_package(Freetype REQUIRED)
 find_package(glfw3 3.3 REQUIRED)

@@ -109,7 +109,7 @@ CoincidentFacets::~CoincidentFacets() {
 }
 
 struct CoincidentFacets::Choice {
-  RTCIntersectContext context;  // first, so that Embree's pointer to it is one to this
+  RayQuery query{RayQuery::Rays::coherent};  // first, so that a pointer to its context is one to this
   const Shared* met[kPacket];
   const Shared* best[kPacket];
 };
@@ -132,7 +132,7 @@ void CoincidentFacets::look(const RTCFilterFunctionNArguments* a) {
 void CoincidentFacets::choose(const RayPacket& rays, int count, NearestHit* hits) const {
   alignas(64) int valid[kPacket];
   Choice choice;
-  RTCRayHit16 query;
+  RTCRayHit16 window;
   bool any = false;
   for (int k = 0; k < kPacket; ++k) {
     valid[k] = 0;
@@ -144,23 +144,21 @@ void CoincidentFacets::choose(const RayPacket& rays, int count, NearestHit* hits
     const float cosine = std::abs(choice.met[k]->normal.dot(direction));
     // Two planes a twentieth of a millimetre apart are one; along a ray that grazes them it is more.
     const float window_m = 5e-5F / std::max(cosine, 0.02F) + 4e-6F * hits[k].range_m;
-    query.ray.tnear[k] = std::max(0.0F, hits[k].range_m - window_m);
-    query.ray.tfar[k] = hits[k].range_m + window_m;
-    query.ray.time[k] = 0;
-    query.ray.mask[k] = ~0U;
-    query.ray.id[k] = static_cast<unsigned>(k);
-    query.ray.flags[k] = 0;
-    query.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+    window.ray.tnear[k] = std::max(0.0F, hits[k].range_m - window_m);
+    window.ray.tfar[k] = hits[k].range_m + window_m;
+    window.ray.time[k] = 0;
+    window.ray.mask[k] = ~0U;
+    window.ray.id[k] = static_cast<unsigned>(k);
+    window.ray.flags[k] = 0;
+    window.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+    window.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
     valid[k] = -1;
     any = true;
   }
   if (!any) return;
-  std::copy_n(rays.origin_x, 3 * kPacket, query.ray.org_x);
-  std::copy_n(rays.direction_x, 3 * kPacket, query.ray.dir_x);
-  rtcInitIntersectContext(&choice.context);
-  choice.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect16(valid, scene_, &choice.context, &query);
+  std::copy_n(rays.origin_x, 3 * kPacket, window.ray.org_x);
+  std::copy_n(rays.direction_x, 3 * kPacket, window.ray.dir_x);
+  choice.query.trace(valid, scene_, window);
   for (int k = 0; k < count; ++k)
     if (valid[k] != 0) hits[k].facet = choice.best[k]->facet;
 }

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <embree3/rtcore.h>
 
 #include "core/environment.h"
+#include "scanners/engine/embree.h"
 #include "scanners/engine/ray_engine.h"
 
 namespace standpoint {

@@ -150,10 +150,7 @@ void EmbreeScene::intersect(const RayPacket& rays, int count, float max_range_m,
     query.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
   }
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect16(valid, scene_, &context, &query);
+  RayQuery(RayQuery::Rays::coherent).trace(valid, scene_, query);
   for (int k = 0; k < count; ++k)
     facets[k] = facetNumber(query.hit.instID[0][k], query.hit.geomID[k], query.hit.primID[k]);
   std::copy_n(query.ray.tfar, count, ranges_m);
@@ -180,9 +177,7 @@ NearestHit EmbreeScene::nearest(const Eigen::Vector3d& origin, const Eigen::Vect
   query.ray.mask = ~0U;
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(scene_, &context, &query);
+  RayQuery(RayQuery::Rays::single).trace(scene_, query);
   return {facetNumber(query.hit.instID[0], query.hit.geomID, query.hit.primID), query.ray.tfar};
 }
 
