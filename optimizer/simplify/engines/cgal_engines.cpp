@@ -2,6 +2,7 @@
 // All of CGAL's simplification is compiled here: both of its policies.
 #include <cmath>
 #include <exception>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -43,7 +44,7 @@ struct Simplification {  // what policies share
   Vector3d half_size = Vector3d::Zero();
   std::size_t target = 0;
   CollapseRecorder recorder{held};
-  boost::optional<Point> placement;
+  std::optional<Point> placement;
   const Progress* progress = nullptr;
   std::size_t looks = 0;
 
@@ -67,13 +68,17 @@ class HeldPlacement {
  public:
   HeldPlacement(const Simplification& here, const Policy& policy) : here_(&here), policy_(policy) {}
 
+  // An optional point of Boost's up to CGAL 5, of the standard library from 6 on.
   template <class Profile>
-  boost::optional<Point> operator()(const Profile& profile) const {
+  using Placed = std::invoke_result_t<const Policy&, const Profile&>;
+
+  template <class Profile>
+  Placed<Profile> operator()(const Profile& profile) const {
     const auto one = here_->held.holds[profile.v0().idx()], other = here_->held.holds[profile.v1().idx()];
     if (one == Hold::free && other == Hold::free) return guarded(profile);
     if (one == Hold::free) return profile.p1();
     if (other == Hold::free) return profile.p0();
-    if ((one == Hold::fixed && other == Hold::fixed) || !here_->alongLine(profile)) return boost::none;
+    if ((one == Hold::fixed && other == Hold::fixed) || !here_->alongLine(profile)) return {};
     if (one == Hold::fixed) return profile.p0();
     if (other == Hold::fixed) return profile.p1();
     const Quadric lines = here_->linesOf(profile.v0(), profile.v1());
@@ -84,10 +89,10 @@ class HeldPlacement {
 
  private:
   template <class Profile>
-  boost::optional<Point> guarded(const Profile& profile) const {
+  Placed<Profile> guarded(const Profile& profile) const {
     const Vector3d a = vectorOf(profile.p0()), b = vectorOf(profile.p1()), middle = 0.5 * (a + b);
     const auto best = policy_(profile);
-    if (!best) return boost::none;
+    if (!best) return {};
     const Vector3d p = vectorOf(*best).cwiseMax(-here_->half_size).cwiseMin(here_->half_size);
     const double reach = kFarthestPlacement * (b - a).norm();
     return (p - middle).norm() <= reach ? pointOf(p) : pointOf(middle);
@@ -103,11 +108,12 @@ class HeldCost {
  public:
   HeldCost(const Simplification& here, const Policy& policy) : here_(&here), policy_(policy) {}
 
-  template <class Profile>
-  boost::optional<double> operator()(const Profile& profile, const boost::optional<Point>& placement) const {
-    if (!placement) return boost::none;
+  template <class Profile, class Placed>
+  std::invoke_result_t<const Policy&, const Profile&, const Placed&> operator()(const Profile& profile,
+                                                                                const Placed& placement) const {
+    if (!placement) return {};
     auto cost = policy_(profile, placement);
-    if (!cost || !std::isfinite(*cost)) return boost::none;
+    if (!cost || !std::isfinite(*cost)) return {};
     const Quadric lines = here_->linesOf(profile.v0(), profile.v1());
     if (lines.weight > 0) *cost += scaled(profile, lines, lines(vectorOf(*placement)));
     return cost;
@@ -153,9 +159,9 @@ struct FewEnough {
 
 struct Recording : sms::Edge_collapse_visitor_base<Surface> {
   explicit Recording(Simplification& to) : here(&to) {}
-  template <class Profile>
-  void OnCollapsing(const Profile&, const boost::optional<Point>& placement) const {
-    here->placement = placement;
+  template <class Profile, class Placed>
+  void OnCollapsing(const Profile&, const Placed& placement) const {
+    if (placement) here->placement = *placement;
   }
   template <class Profile>
   void OnCollapsed(const Profile& profile, Vertex kept) const {
@@ -163,7 +169,7 @@ struct Recording : sms::Edge_collapse_visitor_base<Surface> {
     const auto triangles = static_cast<std::uint32_t>(profile.left_face_exists()) +
                            static_cast<std::uint32_t>(profile.right_face_exists());
     here->recorder.record(kept.idx(), removed.idx(), triangles, vectorOf(here->placement.value_or(profile.p0())));
-    here->placement = boost::none;
+    here->placement.reset();
   }
   Simplification* here;
 };
