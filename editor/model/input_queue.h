@@ -6,8 +6,6 @@
 
 namespace standpoint {
 
-constexpr int kKeyPlus = '=', kKeyMinus = '-';  // wherever the keyboard has them
-
 // Codes of keys and buttons are GLFW's numbers: letters and digits are their ASCII capitals.
 struct InputEvent {
   enum class Kind { move, button, scroll, key, character };
@@ -18,8 +16,8 @@ struct InputEvent {
   int modifiers = 0;
 };
 
-// Hands the interface at most one transition of each key and button per frame. Dear ImGui 1.86 reads the state once a
-// frame, so a key that goes down and up between two slow frames would otherwise never have been pressed.
+// Hands the interface at most one transition of each key and button per frame. Dear ImGui sees the state once a frame,
+// so a key that goes down and up between two slow frames would otherwise never have been pressed.
 class InputQueue {
  public:
   void push(const InputEvent& event);

@@ -7,12 +7,12 @@
 #include <imgui.h>
 
 #include "core/data_folder.h"
-#include "editor/model/input_queue.h"
 #include "editor/model/interface_scale.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/import_preview.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/keyboard.h"
 #include "editor/widgets/widgets.h"
 #include "project/model/treatments.h"
 #include "project/survey/survey_verbs.h"
@@ -451,7 +451,7 @@ void runShortcuts(Editor& editor) {
     const auto& s = action.shortcut;
     if (io.WantTextInput && !leavesText(s)) continue;
     const bool shifted = s.shift == io.KeyShift || s.key == kKeyPlus;  // some keyboards need Shift for a plus
-    if (s.key != 0 && s.ctrl == io.KeyCtrl && shifted && ImGui::IsKeyPressed(s.key, false)) {
+    if (s.key != 0 && s.ctrl == io.KeyCtrl && shifted && keyboard::pressed(s.key)) {
       invoke(editor, action.id);
       return;
     }

@@ -9,11 +9,8 @@ namespace standpoint {
 
 struct Editor;
 
-// Keys are GLFW's numbers: letters and digits are their ASCII capitals.
-constexpr int kKeyEscape = 256, kKeyDelete = 261, kKeyF1 = 290;
-
 struct Shortcut {
-  int key = 0;  // 0 = none
+  int key = 0;  // of widgets/keyboard.h; 0 = none
   bool ctrl = false, shift = false;
 };
 

@@ -7,13 +7,12 @@
 
 #include "editor/shell/actions.h"
 #include "editor/shell/editor.h"
+#include "editor/widgets/keyboard.h"
 #include "pointclouds/formats.h"
 
 namespace standpoint {
 
 namespace {
-
-bool pressed(ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false); }
 
 bool ready(const Editor& editor) {
   return editor.preview.stage() == ImportPreview::Stage::ready && !editor.preview.reading();
@@ -65,11 +64,11 @@ void closePreview(Editor& editor) {
 
 void runPreviewKeys(Editor& editor) {
   if (ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
-  if (pressed(ImGuiKey_Escape))
+  if (keyboard::pressed(kKeyEscape))
     closePreview(editor);
-  else if (pressed(ImGuiKey_Enter) || pressed(ImGuiKey_KeyPadEnter))
+  else if (keyboard::pressed(kKeyEnter) || keyboard::pressed(kKeyPadEnter))
     acceptPreview(editor);
-  else if (ImGui::IsKeyPressed('F', false))
+  else if (keyboard::pressed('F'))
     editor.frameSelection();
 }
 

@@ -11,6 +11,7 @@
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/keyboard.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 
@@ -31,8 +32,6 @@ bool beginModal(const Editor& editor, const char* title, bool wanted, float widt
   ImGui::EndPopup();
   return false;
 }
-
-bool escapePressed() { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false); }
 
 const char* remedy(ErrorKind kind) {
   switch (kind) {
@@ -62,7 +61,7 @@ void drawError(Editor& editor) {
   ui::gap(editor, 2);
   ui::wrapped(remedy(shown.error.kind));
   ui::gap(editor, 6);
-  if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || escapePressed()) {
+  if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || keyboard::pressed(kKeyEscape)) {
     errors.pop_front();
     ImGui::CloseCurrentPopup();
   }
@@ -96,7 +95,7 @@ void drawUnsaved(Editor& editor) {
   ImGui::SameLine();
   if (ImGui::Button("Do not save", {editor.px(110), 0})) leave(editor);
   ImGui::SameLine();
-  if (ImGui::Button("Cancel", {editor.px(110), 0}) || escapePressed()) {
+  if (ImGui::Button("Cancel", {editor.px(110), 0}) || keyboard::pressed(kKeyEscape)) {
     editor.dialogs.unsaved = false;
     editor.dialogs.after_unsaved = nullptr;
     ImGui::CloseCurrentPopup();
@@ -149,7 +148,7 @@ void drawChangedOnDisk(Editor& editor) {
     ImGui::CloseCurrentPopup();
   }
   ImGui::SameLine();
-  if (ImGui::Button("Keep this version", {editor.px(150), 0}) || escapePressed()) {
+  if (ImGui::Button("Keep this version", {editor.px(150), 0}) || keyboard::pressed(kKeyEscape)) {
     session.keepOverDisk();
     ImGui::CloseCurrentPopup();
   }
@@ -190,7 +189,8 @@ void drawShortcuts(Editor& editor) {
       if (action.shortcut.key != 0) hintRow(shortcutText(action.shortcut).c_str(), action.title);
     ImGui::EndTable();
   }
-  if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || escapePressed()) editor.dialogs.shortcuts = false;
+  if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || keyboard::pressed(kKeyEscape))
+    editor.dialogs.shortcuts = false;
   ImGui::EndPopup();
 }
 
@@ -208,7 +208,7 @@ void drawPreferences(Editor& editor) {
     ImGui::Checkbox("###recovery", &editor.settings.recovery);
     ui::endProperties();
   }
-  if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || escapePressed())
+  if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || keyboard::pressed(kKeyEscape))
     editor.dialogs.preferences = false;
   ImGui::EndPopup();
 }
@@ -219,7 +219,8 @@ void drawAbout(Editor& editor) {
   ui::gap(editor);
   ui::dimText("Free software under the GNU General Public License, version 3 or later.");
   ui::gap(editor, 6);
-  if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || escapePressed()) editor.dialogs.about = false;
+  if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || keyboard::pressed(kKeyEscape))
+    editor.dialogs.about = false;
   ImGui::EndPopup();
 }
 
@@ -240,7 +241,7 @@ void drawVerbDialog(Editor& editor) {
     state.open = false;
   }
   ImGui::SameLine();
-  if (ImGui::Button("Cancel", {editor.px(110), 0}) || escapePressed()) state.open = false;
+  if (ImGui::Button("Cancel", {editor.px(110), 0}) || keyboard::pressed(kKeyEscape)) state.open = false;
   ImGui::EndPopup();
 }
 

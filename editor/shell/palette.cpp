@@ -12,6 +12,7 @@
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/keyboard.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 
@@ -98,13 +99,12 @@ void drawPalette(Editor& editor) {
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (ImGui::InputTextWithHint("###query", "Search commands", &state.query)) state.chosen = 0;
-  const bool enter = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+  const bool enter = keyboard::pressed(kKeyEnter);
   std::vector<Entry> shown;
   for (auto& entry : entries(editor))
     if (matches(entry, state.query)) shown.push_back(std::move(entry));
   const int last = std::max(0, static_cast<int>(shown.size()) - 1);
-  const int step = (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_DownArrow)) ? 1 : 0) -
-                   (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_UpArrow)) ? 1 : 0);
+  const int step = (keyboard::pressedOrRepeated(kKeyDown) ? 1 : 0) - (keyboard::pressedOrRepeated(kKeyUp) ? 1 : 0);
   const bool moved = step != 0;
   state.chosen += step;
   state.chosen = std::clamp(state.chosen, 0, last);

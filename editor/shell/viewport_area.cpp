@@ -14,6 +14,7 @@
 #include "editor/shell/shell.h"
 #include "editor/shell/station_drag.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/keyboard.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 #include "project/survey/survey_verbs.h"
@@ -149,7 +150,7 @@ void handleWalking(Editor& editor) {
       ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId))
     return;
   const auto axis = [](int less, int more) {
-    return (ImGui::IsKeyDown(more) ? 1.0 : 0.0) - (ImGui::IsKeyDown(less) ? 1.0 : 0.0);
+    return (keyboard::held(more) ? 1.0 : 0.0) - (keyboard::held(less) ? 1.0 : 0.0);
   };
   editor.walk.go({axis('A', 'D'), axis('S', 'W')}, io.KeyShift, io.DeltaTime, editor.view.camera);
 }

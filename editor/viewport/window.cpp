@@ -19,6 +19,7 @@
 #include "editor/shell/import_preview.h"
 #include "editor/shell/shell.h"
 #include "editor/viewport/vtk_scene_view.h"
+#include "editor/widgets/keyboard.h"
 #include "editor/widgets/theme.h"
 
 namespace standpoint {
@@ -42,29 +43,6 @@ unsigned numberSign(unsigned code) {
   return decimal && std::strpbrk(end, ".,") == nullptr ? '.' : code;
 }
 
-constexpr std::pair<int, int> kKeyMap[] = {{ImGuiKey_Tab, GLFW_KEY_TAB},
-                                           {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
-                                           {ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
-                                           {ImGuiKey_UpArrow, GLFW_KEY_UP},
-                                           {ImGuiKey_DownArrow, GLFW_KEY_DOWN},
-                                           {ImGuiKey_PageUp, GLFW_KEY_PAGE_UP},
-                                           {ImGuiKey_PageDown, GLFW_KEY_PAGE_DOWN},
-                                           {ImGuiKey_Home, GLFW_KEY_HOME},
-                                           {ImGuiKey_End, GLFW_KEY_END},
-                                           {ImGuiKey_Insert, GLFW_KEY_INSERT},
-                                           {ImGuiKey_Delete, GLFW_KEY_DELETE},
-                                           {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
-                                           {ImGuiKey_Space, GLFW_KEY_SPACE},
-                                           {ImGuiKey_Enter, GLFW_KEY_ENTER},
-                                           {ImGuiKey_Escape, GLFW_KEY_ESCAPE},
-                                           {ImGuiKey_KeyPadEnter, GLFW_KEY_KP_ENTER},
-                                           {ImGuiKey_A, GLFW_KEY_A},
-                                           {ImGuiKey_C, GLFW_KEY_C},
-                                           {ImGuiKey_V, GLFW_KEY_V},
-                                           {ImGuiKey_X, GLFW_KEY_X},
-                                           {ImGuiKey_Y, GLFW_KEY_Y},
-                                           {ImGuiKey_Z, GLFW_KEY_Z}};
-
 class Window {
  public:
   Window(Editor& editor, GLFWwindow* handle) : editor_(editor), handle_(handle) {
@@ -72,7 +50,7 @@ class Window {
     auto& io = ImGui::GetIO();
     io.IniFilename = nullptr;
     io.BackendFlags |= ImGuiBackendFlags_HasMouseCursors;
-    for (const auto& [key, glfw] : kKeyMap) io.KeyMap[key] = glfw;
+    keyboard::connect();
     io.ClipboardUserData = handle_;
     io.SetClipboardTextFn = [](void* window, const char* text) {
       glfwSetClipboardString(static_cast<GLFWwindow*>(window), text);
@@ -174,8 +152,7 @@ class Window {
     glfwPollEvents();
     if (input_.pending() || frames_wanted_ > 0) return;
     const auto& io = ImGui::GetIO();
-    const bool key_held = std::any_of(std::begin(io.KeysDown), std::end(io.KeysDown), [](bool down) { return down; });
-    if (key_held) {
+    if (keyboard::anyHeld()) {
       glfwWaitEventsTimeout(1.0 / 30);  // Dear ImGui repeats held keys itself, once a frame
     } else if (io.WantTextInput) {
       glfwWaitEventsTimeout(0.4);
@@ -191,8 +168,7 @@ class Window {
   void takeInput() {
     auto& io = ImGui::GetIO();
     if (focus_lost_) {
-      std::memset(io.KeysDown, 0, sizeof io.KeysDown);
-      io.KeyCtrl = io.KeyShift = io.KeyAlt = io.KeySuper = false;
+      keyboard::releaseAll();
       focus_lost_ = false;
     }
     const auto events = input_.takeFrame();
@@ -214,16 +190,9 @@ class Window {
         io.MouseWheelH += static_cast<float>(e.x);
         io.MouseWheel += static_cast<float>(e.y);
         break;
-      case InputEvent::Kind::key:
-        if (e.code < 512) io.KeysDown[e.code] = e.down;
-        break;
+      case InputEvent::Kind::key: keyboard::change(e.code, e.down); break;
       case InputEvent::Kind::character: io.AddInputCharacter(numberSign(static_cast<unsigned>(e.code))); break;
     }
-    const auto down = [&](int left, int right) { return io.KeysDown[left] || io.KeysDown[right]; };
-    io.KeyCtrl = down(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
-    io.KeyShift = down(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
-    io.KeyAlt = down(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT);
-    io.KeySuper = down(GLFW_KEY_LEFT_SUPER, GLFW_KEY_RIGHT_SUPER);
   }
 
   // Fonts are made for the exact size, so another monitor or another preference builds them anew.

@@ -2,6 +2,7 @@
 #include "item_probe.h"
 
 #include "editor/shell/shell.h"
+#include "editor/widgets/keyboard.h"
 #include "editor/widgets/theme.h"
 
 namespace standpoint {
@@ -25,7 +26,7 @@ const GuiItem* ItemProbe::find(const std::string& part) const {
 
 using standpoint::itemProbe;
 
-// The mangled names of ImGui::ItemAdd, ImGuiWindow::GetID and ImGui::PushID in Dear ImGui 1.86.
+// The mangled names of ImGui::ItemAdd, ImGuiWindow::GetID and ImGui::PushID in Dear ImGui 1.86 and 1.90.
 extern "C" {
 bool __real__ZN5ImGui7ItemAddERK6ImRectjPS1_i(const ImRect& box, ImGuiID id, const ImRect* nav, ImGuiItemFlags flags);
 bool __wrap__ZN5ImGui7ItemAddERK6ImRectjPS1_i(const ImRect& box, ImGuiID id, const ImRect* nav, ImGuiItemFlags flags) {
@@ -70,11 +71,7 @@ GuiDriver::GuiDriver(Editor& editor, ImVec2 size) : editor_(editor) {
   static std::string clipboard;
   io.SetClipboardTextFn = [](void*, const char* text) { clipboard = text; };
   io.GetClipboardTextFn = [](void*) { return clipboard.c_str(); };
-  io.KeyMap[ImGuiKey_Enter] = 257, io.KeyMap[ImGuiKey_Escape] = 256, io.KeyMap[ImGuiKey_Tab] = 258,
-  io.KeyMap[ImGuiKey_Backspace] = 259;
-  io.KeyMap[ImGuiKey_RightArrow] = 262, io.KeyMap[ImGuiKey_LeftArrow] = 263, io.KeyMap[ImGuiKey_DownArrow] = 264,
-  io.KeyMap[ImGuiKey_UpArrow] = 265;
-  io.KeyMap[ImGuiKey_A] = 'A', io.KeyMap[ImGuiKey_C] = 'C';
+  keyboard::connect();
   unsigned char* pixels = nullptr;
   int w = 0, h = 0;
   io.Fonts->GetTexDataAsAlpha8(&pixels, &w, &h);
@@ -128,13 +125,13 @@ void GuiDriver::activate(ImGuiID id) {
 }
 
 void GuiDriver::key(int glfw_key, bool ctrl, bool shift) {
-  auto& io = ImGui::GetIO();
-  io.KeyCtrl = ctrl;
-  io.KeyShift = shift;
-  io.KeysDown[glfw_key] = true;
+  if (ctrl) keyboard::change(kKeyControl, true);
+  if (shift) keyboard::change(kKeyShift, true);
+  keyboard::change(glfw_key, true);
   frame();
-  io.KeysDown[glfw_key] = false;
-  io.KeyCtrl = io.KeyShift = false;
+  keyboard::change(glfw_key, false);
+  keyboard::change(kKeyControl, false);
+  keyboard::change(kKeyShift, false);
   frames(2);
 }
 

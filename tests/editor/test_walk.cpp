@@ -3,6 +3,7 @@
 
 #include "demo_verbs.h"
 #include "editor/shell/actions.h"
+#include "editor/widgets/keyboard.h"
 #include "item_probe.h"
 
 namespace standpoint {
@@ -42,9 +43,9 @@ TEST_F(Walking, FollowsTheKeysThatAreHeld) {
   gui.frames(2);
   const auto camera = editor.view.camera;
   const Eigen::Vector3d before = editor.walk.feet();
-  ImGui::GetIO().KeysDown['D'] = true;
+  keyboard::change('D', true);
   gui.frames(10);
-  ImGui::GetIO().KeysDown['D'] = false;
+  keyboard::change('D', false);
   gui.frames(2);
   const Eigen::Vector3d way = editor.walk.feet() - before;
   EXPECT_GT(way.norm(), 0.01);
