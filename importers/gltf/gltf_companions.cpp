@@ -47,13 +47,23 @@ int addNode(tinygltf::Model& model, tinygltf::Node node) {
   return static_cast<int>(model.nodes.size() - 1);
 }
 
+// tinygltf from 2.9 on has a member for them and drops an extension of that name.
+template <class Node>
+void nameLevels(Node& node, const std::vector<int>& ids) {
+  if constexpr (requires { node.lods; })
+    node.lods = ids;
+  else
+    node.extensions["MSFT_lod"] = gltfValue({{"ids", ids}});
+}
+
 class LevelWriter {
  public:
   LevelWriter(GltfScene& scene, const Environment& finest, const std::vector<GltfLevel>& levels)
       : scene_(scene), finest_(finest), levels_(levels), bounds_(productBounds(finest)) {}
 
   void add(std::uint32_t product, int node) {
-    Json ids = Json::array(), coverage = Json::array();
+    std::vector<int> ids;
+    Json coverage = Json::array();
     const Environment* last = &finest_;
     auto shown = instancesOf(finest_, product);
     double smallest = 1;
@@ -69,7 +79,7 @@ class LevelWriter {
     if (ids.empty()) return;
     coverage.push_back(0);
     auto& shown_node = nodeAt(node);
-    shown_node.extensions["MSFT_lod"] = gltfValue({{"ids", ids}});
+    nameLevels(shown_node, ids);
     memberOf(shown_node.extras, "MSFT_screencoverage") = gltfValue(coverage);
     use(scene_.model, "MSFT_lod");
   }

@@ -137,7 +137,8 @@ class GltfWriter {
 
   bool serialise(std::ostream& out, bool binary) const {
     try {
-      return tinygltf::TinyGLTF().WriteGltfSceneToStream(&model_, out, false, binary);
+      // From tinygltf 2.9 on it also says no where the stream fails, which is noticed when that is closed.
+      return tinygltf::TinyGLTF().WriteGltfSceneToStream(&model_, out, false, binary) || !out;
     } catch (const std::exception&) {
       return false;
     }

@@ -120,7 +120,7 @@ bool GuiDriver::click(const std::string& label) {
 }
 
 void GuiDriver::activate(ImGuiID id) {
-  ImGui::ActivateItem(id);
+  GImGui->NavNextActivateId = id;  // as ActivateItem() of 1.86, ActivateItemByID() of 1.90
   frames(2);
 }
 

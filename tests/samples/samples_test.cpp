@@ -156,7 +156,7 @@ TEST_P(Sample, HasItsGeoreference) {
   const auto& want = expected_["georeference"];
   ASSERT_TRUE(model_.georeference.map_from_file);
   const auto& map = *model_.georeference.map_from_file;
-  EXPECT_EQ(model_.georeference.crs, want["crs"]);
+  EXPECT_EQ(model_.georeference.crs, want["crs"].get<std::string>());
   EXPECT_EQ(map.eastings_m, want["eastings_m"]);
   EXPECT_EQ(map.northings_m, want["northings_m"]);
   EXPECT_EQ(map.orthogonal_height_m, want["height_m"]);
