@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "cli/option_words.h"
+#include "core/alike_issues.h"
 #include "project/answers.h"
 #include "project/storage/session.h"
 
@@ -31,6 +32,7 @@ struct Words {
   std::map<std::string, bool> flags;
   bool print_json = false;
   bool allow_loss = false;
+  bool all_issues = false;
 };
 
 std::string helpOf(const Parameter& p) {
@@ -61,6 +63,7 @@ void describeVerb(Words& words) {
   }
   app.add_flag("--json", words.print_json, "print the result as one JSON object to standard output");
   app.add_flag("--allow-loss", words.allow_loss, "exit with code 0 even if data was lost");
+  app.add_flag("--all-issues", words.all_issues, "list every issue, also where more than 20 are alike");
 }
 
 Result<json> valueOf(const Parameter& p, const std::string& text) {
@@ -133,10 +136,21 @@ class Bar {
 // Names come from files, and not every file keeps to UTF-8.
 std::string asText(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
 
-void printText(const Outcome& outcome, const Streams& streams) {
-  for (const auto& issue : outcome.report.issues)
-    streams.err << fmt::format("{}: {}{}{}\n", name(issue.severity), issue.source, issue.source.empty() ? "" : ": ",
-                               issue.message);
+void printIssues(const Report& report, bool all, const Streams& streams) {
+  const auto print = [&](const Issue& issue, const std::string& more) {
+    streams.err << fmt::format("{}: {}{}{}{}\n", name(issue.severity), issue.source, issue.source.empty() ? "" : ": ",
+                               issue.message, more);
+  };
+  if (all) {
+    for (const auto& issue : report.issues) print(issue, "");
+    return;
+  }
+  for (const auto& [first, count] : alikeIssues(report))
+    print(first, count == 1 ? "" : fmt::format(" (the first of {} alike; list them with --all-issues)", count));
+}
+
+void printText(const Outcome& outcome, bool all_issues, const Streams& streams) {
+  printIssues(outcome.report, all_issues, streams);
   if (!outcome.description.empty()) streams.out << outcome.description << "\n";
   streams.out << outcome.text;
   if (!outcome.text.empty()) return;
@@ -155,7 +169,7 @@ int finish(const Words& words, const Result<Outcome>& outcome, const Streams& st
   if (words.print_json) {
     streams.out << asText(outcome->answer) << "\n";
   } else {
-    printText(*outcome, streams);
+    printText(*outcome, words.all_issues, streams);
   }
   streams.out.flush();
   if (!streams.out) {

@@ -72,7 +72,8 @@ std::string bashCompletion(std::span<const Verb> verbs) {
       options += (std::string_view(p.name) == "output" ? "-o --" : "--") + std::string(p.name) + " ";
       if (p.kind != ParameterKind::flag) cases += valueCase(p);
     }
-    script += fmt::format("      {})\n        options=\"{}--json --allow-loss --help\"\n", verb.name, options);
+    script +=
+        fmt::format("      {})\n        options=\"{}--json --allow-loss --all-issues --help\"\n", verb.name, options);
     if (!cases.empty()) script += fmt::format("        case $before in\n{}        esac\n", cases);
     script += "        ;;\n";
   }

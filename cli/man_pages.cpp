@@ -72,6 +72,7 @@ std::string manPage(const Verb& verb) {
   page +=
       row(bold("--json"), "print the result as one JSON object on standard output; progress goes to standard error.");
   page += row(bold("--allow-loss"), "exit with code 0 even if data was lost.");
+  page += row(bold("--all-issues"), "list every issue, also where more than 20 are alike.");
   page += ".SH EXIT STATUS\nAs of every verb: see\n.BR standpoint (1).\n.SH SEE ALSO\n.BR standpoint (1)\n";
   return page;
 }

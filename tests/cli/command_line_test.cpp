@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/command_line.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -82,6 +83,25 @@ TEST(CommandLine, ExitsWithThreeWhenSomethingWasLostUnlessThatIsAllowed) {
   EXPECT_EQ(ran.code, 3);
   EXPECT_NE(ran.err.find("#12"), std::string::npos);
   EXPECT_EQ(command({"lossy", "--allow-loss"}, table).code, 0);
+}
+
+Result<Outcome> losesBolts(const Document& d, const nlohmann::json&, Progress&) {
+  Outcome outcome{d, {}, {}, "done"};
+  outcome.answer = nlohmann::json::object();
+  for (int i = 0; i < 597; ++i)
+    outcome.report.lose("#" + std::to_string(i), "IfcBolt " + std::to_string(i) + " produced no geometry");
+  return outcome;
+}
+
+TEST(CommandLine, TellsManyAlikeIssuesInOneLineUnlessAllAreAskedFor) {
+  const std::vector<Verb> table = {{"lossy", "Loses bolts", VerbScope::files, {}, losesBolts}};
+  const auto lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+  const auto few = command({"lossy"}, table);
+  EXPECT_EQ(few.code, 3);
+  EXPECT_EQ(few.err,
+            "loss: #0: IfcBolt 0 produced no geometry (the first of 597 alike; list them with --all-issues)\n");
+  EXPECT_EQ(lines(command({"lossy", "--all-issues"}, table).err), 597);
+  EXPECT_EQ(nlohmann::json::parse(command({"lossy", "--json"}, table).out).at("issues").size(), 597U);
 }
 
 Result<Outcome> cancellable(const Document& d, const nlohmann::json&, Progress& progress) {
