@@ -182,7 +182,7 @@ void checkBudgets(const std::vector<MeshJob>& jobs, const OptimizeOptions& optio
     const std::string cap = options.products.empty()
                                 ? fmt::format("a maximum deviation of {} m", options.max_deviation_m)
                                 : "the allowed deviations";
-    result.report.warn("budget",
+    result.report.lose("budget",
                        fmt::format("{}cannot reach {} triangles with {}; the minimum is {}", whose, budget, cap, left));
   }
 }

@@ -104,6 +104,26 @@ TEST(CommandLine, TellsManyAlikeIssuesInOneLineUnlessAllAreAskedFor) {
   EXPECT_EQ(nlohmann::json::parse(command({"lossy", "--json"}, table).out).at("issues").size(), 597U);
 }
 
+TEST(CommandLine, ABudgetThatIsNotMetExitsWithThreeAndStatesTheLeastOneThatIs) {
+  const TemporaryFolder folder;
+  Progress progress;
+  const auto p = folder.path().string() + "/p";
+  ASSERT_TRUE(saveProject(twoStoreyDocument(), p, progress));
+  const std::vector<std::string> few = {"optimize", p, "--max-deviation", "0.001", "--budget", "10"};
+  const auto missed = command(few);
+  EXPECT_EQ(missed.code, 3);
+  EXPECT_NE(missed.err.find("loss: budget: cannot reach 10 triangles with a maximum deviation of 0.001 m; the minimum"),
+            std::string::npos)
+      << missed.err;
+  auto allowed = few;
+  allowed.insert(allowed.end(), {"--allow-loss", "--json"});
+  const auto answered = command(allowed);
+  EXPECT_EQ(answered.code, 0);
+  const auto least = nlohmann::json::parse(answered.out).at("smallest_budget").get<int>();
+  EXPECT_NE(missed.err.find("the minimum is " + std::to_string(least)), std::string::npos) << missed.err;
+  EXPECT_EQ(command({"optimize", p, "--max-deviation", "0.001", "--budget", std::to_string(least)}).code, 0);
+}
+
 Result<Outcome> cancellable(const Document& d, const nlohmann::json&, Progress& progress) {
   progress.cancel();
   if (auto ok = progress.check(); !ok) return failure(ok.error());
