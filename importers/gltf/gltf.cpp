@@ -36,6 +36,9 @@ class GltfImport {
       : file_(file), options_(options), progress_(progress), world_from_gltf_(zUp(options)) {}
 
   Result<ImportedModel> run() {
+    if (const std::size_t left = file_.bytesLeft(); left > 0)
+      model_.report.lose(
+          "byte 8", "the file is " + std::to_string(left) + " bytes longer than its header states; they were not read");
     checkGltfExtensions(file_, model_.report);
     centre_ = centreOfFile();
     auto stored = readGltfGeoreference(file_);

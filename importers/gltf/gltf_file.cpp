@@ -128,6 +128,7 @@ void GltfFile::splitBinary(std::span<const std::uint8_t> bytes) {
     return fail("byte 8", "the header states " + std::to_string(word(bytes, 8)) + " bytes, the file has " +
                               std::to_string(bytes.size()) + ": the file is truncated");
   const std::size_t total = word(bytes, 8);
+  bytes_left_ = bytes.size() - total;
   std::span<const std::uint8_t> binary;
   std::size_t at = 12;
   for (int chunk = 0; at + 8 <= total; ++chunk) {

@@ -34,6 +34,7 @@ class GltfFile {
   const nlohmann::json& extensions() const { return extensions_; }  // of the file as a whole; null if it has none
   std::size_t animations() const { return animations_; }            // of which nothing is read, as of cameras
   std::size_t cameras() const { return cameras_; }
+  std::size_t bytesLeft() const { return bytes_left_; }  // of a GLB, after those that its header states: not read
 
   bool failed() const { return error_.has_value(); }
   Result<void> whole() const { return error_ ? failure(*error_) : Result<void>(); }
@@ -103,7 +104,7 @@ class GltfFile {
   std::filesystem::path path_;
   tinygltf::Model model_;
   nlohmann::json extensions_, buffers_json_;
-  std::size_t animations_ = 0, cameras_ = 0;
+  std::size_t animations_ = 0, cameras_ = 0, bytes_left_ = 0;
   std::vector<Block> blocks_;                           // the file, and what its buffers name
   std::vector<std::span<const std::uint8_t>> buffers_;  // in the blocks
   std::map<std::size_t, std::vector<std::uint8_t>> decoded_views_;

@@ -48,6 +48,21 @@ TEST(GltfRefuses, WhatPointsToNothingAndNamesThePlace) {
   EXPECT_THAT(withChange("/bufferViews/1/buffer", 4), HasSubstr("/bufferViews/1/buffer"));
 }
 
+TEST(GltfLosses, WhatFollowsTheLengthThatTheHeaderStates) {
+  const auto longer = import(write(scratch() / "longer.glb", sound() + "more"));
+  ASSERT_TRUE(longer) << describe(longer.error());
+  ASSERT_EQ(longer->report.losses(), 1U);
+  const auto& issues = longer->report.issues;
+  const auto loss =
+      std::find_if(issues.begin(), issues.end(), [](const Issue& i) { return i.severity == Severity::loss; });
+  EXPECT_EQ(loss->source, "byte 8");
+  EXPECT_THAT(loss->message, HasSubstr("4 bytes longer than its header states"));
+  std::string shorter = sound();
+  const std::size_t stated = shorter.size() - 52;  // without the binary chunk
+  for (int i = 0; i < 4; ++i) shorter[8 + static_cast<std::size_t>(i)] = static_cast<char>(stated >> (8 * i));
+  EXPECT_THAT(refusal(write(scratch() / "shorter.glb", shorter)), HasSubstr("/buffers/0"));
+}
+
 TEST(GltfRefuses, SizesThatDoNotFit) {
   EXPECT_THAT(withChange("/accessors/0/count", 4),
               HasSubstr("/accessors/0: needs 48 bytes of /bufferViews/0, which has 36"));
