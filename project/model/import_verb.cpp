@@ -12,6 +12,7 @@
 
 #include "project/answers.h"
 #include "project/materials/materials_verb.h"
+#include "project/model/global_ids.h"
 #include "project/model/model_verbs.h"
 #include "survey/geodesy.h"
 
@@ -237,6 +238,7 @@ Result<Answered<ImportAnswer>> importModels(const Document& document, const std:
                           "georeference differs from the first file; using that of the first file");
     appendEnvironment(environment, std::move(model.environment), model.georeference.shift_m - georeference.shift_m);
   }
+  warnOfSharedGlobalIds(environment, 0, outcome.report);
   const bool building = std::any_of(environment.spatial.begin(), environment.spatial.end(),
                                     [](const SpatialNode& n) { return n.ifc_class == "IfcBuilding"; });
   if (building && crs.empty() && georeference.crs.empty() && !georeference.map_from_file)
@@ -387,11 +389,12 @@ Result<Answered<ImportAnswer>> addImported(const Document& document, Answered<Im
                                  : std::filesystem::path(imported.document.sources.front()).filename().string();
   if (its.crs != mine.crs || !sameConversion(its, mine))
     outcome.report.warn(source, "georeference differs from the environment; using that of the environment");
-  Report all = *document.import_report;
-  all.append(outcome.report);
   auto environment = std::make_shared<Environment>(*document.imported);
   const auto products = imported.document.imported->products.size();
   appendEnvironment(*environment, Environment(*imported.document.imported), its.shift_m - mine.shift_m);
+  warnOfSharedGlobalIds(*environment, document.imported->products.size(), outcome.report);
+  Report all = *document.import_report;
+  all.append(outcome.report);
   Document& d = outcome.document;
   d.imported = std::move(environment);
   d.import_report = std::make_shared<const Report>(std::move(all));
