@@ -62,7 +62,8 @@ void readTrueNorth(Georeference& geo, const Model& model) {
   for (const Entity& context : model.file.all("IFCGEOMETRICREPRESENTATIONCONTEXT")) {
     const Entity north = context.ref(5);
     if (!north) continue;
-    const Eigen::Vector3d d = direction(north, Eigen::Vector3d::UnitY());
+    Scope scope(model);
+    const Eigen::Vector3d d = direction(north, Eigen::Vector3d::UnitY(), scope);
     geo.true_north_rad = std::atan2(d.x(), d.y());
     if (context[1].text() == "Model") return;
   }

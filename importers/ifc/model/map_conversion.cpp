@@ -71,6 +71,8 @@ std::optional<StatedConversion> statedConversion(const Entity& e) {
   c.height = e[4].number(0);
   if (!rigid) c.abscissa = e[5].number(), c.ordinate = e[6].number(), c.scale = e[7].number();
   if (scaled) c.factors = {e[8].number(1), e[9].number(1), e[10].number(1)};
+  for (std::size_t i = 2; i < 11 && c.unread.empty(); ++i)
+    if (const Value v = e[i]; v.present() && !v.number()) c.unread = shown(v);
   const Entity crs = e.ref(1);
   c.map_unit_m = crs.is("IFCPROJECTEDCRS") ? siFactor(crs.ref(6)) : 0;
   c.crs_digits = epsgDigits(crs[0].text());
@@ -80,6 +82,8 @@ std::optional<StatedConversion> statedConversion(const Entity& e) {
 MapConversion conversionInMetres(const StatedConversion& stated, const Model& model, Report& report) {
   const double project_m = model.units.length_m;
   const MapUnit unit = mapUnit(stated, project_m, report);
+  if (!stated.unread.empty())
+    report.lose(stated.place, stated.unread + " is not a finite number; the model is not where it belongs on the map");
   MapConversion c;
   c.eastings_m = stated.eastings * unit.metres;
   c.northings_m = stated.northings * unit.metres;

@@ -17,6 +17,7 @@ struct StatedConversion {
   Eigen::Vector3d factors = Eigen::Vector3d::Ones();
   double map_unit_m = 0;   // 0: not stated
   std::string crs_digits;  // EPSG code of its CRS, or empty
+  std::string unread;      // what stands in the place of a number and is none
 
   bool operator==(const StatedConversion& other) const = default;
 };

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,7 +56,17 @@ struct Scope {
   Repairs repairs;
   int depth = 0;
   std::size_t spent = 0;  // points and calls so far
+  // The first thing that the file says and that is not what it must be: a finite number, a record that exists.
+  std::optional<Error> unread;
 
+  void misread(const Entity& at, std::string what) {
+    if (!unread) unread = Error{ErrorKind::unusable, std::move(what), at.place()};
+  }
+  double number(const Value& value, const Entity& of, double otherwise = 0) {
+    const auto number = value.number();
+    if (!number && !unread && value.present()) misread(of, shown(value) + " is not a finite number");
+    return number.value_or(otherwise);
+  }
   double metres(double file_length) const { return file_length * model.units.length_m; }
   bool spend(std::size_t amount) { return (spent += amount) <= kMost; }
   static constexpr std::size_t kMost = 20'000'000;

@@ -111,6 +111,7 @@ std::optional<double> Value::number() const {
   double x = 0;
   const auto [stop, error] = fast_float::from_chars(p, v.end_, x);
   if (error != std::errc() || !(x - x == 0)) return {};  // neither infinite nor not-a-number
+  if (stop < v.end_ && *stop == '#') return {};          // 1.#QNAN and 1.#INF of old run-time libraries
   return x;
 }
 
@@ -212,6 +213,21 @@ std::vector<Entity> Entity::refs(std::size_t index) const {
   return found;
 }
 
+Value Entity::dangling(std::size_t index) const {
+  for (const Value v : (*this)[index])
+    if (v.present() && !follow(v)) return v;
+  return {};
+}
+
+std::string shown(const Value& value) {
+  std::string text(value.raw().substr(0, 40));
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
+  return text;
+}
+
+std::string notInFile(const Value& reference) { return shown(reference) + ", which the file does not have"; }
+
 Entity StepFile::entity(Id id) const {
   if (id == 0) return {};
   if (!position_of_id_.empty()) {
@@ -266,10 +282,20 @@ class Scanner {
   }
 
   // To the semicolon that ends what begins at p; nullptr when the file ends first.
-  const char* statementEnd(const char* p) const {
+  const char* statementEnd(const char* p) {
+    int depth = 0;
+    deepest_ = 0;
     while (p < end_) {
       switch (*p) {
         case ';': return p;
+        case '(':
+          deepest_ = std::max(deepest_, ++depth);
+          ++p;
+          break;
+        case ')':
+          --depth;
+          ++p;
+          break;
         case '\'':
         case '"': p = skipQuoted(p, end_); break;
         case '/': p = atComment(p, end_) ? skipComment(p, end_) : p + 1; break;
@@ -335,6 +361,9 @@ class Scanner {
       return tolerate(begin, "record #" + std::to_string(id) + " is not a simple entity and was skipped"),
              Result<void>{};
     data_ = true;  // records without a header: fragments are read, too
+    if (deepest_ > kDeepest)
+      tolerate(begin, "record #" + std::to_string(id) + " (" + std::string(name.substr(0, 80)) +
+                          ") nests parentheses more than 100 deep; what they hold is not read");
     file_.records_.push_back({id, intern(name), static_cast<std::uint64_t>(p - file_.text_.data())});
     return {};
   }
@@ -384,6 +413,8 @@ class Scanner {
   Report& report_;
   const char* p_;
   const char* end_;
+  static constexpr int kDeepest = 100;  // parentheses; the schema has at most eight
+  int deepest_ = 0;                     // of the statement that was read last
   bool data_ = false;
   bool ended_ = false;
   int tolerated_ = 0;

@@ -91,6 +91,7 @@ class Entity {
   Entity ref(std::size_t index) const { return follow((*this)[index]); }
   Entity follow(const Value& value) const;            // the record that a value of the same file points to
   std::vector<Entity> refs(std::size_t index) const;  // those of a list that exist
+  Value dangling(std::size_t index) const;            // the first item of that list that is there and is no record
 
   template <std::size_t N>
   std::array<Value, N> first() const {  // the first N arguments in one walk
@@ -133,6 +134,9 @@ class StepFile {
   std::vector<std::uint32_t> position_of_id_;  // while ids are dense, else empty
   std::vector<std::vector<std::uint32_t>> positions_of_type_;
 };
+
+std::string shown(const Value& value);          // as it stands in the file, its first 40 letters, for messages
+std::string notInFile(const Value& reference);  // "#12, which the file does not have"
 
 // "Wand" of 'W\X\61nd' and the other escapes of part 21 clause 6.4.3; bytes that are not UTF-8 are taken as Latin-1.
 std::string decodeText(std::string_view quoted_content);

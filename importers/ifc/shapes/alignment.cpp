@@ -4,11 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "importers/ifc/shapes/curve.h"
 #include "importers/ifc/shapes/placement.h"
 
 namespace standpoint::ifc {
 namespace {
+
+// Farther from the curve than that a stated position means another place: curves keep 1 mm, exporters some millimetres.
+constexpr double kStatedWithin_m = 0.05;
 
 // Distances along an alignment count in its plan, so that a slope does not stretch them.
 double planLength(const Eigen::Vector3d& step) {
@@ -87,8 +92,8 @@ Result<Eigen::Isometry3d> placeAlong(const Entity& position, const Path& directr
   f.linear() << forward, left, up;
   if (position.is("IFCAXIS2PLACEMENTLINEAR")) {
     // Axis and RefDirection are stated in the curve's own frame at that place.
-    const Eigen::Vector3d z = direction(position.ref(1), Eigen::Vector3d::UnitZ()),
-                          x = direction(position.ref(2), Eigen::Vector3d::UnitX());
+    const Eigen::Vector3d z = direction(position.ref(1), Eigen::Vector3d::UnitZ(), scope),
+                          x = direction(position.ref(2), Eigen::Vector3d::UnitX(), scope);
     f.linear() = f.linear() * frame(Eigen::Vector3d::Zero(), z, x).linear();
   }
   f.translation() = origin;
@@ -100,8 +105,19 @@ Result<Eigen::Isometry3d> linearPlacement(const Entity& placement, Scope& scope)
   const Entity expression = relative.ref(0);
   if (relative.is("IFCAXIS2PLACEMENTLINEAR") && expression.is("IFCPOINTBYDISTANCEEXPRESSION")) {
     const auto path = curve(expression.ref(4), scope);
-    if (path) return placeAlong(relative, *path, scope);
-    if (!cartesian) return failure(path.error());
+    if (!path && !cartesian) return failure(path.error());
+    if (path) {
+      auto along = placeAlong(relative, *path, scope);
+      if (!along || !cartesian.is("IFCAXIS2PLACEMENT3D")) return along;
+      const Eigen::Isometry3d stated = axisPlacement(cartesian, scope);
+      const double off_m = (stated.translation() - along->translation()).norm();
+      if (off_m <= kStatedWithin_m) return along;
+      scope.report.warn(placement.place(),
+                        fmt::format("the stated CartesianPosition is {:.3f} m from the place on the curve; it is used "
+                                    "instead",
+                                    off_m));
+      return stated;
+    }
   }
   for (std::size_t i = 1; i < 6; ++i)
     if (const Entity e = placement.ref(i); e.is("IFCAXIS2PLACEMENT3D")) return axisPlacement(e, scope);

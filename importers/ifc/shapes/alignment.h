@@ -33,9 +33,10 @@ Result<Eigen::Isometry3d> placeAlong(const Entity& position, const Path& directr
 
 // How far the curvature of an IfcCurveSegment has gone from its start to its end, by the share of its length (0 to 1
 // for 0 to 1); in step with the length where the curvature does not change.
-std::function<double(double)> curvatureFraction(const Entity& segment, const Scope& scope);
+std::function<double(double)> curvatureFraction(const Entity& segment, Scope& scope);
 
-// IfcLinearPlacement relative to its parent: along its curve, else where its CartesianPosition says.
+// IfcLinearPlacement relative to its parent: along its curve, or where its CartesianPosition says, if that is another
+// place or there is no such curve.
 Result<Eigen::Isometry3d> linearPlacement(const Entity& placement, Scope& scope);
 
 }  // namespace standpoint::ifc

@@ -18,9 +18,9 @@ struct Cant {
   double roll_rad = 0;  // of "up", to the left
 };
 
-Cant cantOf(const Entity& placement, const Scope& scope) {
+Cant cantOf(const Entity& placement, Scope& scope) {
   const Eigen::Vector3d at = cartesianPoint(placement.ref(0), scope),
-                        axis = direction(placement.ref(1), Eigen::Vector3d::UnitZ());
+                        axis = direction(placement.ref(1), Eigen::Vector3d::UnitZ(), scope);
   return {at.x(), at.y(), placement.is("IFCAXIS2PLACEMENT3D") ? std::atan2(axis.y(), axis.z()) : 0};
 }
 

@@ -19,8 +19,8 @@ struct Parent {
   std::function<double(double)> heading;
 };
 
-Parent lineParent(const Entity& line_entity) {
-  const Eigen::Vector3d d = direction(line_entity.ref(1).ref(0), Eigen::Vector3d::UnitX());
+Parent lineParent(const Entity& line_entity, Scope& scope) {
+  const Eigen::Vector3d d = direction(line_entity.ref(1).ref(0), Eigen::Vector3d::UnitX(), scope);
   const Eigen::Vector2d along = d.head<2>().normalized();
   return {[along](double s) { return Eigen::Vector2d(along * s); },
           [along](double) { return std::atan2(along.y(), along.x()); }};
@@ -121,8 +121,8 @@ Parent polynomialParent(const Entity& entity, double unit) {
           [=](double s) { return std::atan2(slope(y, s / unit), slope(x, s / unit)); }};
 }
 
-Result<Parent> parentOf(const Entity& entity, double start_m, double length_m, const Scope& scope) {
-  if (entity.is("IFCLINE")) return lineParent(entity);
+Result<Parent> parentOf(const Entity& entity, double start_m, double length_m, Scope& scope) {
+  if (entity.is("IFCLINE")) return lineParent(entity, scope);
   if (entity.is("IFCCIRCLE"))
     if (const double r = scope.metres(entity[1].number(0)); r > 0) return circleParent(r);
   if (const auto heading = spiralHeading(entity, length_m, scope)) return headedParent(heading, start_m);
@@ -173,7 +173,7 @@ Result<Path> segmentsPath(const Entity& entity, Scope& scope) {
 
 }  // namespace
 
-std::function<double(double)> curvatureFraction(const Entity& segment, const Scope& scope) {
+std::function<double(double)> curvatureFraction(const Entity& segment, Scope& scope) {
   const Entity parent_entity = segment.ref(4);
   const double start = segmentMeasure(segment[2], parent_entity, scope),
                length_m = segmentMeasure(segment[3], parent_entity, scope);

@@ -21,7 +21,7 @@ bool isHalfSpace(const Entity& e) {
   return e.is("IFCHALFSPACESOLID") || e.is("IFCBOXEDHALFSPACE") || e.is("IFCPOLYGONALBOUNDEDHALFSPACE");
 }
 
-Result<HalfSpace> halfSpace(const Entity& entity, const Scope& scope) {
+Result<HalfSpace> halfSpace(const Entity& entity, Scope& scope) {
   const Entity plane = entity.ref(0);
   if (!plane.is("IFCPLANE"))
     return fail(entity,

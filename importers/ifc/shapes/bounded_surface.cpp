@@ -126,7 +126,8 @@ Result<geometry::PolyMesh> rectangularTrimmedSurface(const Entity& entity, Scope
 
 Result<geometry::PolyMesh> extrudedSurface(const Entity& entity, Scope& scope) {
   TRY_ASSIGN(auto path, profileCurve(entity.ref(0), scope));
-  const Eigen::Vector3d along = direction(entity.ref(2), Eigen::Vector3d::UnitZ()) * scope.metres(entity[3].number(0));
+  const Eigen::Vector3d along =
+      direction(entity.ref(2), Eigen::Vector3d::UnitZ(), scope) * scope.metres(entity[3].number(0));
   if (path.points.size() < 2 || !(along.norm() > 1e-9)) return fail(entity, "the extruded surface has no area");
   if (!scope.spend(path.points.size())) return fail(entity, "too many points");
   if (path.closed) path.points.push_back(path.points.front());
@@ -178,6 +179,8 @@ Result<geometry::PolyMesh> geometricSet(const Entity& entity, Scope& scope) {
   geometry::PolyMesh mesh;
   for (const Entity& element : entity.refs(0)) {
     const Mapping* mapping = scope.model.mapping_of_type[element.type()];
+    if (isUnreadBody(element, scope.model))
+      scope.report.lose(element.place(), std::string(element.typeName()) + " is not supported as a surface");
     if (!mapping || !mapping->item) continue;
     const auto part = item(element, scope);
     if (part) {

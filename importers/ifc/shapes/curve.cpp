@@ -107,7 +107,10 @@ Result<Path> polyline(const Entity& entity, Scope& scope) {
   Path path;
   const Value points = entity[0];
   for (const Value v : points)
-    if (const Entity p = entity.follow(v)) appendPoint(path, cartesianPoint(p, scope));
+    if (const Entity p = entity.follow(v))
+      appendPoint(path, cartesianPoint(p, scope));
+    else
+      scope.misread(entity, "refers to " + notInFile(v));
   if (path.points.size() < 2) return fail(entity, "the polyline has fewer than two different points");
   if (!scope.spend(path.points.size())) return fail(entity, "too many points");
   close(path);
@@ -118,18 +121,18 @@ Result<Path> line(const Entity& entity, Scope& scope) {
   const Eigen::Vector3d from = cartesianPoint(entity.ref(0), scope);
   const Entity vector = entity.ref(1);
   const Eigen::Vector3d to =
-      from + direction(vector.ref(0), Eigen::Vector3d::UnitX()) * scope.metres(vector[1].number(1));
+      from + direction(vector.ref(0), Eigen::Vector3d::UnitX(), scope) * scope.metres(vector[1].number(1));
   return Path{{from, to}, false};
 }
 
-std::vector<Eigen::Vector3d> pointList(const Entity& list, const Scope& scope) {
+std::vector<Eigen::Vector3d> pointList(const Entity& list, Scope& scope) {
   std::vector<Eigen::Vector3d> points;
   const double unit = scope.model.units.length_m;
   const Value rows = list[0];
   for (const Value row : rows) {
     Eigen::Vector3d p = Eigen::Vector3d::Zero();
     int i = 0;
-    for (auto it = row.begin(); it != row.end() && i < 3; ++it, ++i) p[i] = (*it).number(0) * unit;
+    for (auto it = row.begin(); it != row.end() && i < 3; ++it, ++i) p[i] = scope.number(*it, list) * unit;
     points.push_back(p);
   }
   return points;

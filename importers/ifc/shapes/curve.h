@@ -40,7 +40,7 @@ Path arcThrough(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen:
 // Samples `at` on [from, to] until chords keep the tolerance; `pieces` is how many to start from.
 Path sample(const std::function<Eigen::Vector3d(double)>& at, double from, double to, int pieces, const Scope& scope);
 
-std::vector<Eigen::Vector3d> pointList(const Entity& list, const Scope& scope);  // IfcCartesianPointList2D, 3D
+std::vector<Eigen::Vector3d> pointList(const Entity& list, Scope& scope);  // IfcCartesianPointList2D, 3D
 
 // A directrix cut to [start, end] in its own parameter; the whole where neither is given.
 Result<Path> trimmedDirectrix(const Entity& directrix, const Value& start, const Value& end, Scope& scope);

@@ -17,7 +17,7 @@ struct Trim {
   std::optional<Eigen::Vector3d> point;
 };
 
-Trim trim(const Entity& entity, std::size_t index, const Scope& scope) {
+Trim trim(const Entity& entity, std::size_t index, Scope& scope) {
   Trim t;
   const Value choices = entity[index];
   for (const Value v : choices) {

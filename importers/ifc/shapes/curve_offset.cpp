@@ -56,7 +56,7 @@ Result<Path> offsetCurve(const Entity& entity, Scope& scope) {
   if (!basis) return basis;
   if (basis->points.size() < 2) return fail(entity, "its basis curve has no length");
   if (entity.is("IFCOFFSETCURVEBYDISTANCES")) return offsetByDistances(entity, *basis, scope);
-  const Eigen::Vector3d up = entity.is("IFCOFFSETCURVE3D") ? direction(entity.ref(3), Eigen::Vector3d::UnitZ())
+  const Eigen::Vector3d up = entity.is("IFCOFFSETCURVE3D") ? direction(entity.ref(3), Eigen::Vector3d::UnitZ(), scope)
                                                            : Eigen::Vector3d(Eigen::Vector3d::UnitZ());
   return movedLeft(*basis, up, scope.metres(entity[1].number(0)));
 }

@@ -9,7 +9,7 @@
 namespace standpoint::ifc {
 namespace {
 
-Eigen::Vector3d vertex(const Entity& v, const Scope& scope) { return cartesianPoint(v.ref(0), scope); }
+Eigen::Vector3d vertex(const Entity& v, Scope& scope) { return cartesianPoint(v.ref(0), scope); }
 
 // The part of a closed or open curve between two of its points, in the curve's own direction.
 Path between(const Path& path, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {

@@ -7,7 +7,7 @@ namespace standpoint::ifc {
 Result<geometry::PolyMesh> extrudedAreaSolid(const Entity& entity, Scope& scope) {
   TRY_ASSIGN(const auto regions, profile(entity.ref(0), scope));
   const double depth = scope.metres(entity[3].number(0));
-  const Eigen::Vector3d along = direction(entity.ref(2), Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d along = direction(entity.ref(2), Eigen::Vector3d::UnitZ(), scope);
   if (!(std::abs(depth) > 1e-9)) return fail(entity, "the depth of the extrusion is zero or missing");
   if (std::abs(along.z()) < 1e-6) return fail(entity, "the extrusion runs within the plane of its profile");
   geometry::PolyMesh mesh;
@@ -22,7 +22,7 @@ Result<geometry::PolyMesh> extrudedAreaSolidTapered(const Entity& entity, Scope&
   TRY_ASSIGN(const auto to, profile(entity.ref(4), scope));
   const double depth = scope.metres(entity[3].number(0));
   if (!(depth > 0)) return fail(entity, "the depth of the extrusion is not positive");
-  const Eigen::Vector3d along = direction(entity.ref(2), Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d along = direction(entity.ref(2), Eigen::Vector3d::UnitZ(), scope);
   geometry::PolyMesh mesh;
   for (std::size_t i = 0; i < std::min(from.size(), to.size()); ++i) {
     const auto &a = from[i], &b = to[i];

@@ -13,7 +13,7 @@ namespace {
 // Shells share their points by entity: one lookup instead of a search by coordinates.
 class PointPool {
  public:
-  PointPool(geometry::PolyMesh& mesh, const Scope& scope) : mesh_(mesh), scope_(scope) {}
+  PointPool(geometry::PolyMesh& mesh, Scope& scope) : mesh_(mesh), scope_(scope) {}
   std::uint32_t index(const Entity& point) {
     const auto [it, is_new] = index_of_.try_emplace(point.id(), static_cast<std::uint32_t>(mesh_.points.size()));
     if (is_new) mesh_.points.push_back(cartesianPoint(point, scope_));
@@ -26,7 +26,7 @@ class PointPool {
 
  private:
   geometry::PolyMesh& mesh_;
-  const Scope& scope_;
+  Scope& scope_;
   std::unordered_map<Id, std::uint32_t> index_of_;  // for look-up only
 };
 
@@ -41,7 +41,10 @@ Result<std::vector<std::uint32_t>> boundLoop(const Entity& bound, PointPool& poo
   if (loop.is("IFCPOLYLOOP")) {
     const Value points = loop[0];
     for (const Value v : points)
-      if (const Entity p = loop.follow(v)) indices.push_back(pool.index(p));
+      if (const Entity p = loop.follow(v))
+        indices.push_back(pool.index(p));
+      else
+        scope.misread(loop, "refers to " + notInFile(v));
   } else {
     TRY_ASSIGN(const auto points, loopPoints(loop, scope));
     for (const auto& p : points) indices.push_back(pool.add(p));

@@ -24,4 +24,7 @@ Result<void> appendCurvedFace(geometry::PolyMesh& mesh, const Entity& face, Scop
 // The corner points of an IfcPolyLoop or IfcEdgeLoop, along its curves.
 Result<std::vector<Eigen::Vector3d>> loopPoints(const Entity& loop, Scope& scope);
 
+// PnIndex of a triangulated or polygonal face set, if it has one.
+Value pnIndex(const Entity& face_set);
+
 }  // namespace standpoint::ifc

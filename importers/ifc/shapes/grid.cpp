@@ -71,7 +71,7 @@ Result<Eigen::Isometry3d> gridPlacement(const Entity& placement, Scope& scope) {
   TRY_ASSIGN(const auto here, crossing(location, scope));
   Eigen::Vector3d x = Eigen::Vector3d::UnitX();  // the grid's own x where no direction is asked for
   if (reference.is("IFCDIRECTION"))
-    x = direction(reference, x);
+    x = direction(reference, x, scope);
   else if (reference.is("IFCVIRTUALGRIDINTERSECTION")) {
     TRY_ASSIGN(const auto there, crossing(reference, scope));
     if (const Eigen::Vector3d d = there - here; d.norm() > 1e-9) x = d;

@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 #include <string_view>
+#include <utility>
 
 #include "importers/ifc/shapes/curve.h"
 #include "importers/ifc/shapes/profile.h"
@@ -137,7 +138,7 @@ const Mapping* mappingOf(const Entity& entity, const Scope& scope) {
 // Input may nest or share endlessly: depth and work are bounded, and both bounds are far beyond any real file.
 template <class T>
 Result<T> guarded(Result<T> (*function)(const Entity&, Scope&), const Entity& entity, Scope& scope, const char* kind) {
-  if (!entity) return failure(ErrorKind::unusable, std::string("a ") + kind + " is missing", entity.place());
+  if (!entity) return failure(ErrorKind::unusable, std::string("a ") + kind + " is missing");
   if (!function) return fail(entity, std::string(entity.typeName()) + " is not supported as a " + kind);
   if (scope.depth >= Scope::kDeepest) return fail(entity, "nested too deeply or circular");
   if (!scope.spend(1)) return fail(entity, "the representation is too complex");
@@ -161,6 +162,15 @@ std::vector<const Mapping*> mappingOfTypes(const StepFile& file) {
   return mappings;
 }
 
+bool isUnreadBody(const Entity& e, const Model& model) {
+  const Mapping* m = model.mapping_of_type[e.type()];
+  if (m) return m->surface && !m->item;
+  const std::string_view name = e.typeName();
+  if (name.starts_with("IFCPOINT") || name.find("CURVE") != name.npos) return false;
+  constexpr std::array kWords{"SURFACE", "SOLID", "BREP", "FACESET", "SHELL", "HALFSPACE"};
+  return std::any_of(kWords.begin(), kWords.end(), [&](const char* word) { return name.find(word) != name.npos; });
+}
+
 Result<geometry::PolyMesh> item(const Entity& e, Scope& s) {
   const Mapping* m = mappingOf(e, s);
   return guarded(m ? m->item : nullptr, e, s, "solid or surface");
@@ -177,7 +187,10 @@ Result<Path> curve(const Entity& e, Scope& s) {
     const std::lock_guard lock(cache.mutex);
     if (const auto known = cache.paths.find(e.id()); known != cache.paths.end()) return known->second;
   }
-  auto path = guarded(m->curve, e, s, "curve");  // by two threads at once, perhaps: both find the same
+  const auto unread_before = std::exchange(s.unread, std::nullopt);
+  auto path = guarded(m->curve, e, s, "curve");     // by two threads at once, perhaps: both find the same
+  if (path && s.unread) path = failure(*s.unread);  // whoever comes next must learn of it, too
+  s.unread = unread_before;
   const std::lock_guard lock(cache.mutex);
   return cache.paths.emplace(e.id(), std::move(path)).first->second;
 }

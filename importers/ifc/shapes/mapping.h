@@ -40,6 +40,9 @@ std::shared_ptr<CurveCache> newCurveCache();
 // By Record::type of that file.
 std::vector<const Mapping*> mappingOfTypes(const StepFile& file);
 
+// A solid or surface by its name that no row of the table makes a body of.
+bool isUnreadBody(const Entity& item, const Model& model);
+
 // The guarded calls through the table; an entity that the table lacks is an error that names it.
 Result<geometry::PolyMesh> item(const Entity& entity, Scope& scope);
 Result<Path> curve(const Entity& entity, Scope& scope);

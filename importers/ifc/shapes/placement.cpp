@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "importers/ifc/shapes/placement.h"
 
-#include <algorithm>
+#include <cmath>
+#include <set>
 #include <string>
 
 #include "importers/ifc/shapes/alignment.h"
@@ -10,12 +11,21 @@
 namespace standpoint::ifc {
 namespace {
 
-Eigen::Vector3d triple(const Value& list, double otherwise = 0) {
-  Eigen::Vector3d v = Eigen::Vector3d::Constant(otherwise);
+Eigen::Vector3d triple(const Entity& entity, Scope& scope) {
+  Eigen::Vector3d v = Eigen::Vector3d::Zero();
+  const Value list = entity[0];
   int i = 0;
-  for (auto it = list.begin(); it != list.end() && i < 3; ++it, ++i) v[i] = (*it).number(otherwise);
-  for (; i < 3; ++i) v[i] = 0;
+  for (auto it = list.begin(); it != list.end() && i < 3; ++it, ++i) v[i] = scope.number(*it, entity);
+  if (!list.isList()) scope.misread(entity, std::string(entity.typeName()) + " has no list of numbers");
   return v;
+}
+
+// What the attribute refers to; null where it is not given.
+Entity referred(const Entity& entity, std::size_t index, Scope& scope) {
+  const Value value = entity[index];
+  const Entity found = entity.follow(value);
+  if (!found && value.isReference()) scope.misread(entity, "refers to " + notInFile(value));
+  return found;
 }
 
 // The schemas disagree on whether a grid placement has a parent; an argument that is a placement is one.
@@ -27,14 +37,15 @@ Entity parentPlacement(const Entity& placement) {
 
 }  // namespace
 
-Eigen::Vector3d cartesianPoint(const Entity& point, const Scope& scope) {
-  return point ? Eigen::Vector3d(triple(point[0]) * scope.model.units.length_m)
+Eigen::Vector3d cartesianPoint(const Entity& point, Scope& scope) {
+  return point ? Eigen::Vector3d(triple(point, scope) * scope.model.units.length_m)
                : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
-Eigen::Vector3d direction(const Entity& entity, const Eigen::Vector3d& otherwise) {
+Eigen::Vector3d direction(const Entity& entity, const Eigen::Vector3d& otherwise, Scope& scope) {
   if (!entity) return otherwise;
-  const Eigen::Vector3d v = triple(entity[0]);
+  Eigen::Vector3d v = triple(entity, scope);
+  if (!std::isfinite(v.squaredNorm())) v /= v.cwiseAbs().maxCoeff();
   const double length = v.norm();
   return length > 1e-12 ? Eigen::Vector3d(v / length) : otherwise;
 }
@@ -52,75 +63,99 @@ Eigen::Isometry3d frame(const Eigen::Vector3d& origin, const Eigen::Vector3d& z,
   return f;
 }
 
-Eigen::Isometry3d axisPlacement(const Entity& placement, const Scope& scope) {
+Eigen::Isometry3d axisPlacement(const Entity& placement, Scope& scope) {
   if (!placement) return Eigen::Isometry3d::Identity();
-  const Eigen::Vector3d origin = cartesianPoint(placement.ref(0), scope);
+  const auto axis = [&](std::size_t index, const Eigen::Vector3d& otherwise) {
+    return direction(referred(placement, index, scope), otherwise, scope);
+  };
+  const Eigen::Vector3d origin = cartesianPoint(referred(placement, 0, scope), scope);
   if (placement.is("IFCAXIS2PLACEMENT2D"))
-    return frame(origin, Eigen::Vector3d::UnitZ(), direction(placement.ref(1), Eigen::Vector3d::UnitX()));
-  return frame(origin, direction(placement.ref(1), Eigen::Vector3d::UnitZ()),
-               direction(placement.ref(2), Eigen::Vector3d::UnitX()));
+    return frame(origin, Eigen::Vector3d::UnitZ(), axis(1, Eigen::Vector3d::UnitX()));
+  return frame(origin, axis(1, Eigen::Vector3d::UnitZ()), axis(2, Eigen::Vector3d::UnitX()));
 }
 
-Axis axis1Placement(const Entity& placement, const Scope& scope) {
-  return {cartesianPoint(placement.ref(0), scope), direction(placement.ref(1), Eigen::Vector3d::UnitZ())};
+Axis axis1Placement(const Entity& placement, Scope& scope) {
+  return {cartesianPoint(referred(placement, 0, scope), scope),
+          direction(referred(placement, 1, scope), Eigen::Vector3d::UnitZ(), scope)};
 }
 
-Eigen::Affine3d transformationOperator(const Entity& e, const Scope& scope) {
+Eigen::Affine3d transformationOperator(const Entity& e, Scope& scope) {
   Eigen::Affine3d t = Eigen::Affine3d::Identity();
   if (!e) return t;
   const bool flat = e.typeName().find("2D") != std::string_view::npos;
-  const double scale = e[3].number(1);
-  const Eigen::Vector3d z = flat ? Eigen::Vector3d::UnitZ() : direction(e.ref(4), Eigen::Vector3d::UnitZ());
-  const Eigen::Isometry3d f = frame(Eigen::Vector3d::Zero(), z, direction(e.ref(0), Eigen::Vector3d::UnitX()));
+  const auto axis = [&](std::size_t index, const Eigen::Vector3d& otherwise) {
+    return direction(referred(e, index, scope), otherwise, scope);
+  };
+  const double scale = scope.number(e[3], e, 1);
+  const Eigen::Vector3d z = flat ? Eigen::Vector3d::UnitZ() : axis(4, Eigen::Vector3d::UnitZ());
+  const Eigen::Isometry3d f = frame(Eigen::Vector3d::Zero(), z, axis(0, Eigen::Vector3d::UnitX()));
   // Axis2 is only asked on which side it lies: that is how a mirrored operator is written (IfcBaseAxis).
-  const Eigen::Vector3d y = direction(e.ref(1), f.linear().col(1));
+  const Eigen::Vector3d y = axis(1, f.linear().col(1));
   const double side = y.dot(f.linear().col(1)) < 0 ? -1 : 1;
   const bool non_uniform = e.typeName().ends_with("NONUNIFORM");
-  const double scale2 = non_uniform ? e[flat ? 4 : 5].number(scale) : scale;
-  const double scale3 = non_uniform && !flat ? e[6].number(scale) : scale;
+  const double scale2 = non_uniform ? scope.number(e[flat ? 4 : 5], e, scale) : scale;
+  const double scale3 = non_uniform && !flat ? scope.number(e[6], e, scale) : scale;
   t.linear().col(0) = f.linear().col(0) * scale;
   t.linear().col(1) = f.linear().col(1) * (scale2 * side);
   t.linear().col(2) = f.linear().col(2) * (flat ? 1.0 : scale3);
-  t.translation() = cartesianPoint(e.ref(2), scope);
+  t.translation() = cartesianPoint(referred(e, 2, scope), scope);
   return t;
 }
 
-Eigen::Isometry3d Placements::own(const Entity& placement, Report& report) const {
+bool isNear(const Eigen::Vector3d& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() < kFarthest_m; }
+
+Result<Eigen::Isometry3d> Placements::own(const Entity& placement, Report& report) const {
   Scope scope(model_);
-  if (placement.is("IFCLOCALPLACEMENT")) return axisPlacement(placement.ref(1), scope);
-  if (!placement.is("IFCLINEARPLACEMENT") && !placement.is("IFCGRIDPLACEMENT"))
-    return report.lose(placement.place(),
-                       std::string(placement.typeName()) +
-                           " is not supported: its products are placed at the origin of their parent"),
-           Eigen::Isometry3d::Identity();
-  const auto found =
-      placement.is("IFCGRIDPLACEMENT") ? gridPlacement(placement, scope) : linearPlacement(placement, scope);
-  if (found) return *found;
-  report.lose(found.error().source, found.error().message + "; its products are placed at the origin of their parent");
-  return Eigen::Isometry3d::Identity();
+  const auto found = [&]() -> Result<Eigen::Isometry3d> {
+    if (placement.is("IFCLOCALPLACEMENT")) return axisPlacement(referred(placement, 1, scope), scope);
+    if (placement.is("IFCGRIDPLACEMENT")) return gridPlacement(placement, scope);
+    if (placement.is("IFCLINEARPLACEMENT")) return linearPlacement(placement, scope);
+    return fail(placement, std::string(placement.typeName()) + " is not supported");
+  }();
+  report.append(scope.report);
+  if (found && scope.unread) return failure(*scope.unread);
+  return found;
 }
 
 Eigen::Isometry3d Placements::world(const Entity& object_placement, Report& report) {
   std::vector<Entity> chain;
-  std::vector<Id> seen;
-  Eigen::Isometry3d world = Eigen::Isometry3d::Identity();
+  std::set<Id> seen;
+  Known at;
+  const auto lose = [&](const std::string& place, const std::string& why, Id placement) {
+    report.lose(place, why + "; its products are placed at the origin of their parent");
+    at.lost = placement;
+  };
   for (Entity e = object_placement; e; e = parentPlacement(e)) {
     if (const auto it = known_.find(e.id()); it != known_.end()) {
-      world = it->second;
+      at = it->second;
       break;
     }
-    if (std::find(seen.begin(), seen.end(), e.id()) != seen.end() || chain.size() > 1000) {
-      report.warn(e.place(), "circular reference between placements; cut here");
+    if (!seen.insert(e.id()).second) {
+      report.lose(e.place(), "circular reference between placements; cut here");
+      at.lost = e.id();
       break;
     }
-    seen.push_back(e.id());
     chain.push_back(e);
+    if (const Value parent = e[0]; parent.isReference() && !e.follow(parent))
+      lose(e.place(), "is relative to " + notInFile(parent), e.id());
   }
   for (auto it = chain.rbegin(); it != chain.rend(); ++it) {
-    world = world * own(*it, report);
-    known_.emplace(it->id(), world);
+    const auto relative = own(*it, report);
+    const Eigen::Isometry3d here = relative ? at.world * *relative : at.world;
+    if (!relative)
+      lose(relative.error().source.empty() ? it->place() : relative.error().source, relative.error().message, it->id());
+    else if (!isNear(here.translation()))
+      lose(it->place(), "is farther than 1e15 m from the origin", it->id());
+    else
+      at.world = here;
+    known_.emplace(it->id(), at);
   }
-  return world;
+  return at.world;
+}
+
+Id Placements::lost(const Entity& object_placement) const {
+  const auto it = known_.find(object_placement.id());
+  return it == known_.end() ? 0 : it->second.lost;
 }
 
 }  // namespace standpoint::ifc

@@ -47,13 +47,12 @@ geometry::Loop2 rounded(const std::vector<Corner>& corners, const Scope& scope) 
   return loop;
 }
 
-void place(geometry::Loop2& loop, const Entity& entity, const Scope& scope) {
+void place(geometry::Loop2& loop, const Entity& entity, Scope& scope) {
   const Eigen::Isometry3d t = axisPlacement(entity.ref(2), scope);
   for (auto& p : loop) p = (t * Eigen::Vector3d(p.x(), p.y(), 0)).head<2>();
 }
 
-Result<Regions> placed(const Entity& entity, geometry::Loop2 outer, std::vector<geometry::Loop2> holes,
-                       const Scope& scope) {
+Result<Regions> placed(const Entity& entity, geometry::Loop2 outer, std::vector<geometry::Loop2> holes, Scope& scope) {
   geometry::Region2 region{std::move(outer), std::move(holes)};
   place(region.outer, entity, scope);
   for (auto& hole : region.holes) place(hole, entity, scope);
@@ -62,7 +61,7 @@ Result<Regions> placed(const Entity& entity, geometry::Loop2 outer, std::vector<
   return Regions{std::move(region)};
 }
 
-Result<Regions> placed(const Entity& entity, const std::vector<Corner>& corners, const Scope& scope) {
+Result<Regions> placed(const Entity& entity, const std::vector<Corner>& corners, Scope& scope) {
   return placed(entity, rounded(corners, scope), {}, scope);
 }
 
@@ -274,7 +273,7 @@ Result<Regions> zShapeProfile(const Entity& e, Scope& s) {
 // is thinner outwards (f1 at the web, f2, f3 at its edge), the head deeper at the web (h2) than at its side (h3).
 namespace {
 
-Result<Regions> craneRail(const Entity& e, const std::vector<Corner>& right, const Scope& s) {
+Result<Regions> craneRail(const Entity& e, const std::vector<Corner>& right, Scope& s) {
   std::vector<Corner> all = right;
   for (auto it = right.rbegin(); it != right.rend(); ++it) all.push_back({-it->x, it->y, it->radius});
   return placed(e, all, s);

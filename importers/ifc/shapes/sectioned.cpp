@@ -39,10 +39,10 @@ struct Position {
   std::optional<double> roll_rad;  // where an Axis is stated: of "up" to the left
 };
 
-Position positionOf(const Entity& position, const Scope& scope) {
+Position positionOf(const Entity& position, Scope& scope) {
   Position p{offsetsAt(position, scope), {}};
   if (const Entity axis = position.is("IFCAXIS2PLACEMENTLINEAR") ? position.ref(1) : Entity()) {
-    const Eigen::Vector3d up = direction(axis, Eigen::Vector3d::UnitZ());
+    const Eigen::Vector3d up = direction(axis, Eigen::Vector3d::UnitZ(), scope);
     p.roll_rad = std::atan2(up.y(), up.z());
   }
   return p;

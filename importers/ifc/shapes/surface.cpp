@@ -219,7 +219,7 @@ class Revolved : public ParametricSurface {
   Eigen::Vector3d reference_ = Eigen::Vector3d::Zero();
 };
 
-SurfacePtr round(Round::Kind kind, const Entity& e, double major, double minor, const Scope& s) {
+SurfacePtr round(Round::Kind kind, const Entity& e, double major, double minor, Scope& s) {
   return std::make_shared<Round>(kind, axisPlacement(e.ref(0), s), major, minor);
 }
 
@@ -294,10 +294,10 @@ Result<Path> sweptCurve(const Entity& e, Scope& s) {
 Result<SurfacePtr> surfaceOfLinearExtrusion(const Entity& e, Scope& s) {
   TRY_ASSIGN(auto path, sweptCurve(e, s));
   return std::make_shared<Extruded>(std::move(path), axisPlacement(e.ref(1), s),
-                                    direction(e.ref(2), Eigen::Vector3d::UnitZ()));
+                                    direction(e.ref(2), Eigen::Vector3d::UnitZ(), s));
 }
 
-Axis axisOfRevolution(const Entity& e, const Eigen::Isometry3d& position, const Scope& s) {
+Axis axisOfRevolution(const Entity& e, const Eigen::Isometry3d& position, Scope& s) {
   const Axis axis = axis1Placement(e.ref(2), s);
   // The axis lies in the plane of the profile. Revit states it in the frame of the shape, not of the surface's
   // position.

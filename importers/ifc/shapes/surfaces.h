@@ -17,6 +17,6 @@ Result<SurfacePtr> bSplineSurface(const Entity&, Scope&);
 Result<SurfacePtr> surfaceOfLinearExtrusion(const Entity&, Scope&);
 Result<SurfacePtr> surfaceOfRevolution(const Entity&, Scope&);
 // Of an IfcSurfaceOfRevolution, in the frame of its position.
-Axis axisOfRevolution(const Entity& entity, const Eigen::Isometry3d& position, const Scope& scope);
+Axis axisOfRevolution(const Entity& entity, const Eigen::Isometry3d& position, Scope& scope);
 
 }  // namespace standpoint::ifc

@@ -103,7 +103,7 @@ bool liesOn(const Path& path, const Entity& extrusion, Scope& scope) {
   const auto swept = profileCurve(extrusion.ref(0), scope);
   if (!swept || swept->points.empty() || path.points.empty()) return true;
   const Eigen::Isometry3d position = axisPlacement(extrusion.ref(1), scope);
-  const Eigen::Vector3d along = position.linear() * direction(extrusion.ref(2), Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d along = position.linear() * direction(extrusion.ref(2), Eigen::Vector3d::UnitZ(), scope);
   const double height = (path.points.front() - position * swept->points.front()).dot(along);
   constexpr double kSlack_m = 1e-4;
   return height > -kSlack_m && height < scope.metres(extrusion[3].number(0)) + kSlack_m;
@@ -117,11 +117,11 @@ Result<geometry::PolyMesh> curveSweptAreaSolid(const Entity& entity, Scope& scop
   const Entity reference = entity.ref(5);
   Eigen::Vector3d x = Eigen::Vector3d::UnitX();
   if (reference.is("IFCDIRECTION"))
-    x = direction(reference, x);
+    x = direction(reference, x, scope);
   else if (reference.is("IFCPLANE"))
     x = axisPlacement(reference.ref(0), scope).linear().col(2);
   else if (reference.is("IFCSURFACEOFLINEAREXTRUSION"))
-    x = axisPlacement(reference.ref(1), scope).linear() * direction(reference.ref(2), Eigen::Vector3d::UnitZ());
+    x = axisPlacement(reference.ref(1), scope).linear() * direction(reference.ref(2), Eigen::Vector3d::UnitZ(), scope);
   else
     return fail(entity,
                 "a reference surface of this kind (" + std::string(reference.typeName()) + ") is not supported");

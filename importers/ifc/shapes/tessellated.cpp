@@ -43,11 +43,18 @@ Result<geometry::PolyMesh> finished(const Entity& entity, geometry::PolyMesh mes
 
 }  // namespace
 
+// In the first release of IFC4 a triangulated face set had NormalIndex in its place: a list for each triangle.
+Value pnIndex(const Entity& face_set) {
+  const Value last = face_set[face_set.is("IFCPOLYGONALFACESET") ? 3 : 4];
+  const auto first = last.begin();
+  return first != last.end() && (*first).isList() ? Value() : last;
+}
+
 Result<geometry::PolyMesh> triangulatedFaceSet(const Entity& entity, Scope& scope) {
   geometry::PolyMesh mesh;
   mesh.points = pointList(entity.ref(0), scope);
   if (!scope.spend(mesh.points.size())) return fail(entity, "too many points");
-  const Indices indices(entity[4], mesh.points.size());
+  const Indices indices(pnIndex(entity), mesh.points.size());
   const FaceColours colours(entity, scope.model);
   std::size_t bad = 0, number = 0;
   const Value rows = entity[3];
@@ -66,7 +73,7 @@ Result<geometry::PolyMesh> polygonalFaceSet(const Entity& entity, Scope& scope) 
   geometry::PolyMesh mesh;
   mesh.points = pointList(entity.ref(0), scope);
   if (!scope.spend(mesh.points.size())) return fail(entity, "too many points");
-  const Indices indices(entity[3], mesh.points.size());
+  const Indices indices(pnIndex(entity), mesh.points.size());
   const FaceColours colours(entity, scope.model);
   std::size_t bad = 0, number = 0;
   const Value faces = entity[2];

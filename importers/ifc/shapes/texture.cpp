@@ -5,6 +5,7 @@
 
 #include "importers/ifc/model/model.h"
 #include "importers/ifc/shapes/curve.h"
+#include "importers/ifc/shapes/faceted.h"
 #include "importers/ifc/shapes/placement.h"
 
 namespace standpoint::ifc {
@@ -82,7 +83,7 @@ void TexturedItem::readFaceSet(const Entity& face_set, const Entity& map, const 
   for (const Value v : list) coordinates_.push_back(pair(v));
   const bool polygonal = face_set.is("IFCPOLYGONALFACESET");
   std::vector<std::uint32_t> through;  // PnIndex
-  for (const Value v : face_set[polygonal ? 3 : 4]) through.push_back(static_cast<std::uint32_t>(v.integer()));
+  for (const Value v : pnIndex(face_set)) through.push_back(static_cast<std::uint32_t>(v.integer()));
   const auto corners = [&](const Value& of_face) {
     Indices at = indices(of_face, through.empty() ? points_.size() : through.size());
     for (auto& i : at)
