@@ -22,6 +22,7 @@ struct ImportOptions {
   Eigen::Vector3d given_shift_m = Eigen::Vector3d::Zero();  // rounded to whole metres
   UpAxis up = UpAxis::automatic;
   double metres_per_unit = 0;             // 0: what the file or format says (glTF, OBJ: 1)
+  bool types = false;                     // IFC: types that no product shows are products, too
   double chord_error_m = 0.001;           // tessellation of curved shapes: sagitta at most this …
   double max_segment_angle_rad = 0.2095;  // … and no segment turns further (32 per circle: 0.6 % of its area are lost)
 };

@@ -6,12 +6,14 @@
 #include <atomic>
 #include <exception>
 #include <map>
+#include <set>
 #include <string>
 
 #include <tbb/parallel_for.h>
 
 #include "importers/ifc/model/entities.h"
 #include "importers/ifc/opening.h"
+#include "importers/ifc/product.h"
 #include "importers/ifc/representation.h"
 #include "importers/ifc/shapes/placement.h"
 
@@ -23,6 +25,7 @@ struct Plan {
   Eigen::Isometry3d placement = Eigen::Isometry3d::Identity();
   std::vector<Part> parts;
   std::vector<Id> openings;
+  bool all_cut_away = false;  // by its openings
 };
 
 // One representation's items: evaluated once, used by everybody who maps it.
@@ -31,6 +34,7 @@ struct Shared {
   bool cut = false;    // somebody needs its items for Booleans
   bool whole = false;  // somebody needs it as it is
   Items items;
+  std::string lost;  // the first place where something is missing from them
   std::shared_ptr<const Body> body;
 };
 
@@ -70,21 +74,41 @@ class Builder {
  private:
   Plan plan(const Entity& e) {
     Plan p;
-    if (const Entity placement = e.ref(5)) p.placement = placements_.world(placement, result_.report);
-    const Entity shape = e.ref(6);
     Scope scope(model_);
-    auto parts = shape ? partsOfShape(shape, scope) : Result<std::vector<Part>>(std::vector<Part>());
-    if (!shape && relations_.partsOf(e).empty() && e.ref(5)) {
-      parts = partsOfType(model_.file.entity(relations_.typeOf(e)), scope);
-      if (parts && !parts->empty()) result_.report.warn(e.place(), "has no representation; using that of its type");
-    }
+    place(e, p, scope);
+    auto parts = partsOf(e, scope);
     if (parts)
       p.parts = std::move(*parts);
     else
       result_.report.lose(e.place(), "has no geometry: " + describe(parts.error()));
     result_.report.append(scope.report);
+    if (scope.unread)
+      result_.report.lose(e.place(), nameOf(e) + " is incomplete or misplaced: " + describe(*scope.unread));
     if (!isSubtraction(e) && !p.parts.empty()) p.openings = openingsOf(e, relations_, model_.file);
     return p;
+  }
+
+  void place(const Entity& e, Plan& p, Scope& scope) {
+    if (isType(e)) return;
+    const Value stated = e[5];
+    if (const Entity placement = e.follow(stated)) {
+      p.placement = placements_.world(placement, result_.report);
+      if (const Id lost = placements_.lost(placement))
+        result_.report.lose(e.place(), nameOf(e) + " is not where it belongs: see placement #" + std::to_string(lost));
+    } else if (stated.isReference()) {
+      result_.report.lose(e.place(), nameOf(e) + " is not where it belongs: it is placed by " + notInFile(stated));
+    }
+    if (const Value shape = e[6]; shape.isReference() && !e.follow(shape))
+      scope.misread(e, "its representation is " + notInFile(shape));
+  }
+
+  Result<std::vector<Part>> partsOf(const Entity& e, Scope& scope) {
+    if (isType(e)) return partsOfType(e, scope);
+    if (const Entity shape = e.ref(6)) return partsOfShape(shape, scope);
+    if (!relations_.partsOf(e).empty() || !e.ref(5)) return std::vector<Part>();
+    auto parts = partsOfType(model_.file.entity(relations_.typeOf(e)), scope);
+    if (parts && !parts->empty()) result_.report.warn(e.place(), "has no representation; using that of its type");
+    return parts;
   }
 
   Shared& shared(Id representation) {
@@ -119,7 +143,13 @@ class Builder {
       if (!s.cut) s.items.meshes = {};
       progress_.advance(static_cast<double>(++done) / static_cast<double>(shared_.size()));
     });
-    for (const Shared& s : shared_) result_.report.append(s.items.report);
+    for (Shared& s : shared_) {
+      result_.report.append(s.items.report);
+      const auto& issues = s.items.report.issues;
+      const auto loss =
+          std::find_if(issues.begin(), issues.end(), [](const Issue& i) { return i.severity == Severity::loss; });
+      if (loss != issues.end()) s.lost = loss->source;
+    }
     return progress_.check();
   }
 
@@ -143,15 +173,20 @@ class Builder {
   void cutOne(std::size_t i, Report& report) {
     const Plan& host = plans_[i];
     const std::vector<geometry::PolyMesh> tools = toolsFor(host);
+    const auto hasFaces = [](const geometry::PolyMesh& mesh) { return !mesh.faces.empty(); };
+    bool had = false, has = false;
     for (const Part& part : host.parts) {
       std::vector<geometry::PolyMesh> meshes = shared_[index_.at(part.representation)].items.meshes;
       for (auto& mesh : meshes) {
+        had = had || hasFaces(mesh);
         geometry::transform(mesh, part.product_from_items);
         cutAway(mesh, tools, products_[i], report);
+        has = has || hasFaces(mesh);
       }
       if (auto body = triangulated(meshes, report, products_[i].id()))
         cut_[i].push_back({std::move(body), Eigen::Affine3d(host.placement), part.style});
     }
+    plans_[i].all_cut_away = had && !has;
   }
 
   Result<void> cutOpenings() {
@@ -179,18 +214,44 @@ class Builder {
     result_.of_product.resize(products_.size());
     for (std::size_t i = 0; i < plans_.size(); ++i) {
       auto& bodies = result_.of_product[i];
+      result_.any = result_.any || !plans_[i].parts.empty();
       if (!plans_[i].openings.empty())
         bodies = std::move(cut_[i]);
       else
         for (const Part& part : plans_[i].parts)
           if (const auto& body = shared_[index_.at(part.representation)].body)
             bodies.push_back({body, Eigen::Affine3d(plans_[i].placement) * part.product_from_items, part.style});
-      tellMissing(i, bodies.empty());
+      dropFar(i, bodies);
     }
+    const std::set<Id> wholes = wholesOfBodies();
+    for (std::size_t i = 0; i < plans_.size(); ++i)
+      if (result_.of_product[i].empty())
+        tellMissing(i, wholes.contains(products_[i].id()));
+      else
+        tellIncomplete(i);
     tellRepairs();
   }
 
-  // One issue per product and kind while they are few, else one per kind with the count.
+  void dropFar(std::size_t i, std::vector<PlacedBody>& bodies) {
+    const auto far = std::remove_if(bodies.begin(), bodies.end(), [](const PlacedBody& b) {
+      return !b.file_from_items.matrix().allFinite() || !isNear(b.file_from_items.translation());
+    });
+    if (far == bodies.end()) return;
+    bodies.erase(far, bodies.end());
+    result_.report.lose(products_[i].place(), nameOf(products_[i]) + " is scaled or moved beyond 1e15 m: left out");
+  }
+
+  // What has no body of its own is not lost where its parts have one.
+  std::set<Id> wholesOfBodies() const {
+    std::set<Id> wholes;
+    for (std::size_t i = 0; i < plans_.size(); ++i) {
+      if (result_.of_product[i].empty()) continue;
+      for (Id whole = relations_.wholeOf(products_[i]); whole && wholes.insert(whole).second;)
+        whole = relations_.wholeOf(model_.file.entity(whole));
+    }
+    return wholes;
+  }
+
   void tellRepairs() {
     struct Kind {
       std::size_t Repairs::*count;
@@ -202,37 +263,40 @@ class Builder {
                                 Kind{&Repairs::duplicate, "duplicate faces removed"},
                                 Kind{&Repairs::open, "shells declared closed but open; left open"},
                                 Kind{&Repairs::branching, "non-manifold edges (more than two faces); kept"}};
-    constexpr std::size_t kListed = 20;
-    for (const Kind& kind : kKinds) {
-      std::vector<std::pair<std::size_t, std::size_t>> found;  // product, how many
-      std::size_t sum = 0;
+    for (const Kind& kind : kKinds)
       for (std::size_t i = 0; i < plans_.size(); ++i) {
         std::size_t count = 0;
         for (const Part& part : plans_[i].parts)
           if (const auto it = index_.find(part.representation); it != index_.end())
             count += shared_[it->second].items.repairs.*kind.count;
-        if (count > 0) found.emplace_back(i, count), sum += count;
+        if (count > 0) result_.report.note(products_[i].place(), std::string(kind.what) + ": " + std::to_string(count));
       }
-      for (std::size_t k = 0; k < std::min(found.size(), kListed); ++k)
-        result_.report.note(products_[found[k].first].place(),
-                            std::string(kind.what) + ": " + std::to_string(found[k].second));
-      if (found.size() > kListed)
-        result_.report.note(products_[found[kListed].first].place(), "and " + std::to_string(found.size() - kListed) +
-                                                                         " more products with " + kind.what +
-                                                                         " (in all " + std::to_string(sum) + ")");
-    }
   }
 
-  void tellMissing(std::size_t i, bool empty) {
+  void tellMissing(std::size_t i, bool has_parts) {
     const Entity& e = products_[i];
-    if (!empty || !e.ref(6)) return;
+    const Plan& p = plans_[i];
+    if (!e.ref(6) && p.parts.empty() && !isType(e)) return;
     const EntityName* name = entityName(e.typeName());
-    const std::string what = schemaSpelling(e.typeName()) + " " + e[0].text();
-    if (name && (name->kind == EntityKind::intangible || name->kind == EntityKind::space)) return;
-    if (plans_[i].parts.empty())
-      result_.report.warn(e.place(), what + " has a representation but none with a body");
+    const EntityKind kind = name ? name->kind : EntityKind::product;
+    if (kind == EntityKind::space || (kind == EntityKind::intangible && !isSubtraction(e))) return;
+    if (p.all_cut_away) return result_.report.warn(e.place(), nameOf(e) + " is removed entirely by its openings");
+    if (!p.parts.empty()) return result_.report.lose(e.place(), nameOf(e) + " produced no geometry");
+    std::string what = nameOf(e) + " has a representation but none with a body";
+    const std::string unread = unreadBodyOf(e.ref(6), model_);
+    if (!unread.empty()) what += ": " + unread + " is not supported";
+    // A place is no body: what is drawn of it, such as a building's outline, is none either.
+    const bool whole = has_parts || kind == EntityKind::spatial;
+    if (whole && unread.empty())
+      result_.report.warn(e.place(), what);
     else
-      result_.report.lose(e.place(), what + " produced no geometry");
+      result_.report.lose(e.place(), what);
+  }
+
+  void tellIncomplete(std::size_t i) {
+    for (const Part& part : plans_[i].parts)
+      if (const std::string& lost = shared_[index_.at(part.representation)].lost; !lost.empty())
+        return result_.report.lose(products_[i].place(), nameOf(products_[i]) + " is incomplete: see " + lost);
   }
 
   const std::vector<Entity>& products_;
@@ -255,8 +319,6 @@ Eigen::Vector3d localOrigin(const Bounds& bounds) {
   if (far <= kNear_m) return Eigen::Vector3d::Zero();
   return ((bounds.min + bounds.max) / 2).array().round().matrix();
 }
-
-bool isFinite(const Eigen::Vector3d& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() < 1e15; }
 
 struct Problems {
   std::size_t fanned = 0, infinite = 0;
@@ -281,7 +343,7 @@ void appendMesh(Body& body, const geometry::PolyMesh& mesh, Problems& problems) 
   for (const geometry::Face& face : mesh.faces) {
     triangles.clear();
     const auto usable = [&](const std::vector<std::uint32_t>& loop) {
-      return std::all_of(loop.begin(), loop.end(), [&](std::uint32_t i) { return isFinite(mesh.points[i]); });
+      return std::all_of(loop.begin(), loop.end(), [&](std::uint32_t i) { return isNear(mesh.points[i]); });
     };
     const bool finite = usable(face.outer) && std::all_of(face.holes.begin(), face.holes.end(), usable);
     if (!finite) {
@@ -305,7 +367,7 @@ std::shared_ptr<const Body> Builder::triangulated(const std::vector<geometry::Po
   for (const auto& mesh : meshes)
     for (const auto& face : mesh.faces)
       for (const std::uint32_t i : face.outer)
-        if (isFinite(mesh.points[i])) body->bounds.extend(mesh.points[i]);
+        if (isNear(mesh.points[i])) body->bounds.extend(mesh.points[i]);
   if (!body->bounds.empty()) body->origin = localOrigin(body->bounds);
   Problems problems;
   for (const auto& mesh : meshes) appendMesh(*body, mesh, problems);

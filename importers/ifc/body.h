@@ -31,6 +31,7 @@ struct PlacedBody {
 
 struct Bodies {
   std::vector<std::vector<PlacedBody>> of_product;  // in step with the entities
+  bool any = false;                                 // a product has a body in the file, even if it is lost here
   Report report;
 };
 

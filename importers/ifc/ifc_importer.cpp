@@ -78,12 +78,13 @@ Result<ImportedModel> readIfc(const std::filesystem::path& path, const ImportOpt
                     colourMaps(file),
                     newCurveCache()};
   const Relations relations(file);
-  const std::vector<Entity> entities = productEntities(file);
+  const std::vector<Entity> entities = productEntities(file, relations, options.types);
   TRY_ASSIGN(auto bodies, buildBodies(entities, relations, model, progress));
   progress.stage("Properties", 0.95, 1);
   Environment& environment = result.environment;
   environment.products = describeAll(entities, relations, model, result.report);
   environment.spatial = spatialTree(model, relations, result.report);
+  tellCircles(relations, file, result.report);
   linkProducts(environment.products, entities, environment.spatial, relations, file);
   result.georeference = readGeoreference(model, relations, result.report);
   result.metres_per_unit = model.units.length_m;
@@ -92,6 +93,7 @@ Result<ImportedModel> readIfc(const std::filesystem::path& path, const ImportOpt
   for (std::size_t i = 0; i < entities.size(); ++i)
     assembly.add(static_cast<std::uint32_t>(i), entities[i], bodies.of_product[i], result.georeference.shift_m);
   result.report.append(bodies.report);
+  if (!bodies.any) tellUnplacedBodies(relations, model, result.report);
   TRY(progress.check());
   if (const std::string wrong = validate(environment); !wrong.empty())
     return failure(ErrorKind::internal, wrong, path.filename().string());

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "importers/ifc/model/entities.h"
 #include "importers/ifc/properties.h"
+#include "importers/ifc/shapes/mapping.h"
 #include "importers/ifc/shapes/placement.h"
 
 namespace standpoint::ifc {
@@ -69,6 +71,11 @@ std::vector<std::string> groupsOf(const Entity& e, const Relations& relations, c
   return names;
 }
 
+// A type that brings a shape.
+bool hasMaps(const Entity& e, const EntityName* name) {
+  return name && name->kind == EntityKind::type && !e.refs(6).empty();
+}
+
 bool isSpatial(const EntityName* name) {
   return name &&
          (name->kind == EntityKind::spatial || name->kind == EntityKind::space || name->kind == EntityKind::project);
@@ -76,7 +83,14 @@ bool isSpatial(const EntityName* name) {
 
 }  // namespace
 
-std::vector<Entity> productEntities(const StepFile& file) {
+bool isType(const Entity& e) {
+  const EntityName* name = entityName(e.typeName());
+  return name && name->kind == EntityKind::type;
+}
+
+std::string nameOf(const Entity& product) { return schemaSpelling(product.typeName()) + " " + product[0].text(); }
+
+std::vector<Entity> productEntities(const StepFile& file, const Relations& relations, bool types) {
   std::vector<const EntityName*> names;
   std::vector<char> rooted;
   for (const std::string& type : file.typeNames()) {
@@ -88,9 +102,41 @@ std::vector<Entity> productEntities(const StepFile& file) {
     const Entity e = file.at(i);
     const EntityName* name = names[e.type()];
     if (name && name->kind == EntityKind::other) continue;
-    if (isProduct(e, name)) found.push_back(e);
+    if (isProduct(e, name) || (types && hasMaps(e, name))) found.push_back(e);
   }
+  if (!types) return found;
+  std::set<Id> used;
+  for (const Entity& e : found)
+    if (const auto a = e.first<7>(); !isType(e) && (e.follow(a[5]) || e.follow(a[6]))) used.insert(relations.typeOf(e));
+  std::erase_if(found, [&](const Entity& e) { return used.contains(e.id()); });
   return found;
+}
+
+void tellCircles(const Relations& relations, const StepFile& file, Report& report) {
+  for (const Id id : relations.circular()) {
+    const Entity e = file.entity(id);
+    if (const EntityName* name = entityName(e.typeName()); isProduct(e, name) || isSpatial(name))
+      report.lose(e.place(), nameOf(e) + " is a part of itself by way of its parts; the circle is cut here");
+  }
+}
+
+void tellUnplacedBodies(const Relations& relations, const Model& model, Report& report) {
+  const StepFile& file = model.file;
+  std::size_t solids = 0;
+  Entity solid;
+  for (std::size_t i = 0; i < file.records().size(); ++i)
+    if (const Mapping* m = model.mapping_of_type[file.records()[i].type]; m && m->item && ++solids == 1)
+      solid = file.at(i);
+  if (solids == 0) return;
+  std::vector<Entity> types = productEntities(file, relations, true);
+  std::erase_if(types, [](const Entity& e) { return !isType(e); });
+  if (!types.empty())
+    report.lose(types[0].place(), nameOf(types[0]) + " has a shape that no product shows (types with a shape: " +
+                                      std::to_string(types.size()) + "): import types as products with --types");
+  else
+    report.lose(solid.place(), schemaSpelling(solid.typeName()) +
+                                   " belongs to no product and was not imported (solids and surfaces in the file: " +
+                                   std::to_string(solids) + ")");
 }
 
 Product describeProduct(const Entity& e, bool with_properties, const Relations& relations, const Model& model) {
@@ -101,10 +147,11 @@ Product describeProduct(const Entity& e, bool with_properties, const Relations& 
   p.global_id = a[0].text();
   p.ifc_class = schemaSpelling(e.typeName());
   const Entity type = model.file.entity(relations.typeOf(e));
-  p.predefined_type = predefinedType(e, type);
+  p.predefined_type = isType(e) ? predefinedType({}, e) : predefinedType(e, type);
   p.name = a[2].text();
   p.type_name = type[2].text();
-  p.tangible = !name || name->kind == EntityKind::product || name->kind == EntityKind::spatial;
+  p.tangible = !name || name->kind == EntityKind::product || name->kind == EntityKind::spatial ||
+               (name->kind == EntityKind::type && !e.is("IFCSPACETYPE") && !e.is("IFCSPATIALZONETYPE"));
   ProductMaterials materials = materialsOf(e, relations, model);
   p.groups = groupsOf(e, relations, model.file);
   if (with_properties) {
@@ -179,10 +226,7 @@ std::vector<SpatialNode> spatialTree(const Model& model, const Relations& relati
   };
   for (const Id root : roots) visit(root);
   for (const Id id : all)
-    if (!index.contains(id)) {
-      report.warn("#" + std::to_string(id), "circular reference in the spatial structure; cut here");
-      visit(id);
-    }
+    if (!index.contains(id)) visit(id);  // in a circle, which tellCircles says
   return nodes;
 }
 
@@ -196,10 +240,13 @@ void linkProducts(std::vector<Product>& products, const std::vector<Entity>& ent
     const auto it = map.find(id);
     return it == map.end() ? -1 : it->second;
   };
+  const auto circular = [&](Id id) {
+    return std::binary_search(relations.circular().begin(), relations.circular().end(), id);
+  };
   for (std::size_t i = 0; i < products.size(); ++i) {
     Product& p = products[i];
     const Id whole = relations.wholeOf(entities[i]);
-    if (const std::int32_t w = find(product_of, whole); w != static_cast<std::int32_t>(i)) p.whole = w;
+    if (!circular(entities[i].id()) || !circular(whole)) p.whole = find(product_of, whole);
     // Upwards until somebody stands in the spatial structure; a bound because input may run in circles.
     Entity at = entities[i];
     for (int steps = 0; at && p.container < 0 && steps < 64; ++steps) {

@@ -9,6 +9,7 @@
 #include "core/presentation_layers.h"
 #include "importers/ifc/model/attribute_sets.h"
 #include "importers/ifc/model/entities.h"
+#include "importers/ifc/product.h"
 #include "importers/ifc/property_value.h"
 
 namespace standpoint::ifc {
@@ -49,7 +50,8 @@ void appendAttributes(Properties& out, const Entity& e, const Model& model) {
   const EntityName* name = entityName(e.typeName());
   const auto a = e.first<12>();
   add(out, "Attributes", "Description", a[3].text());
-  if (a[4].isText()) add(out, "Attributes", "ObjectType", a[4].text());
+  const bool type = name && name->kind == EntityKind::type;
+  if (a[4].isText()) add(out, "Attributes", type ? "ApplicableOccurrence" : "ObjectType", a[4].text());
   if (!name) return;
   if (name->kind == EntityKind::project) {
     add(out, "Attributes", "LongName", a[5].text());
@@ -154,6 +156,8 @@ void appendProperties(Properties& properties, const Entity& set, const Model& mo
 Properties propertiesOf(const Entity& object, const Relations& relations, const Model& model) {
   Properties properties;
   appendAttributes(properties, object, model);
+  if (isType(object))  // imported as a product
+    for (const Entity& set : object.refs(5)) appendProperties(properties, set, model);
   for (const Id set : relations.propertySetsOf(object)) appendProperties(properties, model.file.entity(set), model);
   appendAssociations(properties, object, relations, model);
   if (const Entity type = model.file.entity(relations.typeOf(object))) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <set>
 #include <string>
 
 #include "importers/ifc/model/style.h"
@@ -15,22 +16,32 @@ namespace {
 
 constexpr std::size_t kMostParts = 1'000'000;  // of one product: mapped items multiply
 
-bool hasBody(const Entity& representation, const Model& model, int depth) {
-  for (const Entity& e : representation.refs(3)) {
-    if (e.is("IFCMAPPEDITEM")) {
-      if (depth < 16 && hasBody(e.ref(0).ref(1), model, depth + 1)) return true;
-    } else if (e.is("IFCGEOMETRICSET")) {  // only its surfaces are a body
-      const auto elements = e.refs(0);
-      if (std::any_of(elements.begin(), elements.end(), [&](const Entity& part) {
-            const Mapping* m = model.mapping_of_type[part.type()];
-            return m && m->item;
-          }))
-        return true;
-    } else if (const Mapping* m = model.mapping_of_type[e.type()]; m && m->item) {
-      return true;
+// The first item for which that holds: direct ones, the parts of sets and what is mapped, each representation once.
+template <class Condition>
+Entity firstItem(const Entity& representation, const Condition& holds) {
+  std::vector<Entity> open{representation};
+  std::set<Id> seen;
+  while (!open.empty()) {
+    const Entity at = open.back();
+    open.pop_back();
+    for (const Entity& e : at.refs(at.is("IFCGEOMETRICSET") ? 0 : 3)) {
+      if (e.is("IFCGEOMETRICSET")) {  // only its surfaces are a body
+        if (seen.insert(e.id()).second) open.push_back(e);
+      } else if (e.is("IFCMAPPEDITEM")) {
+        if (const Entity mapped = e.ref(0).ref(1); seen.insert(mapped.id()).second) open.push_back(mapped);
+      } else if (holds(e)) {
+        return e;
+      }
     }
   }
-  return false;
+  return {};
+}
+
+bool hasBody(const Entity& representation, const Model& model) {
+  return static_cast<bool>(firstItem(representation, [&](const Entity& e) {
+    const Mapping* m = model.mapping_of_type[e.type()];
+    return m && m->item;
+  }));
 }
 
 // Smaller is better. What only stands for the body (the room it needs, its box) is never taken for it; a solid that
@@ -49,7 +60,7 @@ Entity bestOf(const std::vector<Entity>& representations, const Model& model) {
   Entity best;
   int best_rank = 9;
   for (const Entity& r : representations)
-    if (const int k = rank(r); k < best_rank && hasBody(r, model, 0)) best = r, best_rank = k;
+    if (const int k = rank(r); k < best_rank && hasBody(r, model)) best = r, best_rank = k;
   return best;
 }
 
@@ -57,8 +68,13 @@ struct Walk {
   Scope& scope;
   std::vector<Part> parts;
 
+  void lookForNothing(const Entity& r) {
+    if (const Value nothing = r.dangling(3); nothing.present()) scope.misread(r, "refers to " + notInFile(nothing));
+  }
+
   Result<void> representation(const Entity& r, const Eigen::Affine3d& placed, std::uint32_t style, int depth) {
     if (depth > 24) return fail(r, "mapped items nest too deeply or form a cycle");
+    lookForNothing(r);
     bool direct = false;
     for (const Entity& e : r.refs(3)) {
       if (!e.is("IFCMAPPEDITEM")) {
@@ -69,7 +85,7 @@ struct Walk {
                           own = part ? part : scope.model.style_of_item[scope.model.file.indexOf(e)];
       const Entity map = e.ref(0);
       if (!map.ref(1)) {
-        scope.report.lose(e.place(), "the mapped item has no representation");
+        scope.misread(e, "the mapped item has no representation");
         continue;
       }
       const Eigen::Affine3d next =
@@ -84,7 +100,7 @@ struct Walk {
 
 void appendItem(Items& items, const Entity& e, Scope& scope) {
   const Mapping* mapping = scope.model.mapping_of_type[e.type()];
-  const bool flat = !mapping || !mapping->item;
+  const bool flat = (!mapping || !mapping->item) && !isUnreadBody(e, scope.model);
   auto mesh = item(e, scope);
   if (!mesh) {
     // Curves and points beside a body are drawing, not body.
@@ -105,8 +121,13 @@ void appendItem(Items& items, const Entity& e, Scope& scope) {
 
 Result<std::vector<Part>> partsOfShape(const Entity& shape, Scope& scope) {
   Walk walk{scope, {}};
+  if (const Value nothing = shape.dangling(2); nothing.present())
+    scope.misread(shape, "refers to " + notInFile(nothing));
   const Entity body = bestOf(shape.refs(2), scope.model);
-  if (!body) return walk.parts;
+  if (!body) {
+    for (const Entity& r : shape.refs(2)) walk.lookForNothing(r);
+    return walk.parts;
+  }
   TRY(walk.representation(body, Eigen::Affine3d::Identity(), kNoStyle, 0));
   return walk.parts;
 }
@@ -126,6 +147,13 @@ Result<std::vector<Part>> partsOfType(const Entity& type, Scope& scope) {
   return walk.parts;
 }
 
+std::string unreadBodyOf(const Entity& shape, const Model& model) {
+  for (const Entity& representation : shape.refs(2))
+    if (const Entity e = firstItem(representation, [&](const Entity& i) { return isUnreadBody(i, model); }))
+      return std::string(e.typeName());
+  return {};
+}
+
 Items itemsOf(const Entity& representation, const Model& model) {
   Items items;
   Scope scope(model);
@@ -139,6 +167,8 @@ Items itemsOf(const Entity& representation, const Model& model) {
     }
   }
   items.report.append(scope.report);
+  if (scope.unread)
+    items.report.lose(scope.unread->source, scope.unread->message + "; the shape is not as it was meant");
   items.repairs = scope.repairs;
   return items;
 }

@@ -104,8 +104,9 @@ TEST(IfcGeometry, ABooleanThatCannotBeDoneKeepsTheBodyAndSaysSo) {
       product(110, "IFCWALL", "#120", "CSG") + boxSolid(300, "1.", "1.", "1.") + product(310, "IFCSLAB", "#302")));
   EXPECT_NEAR(volumeOf(model, "#110"), 3.6, 1e-5);
   EXPECT_NEAR(volumeOf(model, "#310"), 1, 1e-5);
-  ASSERT_EQ(model.report.losses(), 1U) << issuesOf(model);
+  ASSERT_EQ(model.report.losses(), 2U) << issuesOf(model);
   EXPECT_EQ(model.report.issues[0].source, "#120");
+  EXPECT_TRUE(tells(model, "#110", "IfcWall guid110 is incomplete: see #120"));
 }
 
 TEST(IfcGeometry, AFacetedBrepTurnedInsideOutIsTurnedOutward) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
+#include <set>
 
 namespace standpoint::ifc {
 
@@ -56,6 +58,39 @@ void Relations::readPresentationLayers() {
       for (const Entity& e : layer.refs(2))
         if (Id& slot = layer_[file_.indexOf(e)]; slot == 0) slot = layer.id();
     }
+}
+
+// What is left when parts without wholes, then wholes without parts are taken away until there are none.
+void Relations::findCircles() {
+  using Link = std::pair<std::size_t, std::size_t>;
+  std::vector<Link> links;  // whole, part
+  for (const char* relation : {"IFCRELAGGREGATES", "IFCRELDECOMPOSES", "IFCRELNESTS"})
+    for (const Entity& rel : file_.all(relation))
+      if (const Entity whole = rel.ref(4))
+        for (const Entity& part : rel.refs(5)) links.emplace_back(file_.indexOf(whole), file_.indexOf(part));
+  for (int pass = 0; pass < 2 && !links.empty(); ++pass) {
+    std::sort(links.begin(), links.end());
+    std::map<std::size_t, std::size_t> above;  // how many are left above a part
+    for (const auto& [whole, part] : links) ++above[part];
+    std::vector<std::size_t> open;
+    for (const auto& [whole, part] : links)
+      if (!above.contains(whole) && (open.empty() || open.back() != whole)) open.push_back(whole);
+    while (!open.empty()) {
+      const std::size_t whole = open.back();
+      open.pop_back();
+      for (auto it = std::lower_bound(links.begin(), links.end(), Link(whole, 0));
+           it != links.end() && it->first == whole; ++it)
+        if (--above[it->second] == 0) open.push_back(it->second);
+    }
+    std::erase_if(links, [&](const Link& link) {
+      const auto it = above.find(link.first);
+      return it == above.end() || it->second == 0;
+    });
+    for (auto& [whole, part] : links) std::swap(whole, part);
+  }
+  std::set<std::size_t> left;
+  for (const auto& [whole, part] : links) left.insert(whole);
+  for (const std::size_t index : left) circular_.push_back(file_.at(index).id());
 }
 
 std::uint32_t Relations::slotFor(const Entity& e) {
@@ -114,6 +149,7 @@ Relations::Relations(const StepFile& file) : file_(file) {
   for (Fan* fan : {&groups_, &referencing_, &classifications_, &documents_, &material_properties_})
     std::stable_sort(fan->begin(), fan->end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   readPresentationLayers();
+  findCircles();
 }
 
 }  // namespace standpoint::ifc

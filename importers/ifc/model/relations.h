@@ -13,6 +13,8 @@ struct Relations {
   explicit Relations(const StepFile& file);
 
   Id wholeOf(const Entity& part) const { return at(whole_, part); }  // IfcRelAggregates, IfcRelNests
+  // Those that aggregates or nests make parts of themselves by way of others, in the order of their numbers.
+  const std::vector<Id>& circular() const { return circular_; }
   Id containerOf(const Entity& product) const { return at(container_, product); }
   Id typeOf(const Entity& object) const { return at(type_, object); }
   Id materialOf(const Entity& object) const { return at(material_, object); }  // IfcRelAssociatesMaterial
@@ -42,8 +44,10 @@ struct Relations {
   void manyToMany(const char* relation, std::size_t one, std::size_t many, Fan& fan);
   void readMaterialProperties();
   void readPresentationLayers();
+  void findCircles();
 
   const StepFile& file_;
+  std::vector<Id> circular_;
   std::vector<Id> whole_, container_, type_, material_, host_, layer_;
   Fan groups_, referencing_, classifications_, documents_, material_properties_;
   std::vector<std::uint32_t> slot_;         // records that have lists; 0: none
