@@ -202,6 +202,7 @@ ImportOptions importOptions(const AddOptions& options) {
   result.given_shift_m = options.shift.given_m;
   if (options.up) result.up = *options.up;
   if (options.unit) result.metres_per_unit = metresOf(*options.unit);
+  result.types = options.types;
   return result;
 }
 
@@ -293,13 +294,19 @@ std::span<const Choice<UpAxis>> choices(UpAxis) {
   return kAxes;
 }
 
+namespace {
+constexpr const char* kTypesHelp =
+    "IFC: import types that no product shows, with their shapes, as products at the origin";
+}  // namespace
+
 const Fields<AddOptions>& addFields() {
   using O = AddOptions;
   static const Fields<O> fields = {{"files", &O::files, "the model files", {.positional = true, .required = true}},
                                    {"shift", &O::shift, "global shift: auto, none, or E,N,H", {.unit = "m"}},
                                    {"crs", &O::crs, "coordinate reference system, as EPSG:n"},
                                    {"up", &O::up, "up axis of the file (default: that of the format)"},
-                                   {"unit", &O::unit, "unit of the file's coordinates (default: that of the format)"}};
+                                   {"unit", &O::unit, "unit of the file's coordinates (default: that of the format)"},
+                                   {"types", &O::types, kTypesHelp}};
   return fields;
 }
 
@@ -313,7 +320,8 @@ const Fields<ImportVerbOptions>& importFields() {
       {"shift", &O::shift, "global shift: auto, none, or E,N,H", {.unit = "m"}},
       {"crs", &O::crs, "coordinate reference system, as EPSG:n"},
       {"up", &O::up, "up axis of the file (default: that of the format)"},
-      {"unit", &O::unit, "unit of the file's coordinates (default: that of the format)"}};
+      {"unit", &O::unit, "unit of the file's coordinates (default: that of the format)"},
+      {"types", &O::types, kTypesHelp}};
   return fields;
 }
 

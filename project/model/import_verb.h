@@ -38,6 +38,7 @@ struct AddOptions {
   std::string crs;           // "EPSG:n"; empty: as the model says
   std::optional<UpAxis> up;  // nothing: as the format says
   std::optional<FileUnit> unit;
+  bool types = false;  // of an IFC file: those that no product shows become products
 };
 struct ImportVerbOptions : AddOptions {
   std::filesystem::path output;  // the project's folder; for the door that writes it
