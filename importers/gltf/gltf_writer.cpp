@@ -137,8 +137,7 @@ class GltfWriter {
 
   bool serialise(std::ostream& out, bool binary) const {
     try {
-      // From tinygltf 2.9 on it also says no where the stream fails, which is noticed when that is closed.
-      return tinygltf::TinyGLTF().WriteGltfSceneToStream(&model_, out, false, binary) || !out;
+      return tinygltf::TinyGLTF().WriteGltfSceneToStream(&model_, out, false, binary);
     } catch (const std::exception&) {
       return false;
     }
