@@ -90,6 +90,7 @@ std::vector<RecoveryCopy> findRecoveryCopies(const std::filesystem::path& root) 
 
 void removeRecovery(const std::filesystem::path& folder) {
   std::error_code ignored;  // what cannot be removed is offered again at the next start
+  std::filesystem::remove(folder / "copy" / "project.json", ignored);  // first: half a copy is none
   std::filesystem::remove_all(folder, ignored);
 }
 
