@@ -166,6 +166,8 @@ void clear(const KillFolder& desk) {
   fs::create_directories(desk.root);
 }
 
+constexpr std::chrono::milliseconds kCopying{30};  // that it takes to write a copy, or more
+
 // What is there after a kill is the state after the last step whose result was kept, or after the one that ran.
 TEST(KilledEditor, LosesAtMostTheStepThatRuns) {
   const TemporaryFolder folder;
@@ -185,7 +187,13 @@ TEST(KilledEditor, LosesAtMostTheStepThatRuns) {
   while (killed < kills()) {
     fs::remove(desk.diary());
     const auto left = whole * static_cast<long>(script().size() - first) / static_cast<long>(script().size());
-    if (scriptedEditor(desk, first).killAfter(randomTime(random, left + whole / 10))) ++killed;
+    auto process = scriptedEditor(desk, first);
+    // Every second time while it writes its first copy.
+    const auto copy = recoveryFolder(desk.copies(), process.id()) / "copy";
+    const auto copies = [&] { return fs::exists(copy); };
+    if (killed % 2 == 0 ? process.killAfter(randomTime(random, left + whole / 10))
+                        : process.killAfter(copies, randomTime(random, kCopying)))
+      ++killed;
     const auto diary = readDiary(desk);
     ASSERT_EQ(diary.error, "") << "kill " << killed;
     const auto done = std::max(first, diary.states.size());  // steps

@@ -39,6 +39,7 @@ class Process {
     if (posix_spawn(&id_, arguments.front(), &files, nullptr, arguments.data(), environ) != 0) id_ = -1;
     posix_spawn_file_actions_destroy(&files);
   }
+  pid_t id() const { return id_; }
   // Waits for its end; its exit code, or -1.
   int wait() {
     int status = 0;
