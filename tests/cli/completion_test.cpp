@@ -7,6 +7,7 @@
 #include <fstream>
 #include <memory>
 #include <sstream>
+#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,8 @@ namespace {
 
 // What bash would offer for these words, of which the last is being typed.
 std::vector<std::string> offered(const std::string& words, const std::string& more = {}) {
-  const auto file = std::filesystem::path(BINARY_DIR) / "scratch" / "standpoint.bash";
+  const auto file =
+      std::filesystem::path(BINARY_DIR) / "scratch" / ("standpoint-" + std::to_string(getpid()) + ".bash");
   std::filesystem::create_directories(file.parent_path());
   std::ofstream(file) << bashCompletion(allVerbs());
   const auto command = "bash -c '" + more + " source \"" + file.string() + "\"; COMP_WORDS=(" + words +
@@ -29,6 +31,7 @@ std::vector<std::string> offered(const std::string& words, const std::string& mo
   std::vector<std::string> found;
   for (std::string line; std::getline(lines, line);)
     if (!line.empty()) found.push_back(line);
+  std::filesystem::remove(file);
   return found;
 }
 

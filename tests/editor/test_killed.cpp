@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/data_folder.h"
 #include "editor/model/recovery.h"
 #include "emulated-ui/rehearsal/rehearsal.h"
 #include "emulated-ui/rehearsal/rehearse_verb.h"
