@@ -136,6 +136,8 @@ void CoincidentFacets::choose(const RayPacket& rays, int count, NearestHit* hits
   bool any = false;
   for (int k = 0; k < kPacket; ++k) {
     valid[k] = 0;
+    window.ray.tnear[k] = 0;  // Embree for SSE looks at lanes that are not valid, too
+    window.ray.tfar[k] = 0;
     if (k >= count || hits[k].facet == kNoFacet) continue;
     const std::uint32_t index = indexOf(hits[k].facet);
     if (index == kAlone) continue;
