@@ -33,7 +33,7 @@ class TemporaryFolder {
 
 // Adds the six inner or outer faces of a box from `min` to `max` as one product.
 inline void addBox(Environment& e, const std::string& id, const std::string& ifc_class, const Eigen::Vector3d& min,
-                   const Eigen::Vector3d& max) {
+                   const Eigen::Vector3d& max, std::uint32_t surface = 0) {
   auto m = std::make_shared<Mesh>();
   for (int i = 0; i < 8; ++i)
     m->positions.emplace_back(static_cast<float>((i & 1) != 0 ? max.x() - min.x() : 0),
@@ -41,7 +41,7 @@ inline void addBox(Environment& e, const std::string& id, const std::string& ifc
                               static_cast<float>((i & 4) != 0 ? max.z() - min.z() : 0));
   m->triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                   {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  m->surface_of_triangle.assign(12, 0);
+  m->surface_of_triangle.assign(12, surface);
   Product p;
   p.id = id;
   p.ifc_class = ifc_class;
