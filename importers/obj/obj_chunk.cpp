@@ -207,13 +207,13 @@ class ChunkParser {
   }
 
   void other(std::string_view key) {
-    static constexpr std::array<std::string_view, 15> kLost = {
+    static constexpr std::array<std::string_view, 15> kSkipped = {
         "bsp", "bzp", "call", "cdc", "cdp", "csh", "curv", "curv2", "hole", "l", "p", "res", "scrv", "surf", "trim"};
     // They belong to those, or say how to draw.
     static constexpr std::array<std::string_view, 22> kSilent = {
         "bevel", "bmat", "c_interp",   "con", "cstype", "ctech", "d_interp",  "deg",    "end", "lod", "maplib", "mg",
         "parm",  "s",    "shadow_obj", "sp",  "stech",  "step",  "trace_obj", "usemap", "vp",  "vw"};
-    const bool lost = std::find(kLost.begin(), kLost.end(), key) != kLost.end();
+    const bool lost = std::find(kSkipped.begin(), kSkipped.end(), key) != kSkipped.end();
     const bool silent = std::find(kSilent.begin(), kSilent.end(), key) != kSilent.end();
     if (lost || !silent) out_.tallies[std::string(lost ? key : kUnknown)].add(line_);
     if (lost || silent) ++out_.known_statements;
