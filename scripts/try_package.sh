@@ -45,7 +45,9 @@ since=$SECONDS
 if [[ -n $base && -d $base/usr ]]; then
   cp -a "$base" "$root"
 else
-  debootstrap --variant=minbase "$codename" "$root" >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 4; }
+  # From where this machine gets its packages.
+  mirror=$(apt-get indextargets --format '$(REPO_URI)' "Codename: $codename" "Created-By: Packages" | sort -u | head -1)
+  debootstrap --variant=minbase "$codename" "$root" ${mirror:+"$mirror"} >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 4; }
   [[ -z $base ]] || cp -a "$root" "$base"
 fi
 cp /etc/resolv.conf "$root/etc/resolv.conf"
