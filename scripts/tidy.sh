@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# tidy.sh [BASE]: clang-tidy (.clang-tidy) over what has changed since BASE, by default what is not yet on origin/main.
+# tidy.sh [BASE]: clang-tidy (.clang-tidy) over what has changed since BASE, by default what is not yet on origin/main, or the last commit.
 # tidy.sh --all:  over the whole program, about a quarter of an hour of CPU; the target `tidy` does the same.
 # It reads what the release preset compiles: a unity source says what a dozen sources share only once.
 set -euo pipefail
@@ -10,8 +10,12 @@ build=build/release
 
 base=""
 if [[ ${1:-} != --all ]]; then
-  base=${1:-$(git rev-parse --verify --quiet origin/main || echo HEAD~1)}
-  base=$(git merge-base "$base" HEAD)
+  # Where origin/main has it all, or there is none: the last commit. A shallow clone may have no other one.
+  for base in ${1:-origin/main HEAD~1}; do
+    base=$(git merge-base "$base" HEAD 2>/dev/null) && [[ $base != "$(git rev-parse HEAD)" ]] && break
+    base=""
+  done
+  [[ -n $base ]] || { echo "tidy: no earlier commit to compare with; --all reads everything"; exit 0; }
 fi
 
 # Of tests and benchmarks nothing is asked. A changed header is read where its own source is, or else where it is
