@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # try_package.sh [--base FOLDER] [--keep] DEB: installs the package in a clean root of this release of Debian and does the
-# main job from it as a plain user, with times; tries the .tar.zst beside it, too. Needs root or sudo.
+# main job from it as a plain user, with times; tries the .tar.zst beside it, too. Needs root or sudo. Exit code 5: no clean
+# root could be made, for want of Debian's packages, so nothing was tried.
 #   --base FOLDER   the bare root is made here once and copied from here the next time
 #   --keep          leaves the root that was tried
 set -euo pipefail
@@ -35,7 +36,8 @@ trap finish EXIT
 say() { printf '%-34s %s\n' "$1" "$2"; }
 took() { echo "$((SECONDS - since)) s"; }
 in_root() {
-  chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"
+  chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
+    ${http_proxy:+http_proxy="$http_proxy"} "$@"
 }
 as_user() { in_root setpriv --reuid surveyor --regid surveyor --clear-groups env HOME=/home/surveyor "$@"; }
 fail() { echo "try_package: $*" >&2; exit 3; }
@@ -47,7 +49,7 @@ if [[ -n $base && -d $base/usr ]]; then
 else
   # From where this machine gets its packages.
   mirror=$(apt-get indextargets --format '$(REPO_URI)' "Codename: $codename" "Created-By: Packages" | sort -u | head -1)
-  debootstrap --variant=minbase "$codename" "$root" ${mirror:+"$mirror"} >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 4; }
+  debootstrap --variant=minbase "$codename" "$root" ${mirror:+"$mirror"} >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 5; }
   [[ -z $base ]] || cp -a "$root" "$base"
 fi
 cp /etc/resolv.conf "$root/etc/resolv.conf"
@@ -69,7 +71,7 @@ if [[ -n $archive ]]; then
 fi
 
 since=$SECONDS
-in_root apt-get update -qq
+in_root apt-get update -qq || exit 5
 cp "$deb" "$root/tmp/standpoint.deb"
 packages=$(in_root apt-get -s install --no-install-recommends /tmp/standpoint.deb | grep -c ^Inst)
 in_root apt-get install -y --no-install-recommends /tmp/standpoint.deb >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 4; }
