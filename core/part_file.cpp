@@ -10,6 +10,8 @@
 #include <unistd.h>
 #include <utility>
 
+#include "core/held_file.h"
+
 namespace standpoint {
 namespace {
 
@@ -27,14 +29,6 @@ tl::unexpected<Error> systemFailure(const char* what, int number, const fs::path
                        : forbidden ? "; choose another location"
                                    : "";
   return failure(ErrorKind::file_system, std::string(what) + ": " + std::strerror(number) + remedy, file.string());
-}
-
-// A writer moves its part away before it lets go: what was locked then may be what no path leads to any more.
-bool isStillThere(int descriptor, const fs::path& part) {
-  struct stat held {
-  }, named{};
-  return ::fstat(descriptor, &held) == 0 && ::lstat(part.c_str(), &named) == 0 && held.st_ino == named.st_ino &&
-         held.st_dev == named.st_dev;
 }
 
 struct Part {

@@ -10,13 +10,14 @@
 #include <pwd.h>
 #include <string_view>
 #include <sys/file.h>
-#include <sys/stat.h>
 #include <thread>
 #include <unistd.h>
 #include <utility>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+
+#include "core/held_file.h"
 
 namespace standpoint {
 
@@ -55,14 +56,6 @@ std::string holderOf(int descriptor) {
   line = line.substr(0, line.find('\n'));
   const bool plain = std::all_of(line.begin(), line.end(), [](char c) { return c >= ' ' && c <= '~'; });
   return line.empty() || !plain ? "another program" : std::string(line);
-}
-
-// A holder removes its file before it lets go: what was locked then may be a file that no path leads to any more.
-bool isStillThere(int descriptor, const fs::path& file) {
-  struct stat held {
-  }, named{};
-  return ::fstat(descriptor, &held) == 0 && ::stat(file.c_str(), &named) == 0 && held.st_ino == named.st_ino &&
-         held.st_dev == named.st_dev;
 }
 
 struct Attempt {
