@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loaded before a program's libraries (LD_PRELOAD), makes its n-th call that changes a file below a folder fail as on a
-// full disk, that one and all after it, or kills the program in its place. By the environment:
+// full or a read-only disk, that one and all after it, or kills the program in its place. By the environment:
 //   FAULTS_UNDER   the folder
 //   FAULTS_AT      n, from 1; none: only count
-//   FAULTS_KIND    full or kill
+//   FAULTS_KIND    full, readonly or kill
 //   FAULTS_REPORT  file for the number of calls, and for each file that was renamed before it was synced
 #include <array>
 #include <atomic>
@@ -50,12 +50,13 @@ struct Faults {
     return !under.empty() && std::strncmp(path, under.c_str(), under.size()) == 0;
   }
 
-  // Has the disk been full since this call?
-  bool full() {
+  // Does this call fail, and all that follow?
+  bool failing() {
     const long call = ++calls;
     if (at > 0 && call == at && kind == "kill") std::raise(SIGKILL);
-    return at > 0 && call >= at && kind == "full";
+    return at > 0 && call >= at && (kind == "full" || readOnly());
   }
+  bool readOnly() const { return kind == "readonly"; }
 };
 
 Faults& faults() {
@@ -85,8 +86,8 @@ std::string written(int descriptor) {
              : std::string();
 }
 
-int noSpace() {
-  errno = ENOSPC;
+int failed() {
+  errno = faults().readOnly() ? EROFS : ENOSPC;
   return -1;
 }
 
@@ -94,7 +95,7 @@ template <class Open>
 int opened(const char* path, int flags, const Open& open) {
   auto& f = faults();
   const bool writes = (flags & (O_WRONLY | O_RDWR)) != 0 && f.concerns(path);
-  if (writes && f.full() && (flags & O_CREAT) != 0) return noSpace();
+  if (writes && f.failing() && (f.readOnly() || (flags & O_CREAT) != 0)) return failed();
   const int descriptor = open();
   if (descriptor < 0 || static_cast<std::size_t>(descriptor) >= kMostFiles) return descriptor;
   const std::lock_guard lock(f.mutex);
@@ -108,7 +109,7 @@ ssize_t wrote(int descriptor, const Write& write) {
   auto& f = faults();
   const auto path = written(descriptor);
   if (path.empty()) return write();
-  if (f.full()) return noSpace();
+  if (f.failing()) return failed();
   const std::lock_guard lock(f.mutex);
   f.unsynced.insert(path);
   return write();
@@ -150,7 +151,7 @@ int open64(const char* path, int flags, ...) {
 std::FILE* fopen(const char* path, const char* mode) {
   auto& f = faults();
   const bool writes = std::strpbrk(mode, "wa+") != nullptr && f.concerns(path);
-  if (writes && f.full()) return noSpace(), nullptr;
+  if (writes && f.failing()) return failed(), nullptr;
   std::FILE* file = next<std::FILE* (*)(const char*, const char*)>("fopen")(path, mode);
   if (file != nullptr && writes && static_cast<std::size_t>(::fileno(file)) < kMostFiles) {
     const std::lock_guard lock(f.mutex);
@@ -184,20 +185,20 @@ ssize_t pwrite64(int descriptor, const void* bytes, std::size_t count, off64_t a
 }
 
 int ftruncate(int descriptor, off_t size) {
-  if (!written(descriptor).empty()) faults().full();
+  if (!written(descriptor).empty()) faults().failing();
   return next<int (*)(int, off_t)>("ftruncate")(descriptor, size);
 }
 
 int fsync(int descriptor) {
   const auto path = written(descriptor);
-  if (!path.empty() && faults().full()) return noSpace();
+  if (!path.empty() && faults().failing()) return failed();
   synced(path);
   return next<int (*)(int)>("fsync")(descriptor);
 }
 
 int syncfs(int descriptor) noexcept {
   auto& f = faults();
-  if (f.full()) return noSpace();
+  if (f.failing()) return failed();
   const std::lock_guard lock(f.mutex);
   f.unsynced.clear();
   return next<int (*)(int)>("syncfs")(descriptor);
@@ -206,7 +207,7 @@ int syncfs(int descriptor) noexcept {
 int close(int descriptor) {
   if (!written(descriptor).empty()) {
     auto& f = faults();
-    f.full();
+    f.failing();
     const std::lock_guard lock(f.mutex);
     f.open[static_cast<std::size_t>(descriptor)].clear();
   }
@@ -215,7 +216,7 @@ int close(int descriptor) {
 
 int rename(const char* from, const char* to) noexcept {
   if (faults().concerns(to)) {
-    faults().full();
+    if (faults().failing() && faults().readOnly()) return failed();
     renamed(from);
   }
   return next<int (*)(const char*, const char*)>("rename")(from, to);
@@ -223,14 +224,14 @@ int rename(const char* from, const char* to) noexcept {
 
 int unlink(const char* path) noexcept {
   if (faults().concerns(path)) {
-    faults().full();
+    if (faults().failing() && faults().readOnly()) return failed();
     synced(path);
   }
   return next<int (*)(const char*)>("unlink")(path);
 }
 
 int mkdir(const char* path, mode_t mode) noexcept {
-  if (faults().concerns(path) && faults().full()) return noSpace();
+  if (faults().concerns(path) && faults().failing()) return failed();
   return next<int (*)(const char*, mode_t)>("mkdir")(path, mode);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Each verb that writes, on a disk that is full from its n-th call on, and killed at its n-th call: what was there is
-// there whole, or what is new is. STANDPOINT_EVERY_FAULT=1 tries every n; else a few, the first and the last among
-// them.
+// Each verb that writes, on a disk that is full from its n-th call on, on a read-only one, and killed at its n-th call:
+// what was there is there whole, or what is new is. STANDPOINT_EVERY_FAULT=1 tries every n; else a few, the first and
+// the last among them.
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -233,6 +233,13 @@ TEST_P(Faults, OnAFullDiskLeaveTheOldFileOrTheNewOneAndExitWithFour) {
     expectOldOrNew(folder, where);
     EXPECT_EQ(partsIn(folder), 0U) << where;
   }
+}
+
+TEST_P(Faults, OnAReadOnlyDiskLeaveTheOldFileAndExitWithFour) {
+  const auto folder = fresh();
+  EXPECT_EQ(run(writer().words, folder, faultsAt(folder, "readonly", 1)), 4);
+  EXPECT_TRUE(allAreOld(folder));
+  EXPECT_EQ(partsIn(folder), 0U);
 }
 
 TEST_P(Faults, KilledLeaveTheOldFileOrTheNewOneAndWorkAgain) {
