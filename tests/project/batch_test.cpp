@@ -56,18 +56,18 @@ Result<Outcome> scanUntil(const Document& d, const json& options, const std::str
 void cancel(Progress& progress) { progress.cancel(); }
 
 // Cancels at the third of three stations and goes on; the output must be that of a run without a break.
-void resumes(const char* name, json (*options)(const fs::path&) = options) {
+void resumes(const char* name, json (*made)(const fs::path&) = options) {
   const TemporaryFolder folder;
   const Document d = threeStations();
   const fs::path whole = folder.path() / "whole" / name;
   const fs::path broken = folder.path() / "broken" / name;
   for (const auto& file : {whole, broken}) fs::create_directories(file.parent_path());
-  ASSERT_TRUE(run("scan", d, options(whole)));
-  const auto cancelled = scanUntil(d, options(broken), "S3", cancel);
+  ASSERT_TRUE(run("scan", d, made(whole)));
+  const auto cancelled = scanUntil(d, made(broken), "S3", cancel);
   ASSERT_FALSE(cancelled);
   EXPECT_EQ(cancelled.error().kind, ErrorKind::cancelled);
   EXPECT_THAT(cancelled.error().message, AllOf(HasSubstr("S1, S2"), HasSubstr("--resume")));
-  auto again = options(broken);
+  auto again = made(broken);
   const auto unasked = run("scan", d, again);
   ASSERT_FALSE(unasked) << "finished stations are not thrown away";
   EXPECT_THAT(unasked.error().message, HasSubstr("S1, S2"));
