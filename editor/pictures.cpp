@@ -172,7 +172,7 @@ void scan(Editor& editor) {
   editor.update();
 }
 
-// What is open, as it would be seen before it is taken in.
+// What is open, as the import preview shows it.
 void importPreview(Editor& editor) {
   const auto& document = editor.session.document();
   std::vector<std::filesystem::path> files(document.sources.begin(), document.sources.end());

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "editor/instrument/desk.h"
+#include "editor/widgets/number_field.h"
 #include "editor/widgets/widgets.h"
 
 namespace standpoint {
@@ -46,8 +47,8 @@ void footScrews(InstrumentDesk& desk) {
   for (std::size_t i = 0; i < tilts.size(); ++i) {
     ui::propertyLabel(i == 0 ? "Foot screw X" : "Foot screw Y");
     ImGui::SetNextItemWidth(-1);
-    turned |= ImGui::InputDouble(fmt::format("###screw{}", i).c_str(), &tilts[i], 0.02, 0.2, "%.3f°",
-                                 ImGuiInputTextFlags_EnterReturnsTrue);
+    turned |= ui::numberField(fmt::format("###screw{}", i).c_str(), tilts[i],
+                              {.kind = {.unit = "°"}, .decimals = 3, .step = 0.02});
   }
   ui::endProperties();
   if (turned) act(desk, {Kind::hand, "tilt", fmt::format("{},{}", tilts[0], tilts[1]), 0, {}});
@@ -83,7 +84,7 @@ void drawHands(InstrumentDesk& desk, Editor& editor) {
   }
   if (desk.rehearsal && desk.guidance == Guidance::tested) return;
   ui::gap(editor);
-  if (!ImGui::CollapsingHeader("Troubles")) return;
+  if (!ImGui::CollapsingHeader("Simulate a fault")) return;
   first = true;
   for (const auto& trouble : troubleRows()) {
     const std::string id = trouble.id;

@@ -82,7 +82,7 @@ class InstrumentPanel {
 
   void tabs(Editor& editor) {
     if (!ImGui::BeginTabBar("desk")) return;
-    if (ImGui::BeginTabItem("Hands")) {
+    if (ImGui::BeginTabItem("Equipment")) {
       drawHands(desk_, editor);
       ImGui::EndTabItem();
     }

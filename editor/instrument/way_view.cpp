@@ -7,6 +7,7 @@
 
 #include "editor/instrument/desk.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/number_field.h"
 #include "editor/widgets/widgets.h"
 #include "emulated-ui/device/format.h"
 
@@ -18,10 +19,10 @@ using Kind = RehearsalAction::Kind;
 
 constexpr double kSlowest_m_s = 0.05, kFastest_m_s = 5;
 
-bool number(const char* id, double& value, const char* format) {
+void number(const char* id, double& value, const NumberKind& kind = {}) {
   ImGui::TableNextColumn();
-  ImGui::SetNextItemWidth(-1);
-  return ImGui::InputDouble(id, &value, 0, 0, format);
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  ui::numberField(id, value, {.kind = kind, .decimals = 2});
 }
 
 // One row for each place; the number of the one to be taken out, or -1.
@@ -36,12 +37,12 @@ int places(std::vector<WayPoint>& way) {
   for (std::size_t i = 0; i < way.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
     ImGui::TableNextRow();
-    number("###x", way[i].x_m, "%.2f");
-    number("###y", way[i].y_m, "%.2f");
+    number("###x", way[i].x_m);
+    number("###y", way[i].y_m);
     if (i == 0)
       ImGui::TableNextColumn();
-    else if (number("###speed", way[i].speed_m_s, "%.2f"))
-      way[i].speed_m_s = std::clamp(way[i].speed_m_s, kSlowest_m_s, kFastest_m_s);
+    else
+      number("###speed", way[i].speed_m_s, {.least = kSlowest_m_s, .most = kFastest_m_s});
     ImGui::TableNextColumn();
     if (ui::iconButton(ICON_TRASH "###remove", "Remove waypoint")) removed = static_cast<int>(i);
     ImGui::PopID();

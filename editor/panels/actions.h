@@ -59,7 +59,7 @@ class Actions {
   virtual void wantReadiness() = 0;  // of a scan
   virtual void wantTargets() = 0;
 
-  // A model that is looked at before it is taken in.
+  // A model that is previewed before it is imported.
   virtual void acceptPreview() = 0;
   virtual void addPreview() = 0;
   virtual void closePreview() = 0;

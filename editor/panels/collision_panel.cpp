@@ -8,6 +8,7 @@
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 #include "project/model/model_verbs.h"
@@ -21,10 +22,9 @@ struct CollisionState {
   std::set<std::string> closed;  // ids of the doors that stand closed, where each is set
 };
 
-void numberRow(const char* label, const char* id, double& value, float low, float high) {
+void numberRow(const char* label, const char* id, double& value, double low, double high) {
   ui::propertyLabel(label);
-  auto shown = static_cast<float>(value);
-  if (ImGui::SliderFloat(id, &shown, low, high, "%.2f m", ImGuiSliderFlags_AlwaysClamp)) value = shown;
+  ui::numberSlider(id, value, low, high, {.kind = {.unit = "m", .least = low, .most = high}, .decimals = 2});
 }
 
 void selectable(const Model& model, Actions& actions, std::uint32_t product) {
@@ -122,8 +122,8 @@ void draw(const Model& model, CollisionState& state, Actions& actions) {
   }
   if (ui::beginProperties("agent", 0.42F)) {
     Body walker = model.walker;
-    numberRow("Agent radius", "###radius", walker.radius_m, 0.05F, 1.0F);
-    numberRow("Agent height", "###height", walker.height_m, 0.3F, 2.5F);
+    numberRow("Agent radius", "###radius", walker.radius_m, 0.05, 1);
+    numberRow("Agent height", "###height", walker.height_m, 0.3, 2.5);
     actions.set(walker);
     ui::propertyLabel("Doors");
     auto doors = static_cast<int>(state.doors);

@@ -10,6 +10,7 @@
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 #include "project/model/model_verbs.h"
@@ -99,13 +100,16 @@ void drawForm(const Model& model, GeoreferenceState& state, Actions& actions) {
     ui::propertyLabel("CRS");
     ImGui::InputTextWithHint("###crs", "EPSG:25832", &state.crs);
     ui::propertyLabel("Origin on the map");
-    static constexpr const char* kAxes[] = {"E %.3f", "N %.3f", "H %.3f"};
-    for (std::size_t i = 0; i < 3; ++i) {
+    static constexpr const char* kAxes[] = {"E", "N", "H"};
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      ImGui::AlignTextToFramePadding();
+      ui::dimText(kAxes[i]);
+      ImGui::SameLine(1.5F * ImGui::GetFontSize());
       ImGui::SetNextItemWidth(-FLT_MIN);
-      ImGui::InputDouble(fmt::format("###origin{}", i).c_str(), &state.origin_m[i], 0, 0, kAxes[i]);
+      ui::numberField(fmt::format("###origin{}", i).c_str(), state.origin_m[i], {.kind = {.unit = "m"}, .decimals = 3});
     }
     ui::propertyLabel("Rotation");
-    ImGui::InputDouble("###rotation", &state.rotation_deg, 0, 0, "%.6f°");
+    ui::numberField("###rotation", state.rotation_deg, {.kind = {.unit = "°"}, .decimals = 6});
     ui::endProperties();
   }
   if (!ui::primaryButton(ICON_GLOBE "  Set georeference###georeference", model.session.whyNot("georeference"),

@@ -13,6 +13,7 @@
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 #include "materials/materials.h"
@@ -163,8 +164,11 @@ std::string reading(const ExpectedReturn& expected) {
 void drawReported(const Model& model, MaterialCardState& state, const PhysicalMaterial& m) {
   ui::heading(model, "Reported by scanners");
   auto& degrees = state.incidence_deg;
-  ImGui::SetNextItemWidth(-1);
-  ImGui::SliderInt("###incidence", &degrees, 0, 80, "%d° incidence");
+  ImGui::AlignTextToFramePadding();
+  ui::dimText("Incidence");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  ui::numberSlider("###incidence", degrees, 0, 80, {.kind = {.unit = "°", .least = 0, .most = 89}, .decimals = 0});
   if (!ImGui::BeginTable("reported", 1 + static_cast<int>(kCardRanges_m.size()), ImGuiTableFlags_RowBg)) return;
   ImGui::TableSetupColumn("###instrument", ImGuiTableColumnFlags_WidthStretch, 1.5F);
   for (const double range : kCardRanges_m)

@@ -12,7 +12,7 @@ struct Model;
 
 struct MaterialCardState {
   std::optional<MaterialEdit> edit;  // the card shows its fields
-  int incidence_deg = 0;             // of the card's readings
+  double incidence_deg = 0;          // of the card's readings
 };
 
 // In the card's place, while a material is edited.

@@ -11,6 +11,7 @@
 #include "editor/panels/actions.h"
 #include "editor/panels/material_card_panel.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/number_field.h"
 #include "editor/widgets/widgets.h"
 #include "project/materials/materials_verb.h"
 
@@ -24,23 +25,21 @@ void text(const char* label, const char* id, const char* hint, std::string& valu
   ImGui::InputTextWithHint(id, hint, &value);
 }
 
-void number(const char* label, const char* id, double& value, double most, const char* format) {
-  constexpr double kZero = 0;
+void number(const char* label, const char* id, double& value, double most, const char* unit, int decimals) {
   ui::propertyLabel(label);
-  ImGui::SetNextItemWidth(-FLT_MIN);
-  ImGui::SliderScalar(id, ImGuiDataType_Double, &value, &kZero, &most, format, ImGuiSliderFlags_AlwaysClamp);
+  ui::numberSlider(id, value, 0, most, {.kind = {.unit = unit, .least = 0, .most = most}, .decimals = decimals});
 }
 
 void spectrum(const char* title, const char* id, std::array<double, 7>& percent) {
   for (std::size_t i = 0; i < percent.size(); ++i)
     number(fmt::format("{}{:.0f} nm", i == 0 ? title : "", MaterialEdit::kWavelengths_nm[i]).c_str(),
-           fmt::format("###{}{}", id, i).c_str(), percent[i], 100, "%.1f %%");
+           fmt::format("###{}{}", id, i).c_str(), percent[i], 100, "%", 1);
 }
 
-void cell(const char* id, double& value, const char* format) {
+void cell(const char* id, double& value, int decimals) {
   ImGui::TableNextColumn();
   ImGui::SetNextItemWidth(-FLT_MIN);
-  ImGui::InputDouble(id, &value, 0, 0, format);
+  ui::numberField(id, value, {.kind = {.least = 0}, .decimals = decimals});
 }
 
 // A row for each wavelength; what is added or taken away is so only when all are drawn.
@@ -54,9 +53,9 @@ void drawComplexIndex(MaterialEdit& edit) {
     for (std::size_t i = 0; i < edit.complex_index.size(); ++i) {
       auto& [wavelength, n, k] = edit.complex_index[i];
       ImGui::TableNextRow();
-      cell(fmt::format("###wavelength{}", i).c_str(), wavelength, "%.0f");
-      cell(fmt::format("###n{}", i).c_str(), n, "%.3f");
-      cell(fmt::format("###k{}", i).c_str(), k, "%.3f");
+      cell(fmt::format("###wavelength{}", i).c_str(), wavelength, 0);
+      cell(fmt::format("###n{}", i).c_str(), n, 3);
+      cell(fmt::format("###k{}", i).c_str(), k, 3);
       ImGui::TableNextColumn();
       if (ui::iconButton(fmt::format("{}###add{}", ICON_ADD, i).c_str(), "Insert row below")) add = i;
       ImGui::SameLine(0, 0);
@@ -73,23 +72,24 @@ void drawFields(MaterialEdit& edit) {
   text("Name", "###label", "Hall plaster", edit.label);
   text("Id", "###id", "plaster_of_the_hall", edit.id);
   spectrum("Reflects, ", "reflectance", edit.reflectance_percent);
-  number("Roughness σ", "###roughness", edit.roughness_deg, 60, "%.1f°");
-  number("Gloss slope", "###gloss", edit.gloss_slope, 1, "%.3f");
+  number("Roughness σ", "###roughness", edit.roughness_deg, 60, "°", 1);
+  number("Gloss slope", "###gloss", edit.gloss_slope, 1, "", 3);
   ui::propertyLabel("Metal");
   ImGui::Checkbox("###metal", &edit.metal);
   ui::tooltip("Use n and k by wavelength instead of a single index of refraction");
   if (!edit.metal) {
-    number("Index n", "###index", edit.index_of_refraction, 3, "%.3f");
+    number("Index n", "###index", edit.index_of_refraction, 3, "", 3);
     ui::propertyLabel("Transparent");
     ImGui::Checkbox("###pane", &edit.pane);
   }
   if (edit.pane && !edit.metal) {
     spectrum("Transmittance, ", "transmittance", edit.transmittance_percent);
-    number("Thickness", "###thickness", edit.thickness_mm, 50, "%.1f mm");
+    number("Thickness", "###thickness", edit.thickness_mm, 50, "mm", 1);
     ui::propertyLabel("Panes");
-    ImGui::SetNextItemWidth(-FLT_MIN);
-    ImGui::SliderInt("###panes", &edit.panes, 1, 4);
-    if (edit.panes > 1) number("Gap", "###gap", edit.gap_mm, 100, "%.0f mm");
+    double panes = edit.panes;
+    if (ui::numberField("###panes", panes, {.kind = {.least = 1, .most = 4, .whole = true}, .step = 1}))
+      edit.panes = static_cast<int>(panes);
+    if (edit.panes > 1) number("Gap", "###gap", edit.gap_mm, 100, "mm", 0);
   }
   text("Source", "###source", "Source of the measurement; leave empty if unknown", edit.source);
   ui::endProperties();

@@ -12,6 +12,7 @@
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 
@@ -178,15 +179,14 @@ void draw(const Model& model, OptimiseState& state, Actions& actions) {
   ImGui::BeginDisabled(state.only_lossless);
   if (ui::beginProperties("options", 0.42F)) {
     ui::propertyLabel("Budget");
-    auto percent = static_cast<float>(state.budget_fraction * 100);
-    if (ImGui::SliderFloat("###budget", &percent, 1, 100, fmt::format("%.0f %%  =  {}", groupedDigits(budget)).c_str(),
-                           ImGuiSliderFlags_AlwaysClamp))
+    double percent = state.budget_fraction * 100;
+    if (ui::numberSlider("###budget", percent, 1, 100,
+                         {.kind = {.unit = "%", .least = 0.01, .most = 100}, .decimals = 0}))
       state.budget_fraction = percent / 100;
+    ui::property(" ", groupedDigits(budget) + " triangles");
     ui::propertyLabel("Max deviation");
-    auto deviation = static_cast<float>(state.max_deviation_mm);
-    if (ImGui::SliderFloat("###deviation", &deviation, 0.5F, 100, "%.1f mm",
-                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
-      state.max_deviation_mm = deviation;
+    ui::numberSlider("###deviation", state.max_deviation_mm, 0.5, 100,
+                     {.kind = {.unit = "mm", .least = 0.001, .most = 10000}, .decimals = 1}, nullptr, true);
     ui::propertyLabel("Engine");
     chooseEngine(state.engine);
     ui::endProperties();

@@ -7,6 +7,7 @@
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 #include "project/survey/survey_verbs.h"
@@ -53,12 +54,11 @@ void drawWishes(const Model& model, Actions& actions) {
   if (!ui::beginProperties("wishes", 0.46F)) return;
   SeenLimits limits = model.seen;
   ui::propertyLabel("Point spacing");
-  ImGui::InputDouble("###spacing", &limits.spacing_mm, 0, 0, limits.spacing_mm > 0 ? "%.1f mm" : "any");
-  ui::tooltip("Maximum point spacing for a surface to count as covered; 0 = any return counts");
-  limits.spacing_mm = std::max(0.0, limits.spacing_mm);
+  ui::numberField("###spacing", limits.spacing_mm, {.kind = {.unit = "mm", .least = 0}, .decimals = 1, .zero = "any"},
+                  "Maximum point spacing for a surface to count as covered; 0 = any return counts");
   ui::propertyLabel("Max incidence");
-  ImGui::InputDouble("###incidence", &limits.max_incidence_deg, 0, 0, "%.0f °");
-  limits.max_incidence_deg = std::clamp(limits.max_incidence_deg, 1.0, 90.0);
+  ui::numberField("###incidence", limits.max_incidence_deg,
+                  {.kind = {.unit = "°", .least = 1, .most = 90}, .decimals = 0});
   actions.set(limits);
   ui::endProperties();
 }

@@ -12,6 +12,7 @@
 #include "editor/panels/actions.h"
 #include "editor/panels/scan_panel.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 
@@ -51,29 +52,28 @@ struct WeatherField {
   const char* label;
   const char* id;
   double Weather::*value;
-  const char* format;
+  const char* unit;
   const char* help;
 };
 
 void drawWeather(const Model& model, ScanChoice& asked) {
   if (!folded("Weather", weatherSummary(asked.weather), "weather")) return;
   static constexpr std::array kFields = {
-      WeatherField{"Visibility", "visibility", &Weather::visibility_km, "%.4g km",
+      WeatherField{"Visibility", "visibility", &Weather::visibility_km, "km",
                    "Visibility of the air: 23 km is a clear day, 5 km light haze"},
-      WeatherField{"Rain", "rain", &Weather::rain_mm_h, "%.4g mm/h",
+      WeatherField{"Rain", "rain", &Weather::rain_mm_h, "mm/h",
                    "Rain rate. 0 = none, 2 light, 10 heavy. Drops attenuate the beam and cause false points."},
-      WeatherField{"Snow", "snow", &Weather::snow_mm_h, "%.4g mm/h",
-                   "Snowfall as water equivalent. 0 = none, 1 moderate."},
-      WeatherField{"Fog", "fog", &Weather::fog_mor_m, "%.4g m", "Visibility in fog. 0 = no fog, 200 dense."},
-      WeatherField{"Dust", "dust", &Weather::dust_mor_m, "%.4g m", "Visibility in dust. 0 = none."}};
+      WeatherField{"Snow", "snow", &Weather::snow_mm_h, "mm/h", "Snowfall as water equivalent. 0 = none, 1 moderate."},
+      WeatherField{"Fog", "fog", &Weather::fog_mor_m, "m", "Visibility in fog. 0 = no fog, 200 dense."},
+      WeatherField{"Dust", "dust", &Weather::dust_mor_m, "m", "Visibility in dust. 0 = none."}};
   if (ui::beginProperties("weather", 0.36F)) {
     for (const auto& f : kFields) {
       ui::propertyLabel(f.label);
       double& value = asked.weather.*f.value;
-      const bool none = value == 0 && f.value != &Weather::visibility_km;
-      ImGui::InputDouble(fmt::format("###weather-{}", f.id).c_str(), &value, 0, 0, none ? "none" : f.format);
-      ui::tooltip(f.help);
-      value = std::max(0.0, value);
+      ui::numberField(
+          fmt::format("###weather-{}", f.id).c_str(), value,
+          {.kind = {.unit = f.unit, .least = 0}, .zero = f.value != &Weather::visibility_km ? "none" : nullptr},
+          f.help);
     }
     ui::endProperties();
   }
@@ -147,10 +147,10 @@ void drawExtras(ScanState& state, ScanChoice& asked, const Instrument& instrumen
       "Keeps stations finished by a cancelled or crashed run. Off: scans all stations; remove the files of the earlier "
       "run first.");
   ui::propertyLabel("Noise seed");
-  auto seed = static_cast<std::int64_t>(asked.seed);
-  ImGui::InputScalar("###seed", ImGuiDataType_S64, &seed);
-  ui::tooltip("The same seed reproduces the same noise");
-  asked.seed = static_cast<std::uint64_t>(std::clamp<std::int64_t>(seed, 0, 9007199254740991));
+  auto seed = static_cast<double>(asked.seed);
+  if (ui::numberField("###seed", seed, {.kind = {.least = 0, .most = 9007199254740991.0, .whole = true}},
+                      "The same seed reproduces the same noise"))
+    asked.seed = static_cast<std::uint64_t>(seed);
   ui::endProperties();
 }
 

@@ -17,6 +17,7 @@
 #include "editor/panels/panel.h"
 #include "editor/panels/scan_conditions.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 #include "pointclouds/formats.h"
@@ -57,9 +58,9 @@ void drawInstrumentChoice(const Model& model, ScanChoice& asked, const Instrumen
 // A setting that is a number within bounds.
 void drawNumber(const InstrumentSetting& setting, std::string& text) {
   double number = std::strtod(text.c_str(), nullptr);
-  const std::string unit = setting.unit == "deg" ? "°" : setting.unit;
-  if (!ImGui::InputDouble("###value", &number, 0, 0, ("%.4g " + unit).c_str())) return;
-  text = fmt::format("{}", std::clamp(number, setting.minimum, setting.maximum));
+  const NumberKind kind{
+      .unit = setting.unit == "deg" ? "°" : setting.unit, .least = setting.minimum, .most = setting.maximum};
+  if (ui::numberField("###value", number, {.kind = kind}, rangeText(kind).c_str())) text = exactText(number);
 }
 
 void drawSetting(ScanChoice& asked, const InstrumentSetting& setting) {
@@ -73,7 +74,6 @@ void drawSetting(ScanChoice& asked, const InstrumentSetting& setting) {
   ImGui::PushID(setting.key.c_str());
   if (setting.choices.empty()) {
     drawNumber(setting, value->second);
-    ui::tooltip(fmt::format("{} to {} {}", setting.minimum, setting.maximum, setting.unit));
   } else if (ImGui::BeginCombo("###value", shown.c_str())) {
     for (const auto& choice : setting.choices)
       if (ImGui::Selectable(fmt::format("{}###{}", choice.label, choice.value).c_str(), choice.value == value->second))

@@ -10,6 +10,7 @@
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 #include "project/survey/survey_verbs.h"
@@ -87,7 +88,8 @@ void drawChosenStation(const Model& model, SurveyState& state, Actions& actions,
     static constexpr const char* kAxes[] = {"X", "Y", "Z"};
     for (std::size_t i = 0; i < 3; ++i) {
       ui::propertyLabel(kAxes[i]);
-      ImGui::InputDouble(fmt::format("###move{}", i).c_str(), &state.move_to[i], 0, 0, "%.3f m");
+      ui::numberField(fmt::format("###move{}", i).c_str(), state.move_to[static_cast<Eigen::Index>(i)],
+                      {.kind = {.unit = "m"}, .decimals = 3});
     }
     ui::property("Above floor", metres(station.instrument_height_m));
     if (station.solved_pose) {

@@ -10,18 +10,21 @@
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/number_field.h"
 #include "editor/widgets/widgets.h"
 
 namespace standpoint {
 
 namespace {
 
+std::string_view shownUnit(const Parameter& p) { return std::string_view(p.unit) == "deg" ? "°" : p.unit; }
+
 void drawNumber(OptionField& field) {
   const auto& p = *field.parameter;
   const bool whole = p.kind == ParameterKind::integer;
-  const std::string format = whole ? "%.0f" : "%.4g";
-  if (ImGui::InputDouble("###value", &field.number, whole ? 1 : 0, 0, format.c_str()))
-    field.number = std::clamp(whole ? std::round(field.number) : field.number, p.minimum, p.maximum);
+  ui::numberField("###value", field.number,
+                  {.kind = {.unit = shownUnit(p), .least = p.minimum, .most = p.maximum, .whole = whole},
+                   .step = whole ? 1.0 : 0.0});
 }
 
 void drawChoice(OptionField& field) {
@@ -60,7 +63,11 @@ void drawValue(Editor& editor, OptionField& field) {
     case ParameterKind::choice: drawChoice(field); break;
     case ParameterKind::path: drawPath(editor, field); break;
     case ParameterKind::triple:
-      ImGui::InputScalarN("###value", ImGuiDataType_Double, field.triple.data(), 3, nullptr, nullptr, "%.3f");
+      for (std::size_t i = 0; i < field.triple.size(); ++i) {
+        ImGui::SetNextItemWidth(-FLT_MIN);
+        ui::numberField(fmt::format("###value{}", i).c_str(), field.triple[i],
+                        {.kind = {.unit = shownUnit(*field.parameter)}, .decimals = 3});
+      }
       break;
     case ParameterKind::pairs:
     case ParameterKind::list:
@@ -77,8 +84,7 @@ void drawOptionForm(Editor& editor, OptionForm& form) {
   for (auto& field : form.fields()) {
     const auto& p = *field.parameter;
     ImGui::PushID(p.name);
-    const std::string unit = *p.unit != 0 ? fmt::format("  [{}]", p.unit) : "";
-    ui::propertyLabel((readableOption(p.name) + unit).c_str());
+    ui::propertyLabel(readableOption(p.name).c_str());
     const bool optional = !p.required && p.default_value.is_null() && p.kind != ParameterKind::flag;
     if (optional) {
       ImGui::Checkbox("###given", &field.given);

@@ -12,6 +12,7 @@
 #include "editor/shell/editor.h"
 #include "editor/shell/expected_overlay.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 
@@ -138,10 +139,11 @@ void cutChip(Editor& editor) {
   }
   if (!cut) return;
   beside(editor, editor.px(90));
-  auto height = static_cast<float>(*cut + shift);
+  double height = *cut + shift;
   ImGui::SetNextItemWidth(editor.px(90));
-  if (ImGui::DragFloat("###cut-height", &height, 0.02F, 0, 0, "%.2f m")) cut = height - shift;
-  ui::tooltip("Drag to move the cut");
+  if (ui::numberField("###cut-height", height, {.kind = {.unit = "m"}, .decimals = 2, .drag = 0.02},
+                      "Type the height of the cut, or drag its unit"))
+    cut = height - shift;
 }
 
 void toggle(Editor& editor, const char* icon, const char* id, bool lit) {

@@ -3,14 +3,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdlib>
-#include <cstring>
 #include <unistd.h>
 
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
-#include <imgui_internal.h>
 #include <vtk_glew.h>
 
 #include "editor/model/input_queue.h"
@@ -29,19 +26,6 @@ namespace {
 constexpr int kFramesAfterInput = 3;  // hovering and layouts settle one frame late
 constexpr double kStill_s = 0.25;     // without input the picture is made fine
 std::atomic<bool> window_open{false};
-
-// Dear ImGui drops a comma from a field for numbers, so that 0,3 would become 3: it is the decimal sign there. Between
-// two frames nothing tells such a field but what stood in it when editing began: a number with a decimal point, and a
-// unit.
-unsigned numberSign(unsigned code) {
-  const auto* edited = ImGui::GetInputTextState(ImGui::GetActiveID());
-  if (code != ',' || edited == nullptr || edited->InitialTextA.empty()) return code;
-  const char* const before = edited->InitialTextA.Data;
-  char* end = nullptr;
-  std::strtod(before, &end);
-  const bool decimal = std::memchr(before, '.', static_cast<std::size_t>(end - before)) != nullptr;
-  return decimal && std::strpbrk(end, ".,") == nullptr ? '.' : code;
-}
 
 class Window {
  public:
@@ -191,7 +175,7 @@ class Window {
         io.MouseWheel += static_cast<float>(e.y);
         break;
       case InputEvent::Kind::key: keyboard::change(e.code, e.down); break;
-      case InputEvent::Kind::character: io.AddInputCharacter(numberSign(static_cast<unsigned>(e.code))); break;
+      case InputEvent::Kind::character: io.AddInputCharacter(static_cast<unsigned>(e.code)); break;
     }
   }
 

@@ -6,6 +6,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "core/number_text.h"
 #include "emulated-ui/device/numbers.h"
 #include "emulated-ui/draw/pen.h"
 
@@ -140,8 +141,8 @@ bool typedField(Pen& pen, const Widget& w, std::string& text, bool number) {
   bool &clicked = io.MouseClicked[ImGuiMouseButton_Left], &down = io.MouseDown[ImGuiMouseButton_Left];
   const bool edited = keyboard.field == w.id, was_clicked = clicked, was_down = down;
   if (edited && keyboardIsPressed(pen)) clicked = down = false;
-  const auto flags = ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll |
-                     ImGuiInputTextFlags_CallbackAlways | (number ? ImGuiInputTextFlags_CharsDecimal : 0);
+  const auto flags =
+      ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_CallbackAlways;
   const bool entered = ImGui::InputText(("###" + w.id).c_str(), &text, flags, takeKeys, &keyboard.typed);
   clicked = was_clicked, down = was_down;
   if (edited && keyboard.fresh) ImGui::SetScrollHereY();
@@ -151,6 +152,13 @@ bool typedField(Pen& pen, const Widget& w, std::string& text, bool number) {
   if (!edited && !ImGui::IsMouseDown(ImGuiMouseButton_Left))  // else it would come up below the finger
     keyboard = {w.id, number ? KeyPage::figures : KeyPage::letters, true, {}};
   return entered;
+}
+
+// The device reads plain figures: "2,5" and "1+1,5" are brought into that form, and what is no number stays as it is.
+std::string plainFigures(const std::string& text, const std::string& unit) {
+  if (numberIn(text)) return text;
+  const auto number = numberFromText(text, {.unit = unit});
+  return number ? exactText(*number) : text;
 }
 
 // What is typed is taken over when the field is left or Enter is pressed.
@@ -169,7 +177,7 @@ void entry(Pen& pen, const Widget& w, bool number) {
   const bool entered = typedField(pen, w, text, number);
   if (ImGui::IsItemActive()) pen.view.typing[w.id] = text;
   if (entered || ImGui::IsItemDeactivated()) {
-    if (text != w.value) pen.pressed(w.id, text);
+    if (text != w.value) pen.pressed(w.id, number ? plainFigures(text, w.unit) : text);
     pen.view.typing.erase(w.id);
   }
   ImGui::PopStyleVar(2);

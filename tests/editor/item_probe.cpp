@@ -84,7 +84,7 @@ GuiDriver::~GuiDriver() { ImGui::DestroyContext(); }
 void GuiDriver::frame() {
   itemProbe().items.clear();
   ImGui::NewFrame();
-  drawShell(editor_);
+  draws ? draws() : drawShell(editor_);
   ImGui::Render();
 }
 

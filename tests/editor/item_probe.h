@@ -49,6 +49,7 @@ class GuiDriver {
   void key(int glfw_key, bool ctrl = false, bool shift = false);
   void type(const std::string& text);
   const GuiItem* find(const std::string& label) { return itemProbe().find(label); }
+  std::function<void()> draws;  // what is looked at; empty: the editor
 
  private:
   Editor& editor_;

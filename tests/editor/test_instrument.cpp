@@ -111,18 +111,18 @@ TEST_F(InstrumentGui, LocksOnlyTheFieldsOfDeviceAndScannerDuringAnExercise) {
 }
 
 TEST_F(InstrumentGui, TurnsTheFootScrewsByItsButtons) {
-  openTab("Hands");
+  openTab("Equipment");
   ASSERT_TRUE(gui.click("###screw0"));
   gui.key('A', true);
   gui.type("0.5");
   gui.key(257);
   gui.frames(3);
-  ASSERT_TRUE(gui.click("+")) << "of the first screw";
+  ASSERT_TRUE(gui.click("+###more")) << "of the first screw";
   gui.frames(3);
   ASSERT_TRUE(gui.click("###screw0"));
   gui.key('A', true);
   gui.key('C', true);
-  EXPECT_STREQ(ImGui::GetClipboardText(), "0.520°");
+  EXPECT_STREQ(ImGui::GetClipboardText(), "0.52");
 }
 
 // The desk without a window.
