@@ -20,6 +20,7 @@ struct FileDialogState {
   std::filesystem::path folder;
   std::string folder_text;  // the editable path line
   std::string name;         // chosen or typed
+  std::string offered;      // the name that it began with
   std::vector<std::string> extensions;
   FileOrder order = FileOrder::name;
   bool descending = false;
@@ -27,16 +28,19 @@ struct FileDialogState {
   bool stale = true;  // the folder must be read again
   bool confirm_overwrite = false;
   std::function<void(const std::filesystem::path&)> done;
+  std::function<void()> cancelled;
 };
 
 struct VerbDialogState {
   bool open = false;
   std::string verb;
   OptionForm form;
+  nlohmann::json begun_with;  // the options when it was opened
 };
 
 struct PaletteState {
   bool open = false;
+  bool shown = false;  // it has been drawn
   std::string query;
   int chosen = 0;
 };

@@ -47,6 +47,7 @@ struct Probe {
   double height_m = 1.7;                    // above what it stands on
   std::string instrument = "leica-rtc360";
   bool dragged = false;
+  std::optional<Eigen::Vector3d> dragged_from;
 };
 
 struct ViewportState {
@@ -64,6 +65,7 @@ struct ViewportState {
   Eigen::Vector2d size = {800, 600};  // of the picture, in interface points
   std::optional<Eigen::Vector3d> measured_from, measured_to;
   bool dragging = false;
+  Camera camera_before_drag;  // which Esc brings back
   bool dragged = false;
   bool in_right_half = false;  // where the pointer is, or began to drag, when both models are shown
   int dragged_station = -1;    // by the pointer

@@ -10,6 +10,7 @@
 #include "editor/model/interface_scale.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
+#include "editor/shell/escape.h"
 #include "editor/shell/import_preview.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keyboard.h"
@@ -62,16 +63,6 @@ void walk(Editor& e) {
 std::string whyWalkNot(const Editor& e) {
   if (auto why = whyNoCollision(e); !why.empty()) return why;
   return e.session.document().collision->walkable.triangles.empty() ? "There is no walkable surface" : "";
-}
-void escape(Editor& e) {
-  if (e.view.tool != Tool::select) {
-    e.walk.stop();
-    e.view.tool = Tool::select;
-    e.view.measured_from.reset();
-    e.view.measured_to.reset();
-  } else {
-    e.selection.clear();
-  }
 }
 void lookFrom(Editor& e, StandardView view) {
   look(e.view.camera, view);
@@ -159,7 +150,7 @@ const std::array kActions = {
     Action{"undo", "Undo", ICON_UNDO, {'Z', true}, [](Editor& e) { e.session.undo(); }, whyUndoNot},
     Action{"redo", "Redo", ICON_REDO, {'Y', true}, [](Editor& e) { e.session.redo(); }, whyRedoNot},
     Action{"select-all", "Select all", "", {'A', true}, selectAll, whyNoModel},
-    Action{"select-none", "Clear selection, leave tool", "", {kKeyEscape}, escape, nullptr},
+    Action{"select-none", "Clear selection, leave tool", "", {kKeyEscape}, leaveTool, nullptr},
     Action{"frame", "Frame selection", ICON_EXPAND, {'F'}, [](Editor& e) { e.frameSelection(); }, whyNoModel},
     Action{"view-front", "Front view", "", {'1'}, [](Editor& e) { lookFrom(e, StandardView::front); }, whyNoModel},
     Action{"view-back", "Back view", "", {'1', true}, [](Editor& e) { lookFrom(e, StandardView::back); }, whyNoModel},
@@ -449,6 +440,7 @@ void runShortcuts(Editor& editor) {
   if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
   for (const auto& action : kActions) {
     const auto& s = action.shortcut;
+    if (s.key == kKeyEscape) continue;  // closeTopmost
     if (io.WantTextInput && !leavesText(s)) continue;
     const bool shifted = s.shift == io.KeyShift || s.key == kKeyPlus;  // some keyboards need Shift for a plus
     if (s.key != 0 && s.ctrl == io.KeyCtrl && shifted && keyboard::pressed(s.key)) {
@@ -482,7 +474,8 @@ void actionToolButton(Editor& editor, const char* id) {
 void openVerbForm(Editor& editor, const char* verb) {
   const Verb* found = editor.session.verb(verb);
   if (found == nullptr) return;
-  editor.dialogs.verb = {true, verb, OptionForm(*found)};
+  const OptionForm form(*found);
+  editor.dialogs.verb = {true, verb, form, form.options()};
 }
 
 void whenSaved(Editor& editor, std::function<void()> then) {

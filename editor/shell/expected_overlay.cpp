@@ -149,7 +149,10 @@ bool dragProbe(Editor& editor, ImVec2 origin, bool hovered) {
   const auto at = onScreen(editor, origin);
   const ImVec2 p = ImGui::GetIO().MousePos;
   const bool near = hovered && at && std::hypot(p.x - at->x, p.y - at->y) < editor.px(kGrip_pt);
-  if (near && ImGui::IsMouseClicked(0)) probe.dragged = true;
+  if (near && ImGui::IsMouseClicked(0)) {
+    probe.dragged = true;
+    probe.dragged_from = probe.position;
+  }
   if (!ImGui::IsMouseDown(0)) probe.dragged = false;
   if (near || probe.dragged) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   if (probe.dragged && ImGui::IsMouseDragging(0, 0)) follow(editor, origin);

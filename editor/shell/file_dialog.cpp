@@ -13,6 +13,7 @@
 #include "editor/shell/editor.h"
 #include "editor/shell/import_preview.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/modal.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 #include "importers/importers.h"
@@ -179,9 +180,11 @@ void drawFooter(Editor& editor) {
   const auto why = whyNotAccept(state);
   if (ui::primaryButton((label + "###accept").c_str(), why, {button, 0}) || (entered && why.empty())) accept(editor);
   ImGui::SameLine();
-  if (ImGui::Button("Cancel", {button, 0}) && state.open) {
+  const bool typed = forWriting(state) && state.name != state.offered;
+  if ((ImGui::Button("Cancel", {button, 0}) || ui::modalCancelled(typed)) && state.open) {
     state.open = false;
     ImGui::CloseCurrentPopup();
+    if (const auto cancelled = state.cancelled) cancelled();
   }
   if (state.confirm_overwrite && state.open)
     ImGui::TextColored(colour(tone::kWarning), "%s  '%s' already exists. Press again to replace it.", ICON_WARNING,
@@ -222,7 +225,7 @@ void askForFile(Editor& editor, Purpose purpose, std::string title, std::string 
   std::filesystem::path start = editor.settings.last_folder;
   if (start.empty() || !std::filesystem::is_directory(start, ignored)) start = std::filesystem::current_path(ignored);
   enter(state, start);
-  state.name = std::move(name);
+  state.name = state.offered = std::move(name);
 }
 
 void askForProject(Editor& editor) {
@@ -260,12 +263,7 @@ void askWhereToSave(Editor& editor) {
 void drawFileDialog(Editor& editor) {
   auto& state = editor.dialogs.file;
   const std::string title = state.title + kTitle;
-  if (state.open && !ImGui::IsPopupOpen(title.c_str())) ImGui::OpenPopup(title.c_str());
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowSize({std::min(editor.px(760), display.x * 0.95F), std::min(editor.px(520), display.y * 0.95F)},
-                           ImGuiCond_Appearing);
-  ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Appearing, {0.5F, 0.5F});
-  if (!ImGui::BeginPopupModal(title.c_str(), nullptr, ImGuiWindowFlags_NoSavedSettings)) return;
+  if (!ui::beginModal(editor, title.c_str(), state.open, 760, 520)) return;
   if (state.stale) {
     state.listing = listFolder(state.folder, state.extensions, state.order, state.descending);
     state.stale = false;

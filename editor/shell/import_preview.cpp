@@ -64,9 +64,7 @@ void closePreview(Editor& editor) {
 
 void runPreviewKeys(Editor& editor) {
   if (ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
-  if (keyboard::pressed(kKeyEscape))
-    closePreview(editor);
-  else if (keyboard::pressed(kKeyEnter) || keyboard::pressed(kKeyPadEnter))
+  if (keyboard::pressed(kKeyEnter) || keyboard::pressed(kKeyPadEnter))
     acceptPreview(editor);
   else if (keyboard::pressed('F'))
     editor.frameSelection();

@@ -11,27 +11,13 @@
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
 #include "editor/widgets/icons.h"
-#include "editor/widgets/keyboard.h"
+#include "editor/widgets/modal.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 
 namespace standpoint {
 
 namespace {
-
-// A centred modal that is open as long as `wanted`; false when there is nothing to draw.
-bool beginModal(const Editor& editor, const char* title, bool wanted, float width) {
-  if (wanted && !ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({display.x / 2, display.y * 0.42F}, ImGuiCond_Always, {0.5F, 0.5F});
-  ImGui::SetNextWindowSize({std::min(editor.px(width), display.x * 0.95F), 0});
-  const auto flags = ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove;
-  if (!ImGui::BeginPopupModal(title, nullptr, flags)) return false;
-  if (wanted) return true;
-  ImGui::CloseCurrentPopup();
-  ImGui::EndPopup();
-  return false;
-}
 
 const char* remedy(ErrorKind kind) {
   switch (kind) {
@@ -48,7 +34,7 @@ const char* remedy(ErrorKind kind) {
 
 void drawError(Editor& editor) {
   auto& errors = editor.session.errors();
-  if (!beginModal(editor, "Error###error", !errors.empty(), 520)) return;
+  if (!ui::beginModal(editor, "Error###error", !errors.empty(), 520)) return;
   const ShownError shown = errors.front();
   ImGui::TextColored(colour(tone::kBad), "%s", ICON_WARNING);
   ImGui::SameLine();
@@ -61,7 +47,7 @@ void drawError(Editor& editor) {
   ui::gap(editor, 2);
   ui::wrapped(remedy(shown.error.kind));
   ui::gap(editor, 6);
-  if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || keyboard::pressed(kKeyEscape)) {
+  if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || ui::modalCancelled()) {
     errors.pop_front();
     ImGui::CloseCurrentPopup();
   }
@@ -81,7 +67,7 @@ void leave(Editor& editor) {
 }
 
 void drawUnsaved(Editor& editor) {
-  if (!beginModal(editor, "Unsaved changes###unsaved", editor.dialogs.unsaved, 460)) return;
+  if (!ui::beginModal(editor, "Unsaved changes###unsaved", editor.dialogs.unsaved, 460)) return;
   ui::wrapped(fmt::format("'{}' has unsaved changes. Last change: {}.", editor.session.name(),
                           editor.session.history().undoDescription()));
   ui::gap(editor, 6);
@@ -95,7 +81,7 @@ void drawUnsaved(Editor& editor) {
   ImGui::SameLine();
   if (ImGui::Button("Do not save", {editor.px(110), 0})) leave(editor);
   ImGui::SameLine();
-  if (ImGui::Button("Cancel", {editor.px(110), 0}) || keyboard::pressed(kKeyEscape)) {
+  if (ImGui::Button("Cancel", {editor.px(110), 0}) || ui::modalCancelled()) {
     editor.dialogs.unsaved = false;
     editor.dialogs.after_unsaved = nullptr;
     ImGui::CloseCurrentPopup();
@@ -113,7 +99,7 @@ void continueAfterSave(Editor& editor) {
 
 void drawRecovery(Editor& editor) {
   auto& copies = editor.dialogs.recovery;
-  if (!beginModal(editor, "Recover unsaved work###recovery", !copies.empty(), 500)) return;
+  if (!ui::beginModal(editor, "Recover unsaved work###recovery", !copies.empty(), 500)) return;
   const RecoveryCopy copy = copies.front();
   ui::wrapped(fmt::format("The editor closed unexpectedly. A recovery copy of '{}' is available.", copy.name));
   if (!copy.saved_in.empty()) ui::dimText("Saved in " + copy.saved_in);
@@ -125,7 +111,7 @@ void drawRecovery(Editor& editor) {
   if (ui::primaryButton("Open the copy###open", editor.session.whyNot("open-project"), {editor.px(140), 0})) {
     editor.session.recover(copy);
     close();
-  } else if (ImGui::SameLine(), ImGui::Button("Decide later", {editor.px(120), 0})) {
+  } else if (ImGui::SameLine(), ImGui::Button("Decide later", {editor.px(120), 0}) || ui::modalCancelled(true)) {
     close();
   } else if (ImGui::SameLine(), ImGui::Button("Delete the copy", {editor.px(140), 0})) {
     removeRecovery(copy.folder);
@@ -137,7 +123,7 @@ void drawRecovery(Editor& editor) {
 void drawChangedOnDisk(Editor& editor) {
   auto& session = editor.session;
   const bool free = session.errors().empty() && editor.dialogs.recovery.empty() && !editor.dialogs.unsaved;
-  if (!beginModal(editor, "Project changed on disk###changed", free && session.changedOnDisk(), 500)) return;
+  if (!ui::beginModal(editor, "Project changed on disk###changed", free && session.changedOnDisk(), 500)) return;
   ui::wrapped(fmt::format("Another program has changed '{}'.", session.name()));
   if (session.modified())
     ui::wrapped(
@@ -148,7 +134,7 @@ void drawChangedOnDisk(Editor& editor) {
     ImGui::CloseCurrentPopup();
   }
   ImGui::SameLine();
-  if (ImGui::Button("Keep this version", {editor.px(150), 0}) || keyboard::pressed(kKeyEscape)) {
+  if (ImGui::Button("Keep this version", {editor.px(150), 0}) || ui::modalCancelled(true)) {
     session.keepOverDisk();
     ImGui::CloseCurrentPopup();
   }
@@ -179,7 +165,7 @@ void hintRow(const char* keys, const char* meaning) {
 }
 
 void drawShortcuts(Editor& editor) {
-  if (!beginModal(editor, "Keyboard and mouse###shortcuts", editor.dialogs.shortcuts, 560)) return;
+  if (!ui::beginModal(editor, "Keyboard and mouse###shortcuts", editor.dialogs.shortcuts, 560)) return;
   if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg,
                         {0, std::min(editor.px(480), ImGui::GetIO().DisplaySize.y * 0.6F)})) {
     ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, editor.px(230));
@@ -189,13 +175,13 @@ void drawShortcuts(Editor& editor) {
       if (action.shortcut.key != 0) hintRow(shortcutText(action.shortcut).c_str(), action.title);
     ImGui::EndTable();
   }
-  if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || keyboard::pressed(kKeyEscape))
+  if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || ui::modalCancelled())
     editor.dialogs.shortcuts = false;
   ImGui::EndPopup();
 }
 
 void drawPreferences(Editor& editor) {
-  if (!beginModal(editor, "Preferences###preferences", editor.dialogs.preferences, 460)) return;
+  if (!ui::beginModal(editor, "Preferences###preferences", editor.dialogs.preferences, 460)) return;
   if (ui::beginProperties("preferences", 0.5F)) {
     ui::propertyLabel("Interface size");
     if (ImGui::BeginCombo("###scale", fmt::format("{:.0f} %", editor.settings.user_scale * 100).c_str())) {
@@ -208,19 +194,18 @@ void drawPreferences(Editor& editor) {
     ImGui::Checkbox("###recovery", &editor.settings.recovery);
     ui::endProperties();
   }
-  if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || keyboard::pressed(kKeyEscape))
+  if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || ui::modalCancelled())
     editor.dialogs.preferences = false;
   ImGui::EndPopup();
 }
 
 void drawAbout(Editor& editor) {
-  if (!beginModal(editor, "About Standpoint###about", editor.dialogs.about, 440)) return;
+  if (!ui::beginModal(editor, "About Standpoint###about", editor.dialogs.about, 440)) return;
   ui::wrapped("Standpoint turns building models into environments for rehearsing terrestrial laser scanning.");
   ui::gap(editor);
   ui::dimText("Free software under the GNU General Public License, version 3 or later.");
   ui::gap(editor, 6);
-  if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || keyboard::pressed(kKeyEscape))
-    editor.dialogs.about = false;
+  if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || ui::modalCancelled()) editor.dialogs.about = false;
   ImGui::EndPopup();
 }
 
@@ -230,10 +215,11 @@ void drawVerbDialog(Editor& editor) {
   auto& state = editor.dialogs.verb;
   const Verb* verb = editor.session.verb(state.verb);
   const std::string title = std::string(verb != nullptr ? verb->summary : "") + "###verb-dialog";
-  if (!beginModal(editor, title.c_str(), state.open && verb != nullptr, 560)) return;
+  if (!ui::beginModal(editor, title.c_str(), state.open && verb != nullptr, 560)) return;
   ImGui::BeginChild("form", {0, std::min(editor.px(420), ImGui::GetIO().DisplaySize.y * 0.6F)});
   drawOptionForm(editor, state.form);
   ImGui::EndChild();
+  const bool edited = state.form.options() != state.begun_with;
   std::string why = editor.session.whyNot(state.verb);
   if (why.empty()) why = state.form.problem();
   if (ui::primaryButton("Run###run", why, {editor.px(110), 0})) {
@@ -241,7 +227,7 @@ void drawVerbDialog(Editor& editor) {
     state.open = false;
   }
   ImGui::SameLine();
-  if (ImGui::Button("Cancel", {editor.px(110), 0}) || keyboard::pressed(kKeyEscape)) state.open = false;
+  if (ImGui::Button("Cancel", {editor.px(110), 0}) || ui::modalCancelled(edited)) state.open = false;
   ImGui::EndPopup();
 }
 

@@ -52,6 +52,7 @@ void drawPath(Editor& editor, OptionField& field) {
                  again->text = chosen.string(), again->given = true;
                editor.dialogs.verb.open = true;
              });
+  editor.dialogs.file.cancelled = [&editor] { editor.dialogs.verb.open = true; };
 }
 
 void drawValue(Editor& editor, OptionField& field) {

@@ -83,17 +83,18 @@ void drawEntry(Editor& editor, const Entry& entry, bool chosen, bool& done) {
 
 }  // namespace
 
-void openPalette(Editor& editor) { editor.dialogs.palette = {true, "", 0}; }
+void openPalette(Editor& editor) { editor.dialogs.palette = {true, false, "", 0}; }
 
 void drawPalette(Editor& editor) {
   auto& state = editor.dialogs.palette;
   constexpr const char* kId = "###palette";
-  if (state.open && !ImGui::IsPopupOpen(kId)) ImGui::OpenPopup(kId);
+  if (state.open && !state.shown) ImGui::OpenPopup(kId);
+  state.shown = state.open;
   const float width = std::min(editor.px(600), ImGui::GetIO().DisplaySize.x * 0.9F);
   ImGui::SetNextWindowPos({ImGui::GetIO().DisplaySize.x / 2, editor.px(80)}, ImGuiCond_Always, {0.5F, 0});
   ImGui::SetNextWindowSize({width, 0});
   if (!ImGui::BeginPopup(kId, ImGuiWindowFlags_NoMove)) {
-    state.open = false;
+    state.open = false;  // by a click beside it
     return;
   }
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();

@@ -77,6 +77,7 @@ void PanelActions::openForm(const VerbOptions& filled) {
   if (verb == nullptr) return;
   openVerbForm(editor_, verb->name);
   editor_.dialogs.verb.form.fill(verb->job_options(filled.held()));
+  editor_.dialogs.verb.begun_with = editor_.dialogs.verb.form.options();
 }
 void PanelActions::askForFile(FileDialogState::Purpose purpose, std::string title, std::string accept,
                               std::vector<std::string> extensions, std::string name, WhenChosen done) {

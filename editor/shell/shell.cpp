@@ -14,6 +14,7 @@
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
+#include "editor/shell/escape.h"
 #include "editor/shell/import_preview.h"
 #include "editor/shell/panel_actions.h"
 #include "editor/widgets/icons.h"
@@ -411,7 +412,8 @@ void drawPreviewShell(Editor& editor) {
 
 void drawShell(Editor& editor) {
   editor.update();
-  if (editor.preview.isOpen()) runPreviewKeys(editor);  // which may close it, and then there is nothing of it to draw
+  closeTopmost(editor);  // which may close the preview, and then there is nothing of it to draw
+  if (editor.preview.isOpen()) runPreviewKeys(editor);
   if (editor.preview.isOpen()) {
     drawPreviewShell(editor);
     return;

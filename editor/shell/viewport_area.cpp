@@ -34,6 +34,7 @@ Eigen::Vector2d pointer(ImVec2 origin) {
 void startDrag(Editor& editor) {
   auto& view = editor.view;
   view.dragging = true;
+  view.camera_before_drag = view.camera;
   view.dragged = false;
   view.pivot = view.hover ? view.hover->position : view.camera.target;
   view.pivot_depth_m = std::max(0.1, (view.pivot - view.camera.eye()).dot(view.camera.forward()));

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/shell/escape.h"
+
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include "editor/shell/editor.h"
+#include "editor/shell/import_preview.h"
+#include "editor/widgets/keyboard.h"
+#include "editor/widgets/modal.h"
+
+namespace standpoint {
+
+namespace {
+
+const ImGuiPopupData* topPopup() {
+  const auto& stack = ImGui::GetCurrentContext()->OpenPopupStack;
+  return stack.empty() ? nullptr : &stack.back();
+}
+
+bool isModal(const ImGuiPopupData& popup) {
+  return popup.Window != nullptr && (popup.Window->Flags & ImGuiWindowFlags_Modal) != 0;
+}
+
+bool isSubmenu(const ImGuiPopupData& popup) {
+  return popup.Window != nullptr && (popup.Window->Flags & ImGuiWindowFlags_ChildMenu) != 0;
+}
+
+// The palette's own field is what the palette is, not an edit inside it.
+bool inPalette(const Editor& editor) {
+  const auto* top = topPopup();
+  return editor.dialogs.palette.open && top != nullptr && !isModal(*top);
+}
+
+bool editsText(const Editor& editor) {
+  const auto& g = *ImGui::GetCurrentContext();
+  return g.ActiveId != 0 && g.InputTextState.ID == g.ActiveId && !inPalette(editor);
+}
+
+// A bar or a button that is held: the widget itself sees Esc, and puts back what it moved.
+bool holdsWidget() {
+  return ImGui::GetCurrentContext()->ActiveId != 0 && ImGui::IsAnyMouseDown() && topPopup() == nullptr;
+}
+
+bool dragsInView(const Editor& editor) {
+  const auto& view = editor.view;
+  return view.dragged_station >= 0 || view.probe.dragged || (view.dragging && view.dragged);
+}
+
+void endDrag(Editor& editor) {
+  auto& view = editor.view;
+  if (ImGui::GetCurrentContext()->DragDropActive) {
+    ImGui::ClearDragDrop();
+    ImGui::ClearActiveID();
+  } else if (view.dragged_station >= 0) {
+    view.dragged_station = -1;
+  } else if (view.probe.dragged) {
+    view.probe.dragged = false;
+    view.probe.position = view.probe.dragged_from;
+  } else if (view.dragging && view.dragged) {
+    view.dragging = false;
+    if (view.tool != Tool::walk) view.camera = view.camera_before_drag;
+  }
+}
+
+// A menu goes as a whole: the pointer rests on it, and would open what was closed again.
+void closePopup(Editor& editor) {
+  const auto& stack = ImGui::GetCurrentContext()->OpenPopupStack;
+  int level = stack.Size - 1;
+  while (level > 0 && isSubmenu(stack[level])) --level;
+  ImGui::ClosePopupToLevel(level, true);
+  editor.dialogs.palette.open = false;
+}
+
+void askForClick() {
+  const auto* top = topPopup();
+  if (top == nullptr || !isModal(*top) || !ImGui::IsMouseClicked(0) || !top->Window->WasActive) return;
+  const ImVec2 p = ImGui::GetIO().MousePos;
+  if (!top->Window->Rect().Contains(p)) ui::askModalToGo(top->PopupId, true);
+}
+
+}  // namespace
+
+EscapeLayer escapeLayer(const Editor& editor) {
+  if (editsText(editor)) return EscapeLayer::text;
+  if (ImGui::GetCurrentContext()->DragDropActive || dragsInView(editor) || holdsWidget()) return EscapeLayer::drag;
+  if (const auto* top = topPopup()) return isModal(*top) ? EscapeLayer::modal : EscapeLayer::popup;
+  if (editor.preview.isOpen()) return EscapeLayer::preview;
+  if (editor.view.tool == Tool::walk) return EscapeLayer::walk;
+  if (editor.view.tool != Tool::select) return EscapeLayer::tool;
+  const bool chosen = !editor.selection.empty() || editor.survey.station >= 0 || editor.survey.target >= 0;
+  return chosen ? EscapeLayer::selection : EscapeLayer::none;
+}
+
+void closeTopmost(Editor& editor) {
+  askForClick();
+  if (!keyboard::pressed(kKeyEscape)) return;
+  switch (escapeLayer(editor)) {
+    case EscapeLayer::text: return;  // the field sees the key itself
+    case EscapeLayer::drag: return endDrag(editor);
+    case EscapeLayer::popup: return closePopup(editor);
+    case EscapeLayer::modal: return ui::askModalToGo(topPopup()->PopupId, false);
+    case EscapeLayer::preview: return closePreview(editor);
+    case EscapeLayer::tool:
+    case EscapeLayer::walk:
+    case EscapeLayer::selection:
+    case EscapeLayer::none: return leaveTool(editor);
+  }
+}
+
+void leaveTool(Editor& editor) {
+  if (editor.view.tool != Tool::select) {
+    editor.walk.stop();
+    editor.view.tool = Tool::select;
+    editor.view.measured_from.reset();
+    editor.view.measured_to.reset();
+    return;
+  }
+  editor.selection.clear();
+  editor.survey = {};
+}
+
+}  // namespace standpoint
