@@ -9,8 +9,16 @@ namespace {
 
 using EventKind = InputEvent::Kind;
 
-// A click belongs to the place where the pointer was, so nothing moves after a button within a frame, and a key or a
-// character never overtakes the other.
+// Keys that make no character and need not come first: Shift, Alt, AltGr.
+bool onlyModifies(int code) { return code == 340 || code == 344 || code == 342 || code == 346; }
+
+// Ctrl, Backspace, arrows, Enter: what comes after them is another edit.
+bool editsBeforeCharacters(const InputEvent& e) {
+  return e.kind == EventKind::key && e.down && e.code >= 256 && !onlyModifies(e.code);
+}
+
+// A click belongs to the place where the pointer was, so nothing moves after a button within a frame. Dear ImGui takes
+// the characters of a frame before its keys: a character waits for such a key before it, and no key for a character.
 bool mustWait(const InputEvent& event, const std::vector<InputEvent>& taken) {
   const auto has = [&](EventKind kind) {
     return std::any_of(taken.begin(), taken.end(), [&](const InputEvent& e) { return e.kind == kind; });
@@ -20,11 +28,12 @@ bool mustWait(const InputEvent& event, const std::vector<InputEvent>& taken) {
       return has(EventKind::button) || has(EventKind::scroll) || has(EventKind::key) || has(EventKind::character);
     case EventKind::button: return has(EventKind::button) || has(EventKind::scroll);
     case EventKind::scroll: return has(EventKind::button);
-    case EventKind::character: return has(EventKind::button);
+    case EventKind::character:
+      return has(EventKind::button) || std::any_of(taken.begin(), taken.end(), editsBeforeCharacters);
     case EventKind::key:
-      return has(EventKind::button) || has(EventKind::character) ||
-             std::any_of(taken.begin(), taken.end(),
-                         [&](const InputEvent& e) { return e.kind == EventKind::key && e.code == event.code; });
+      return has(EventKind::button) || std::any_of(taken.begin(), taken.end(), [&](const InputEvent& e) {
+               return e.kind == EventKind::key && e.code == event.code;
+             });
   }
   return false;
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/job_progress.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 
@@ -26,13 +29,15 @@ void drawRunning(const Model& model, VerbTask& task, int i) {
   ImGui::TableNextColumn();
   ui::fitted(task.title(), ImGui::GetContentRegionAvail().x);
   ImGui::TableNextColumn();
-  const auto stage = progress.stageName();
-  const std::string text = fmt::format("{}  {:.0f} %", stage, progress.fraction() * 100);
-  ImGui::ProgressBar(static_cast<float>(progress.fraction()), {ImGui::GetContentRegionAvail().x - model.px(76), 0},
-                     text.c_str());
-  ImGui::SameLine();
-  if (ui::button("Cancel", progress.cancelled() ? "Stops at the next safe point" : "", {model.px(66), 0}))
-    progress.cancel();
+  const float bar = model.px(120), room = ImGui::GetContentRegionAvail().x - bar - model.px(66 + 16);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::SetCursorScreenPos({at.x, at.y + (ImGui::GetFrameHeight() - model.px(6)) / 2});
+  ui::jobBar(model, progress, bar);
+  ImGui::SetCursorScreenPos({at.x + bar + model.px(8), at.y});
+  ImGui::AlignTextToFramePadding();
+  ui::fitted(ui::jobText(progress, task.seconds()), std::max(room, 1.0F));
+  ImGui::SetCursorScreenPos({at.x + bar + room + model.px(16), at.y});
+  ui::cancelButton(model, "Cancel", progress, 66);
   ImGui::TableNextColumn();
   ui::dimText(duration(task.seconds()));
   ImGui::PopID();

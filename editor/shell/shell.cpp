@@ -18,6 +18,7 @@
 #include "editor/shell/import_preview.h"
 #include "editor/shell/panel_actions.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/job_progress.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 
@@ -347,7 +348,8 @@ void drawRunningTask(Editor& editor) {
   if (followed == nullptr) return;
   auto& progress = *followed;
   const std::string title = shown != nullptr ? shown->title() : "Showing " + editor.underlays.reading();
-  const std::string text = fmt::format("{}   {:.0f} %", title, progress.fraction() * 100);
+  const std::string how_far = ui::jobText(progress, shown != nullptr ? shown->seconds() : 0);
+  const std::string text = how_far.empty() ? title : title + "   " + how_far;
   const float bar = editor.px(160), cancel = editor.px(64);
   const float width = ImGui::CalcTextSize(text.c_str()).x + bar + cancel + editor.px(30);
   ImGui::SameLine(std::max(0.0F, ImGui::GetWindowWidth() - width - editor.px(10)));
@@ -356,10 +358,9 @@ void drawRunningTask(Editor& editor) {
   ImGui::SameLine();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::SetCursorScreenPos({at.x, at.y + (ImGui::GetFrameHeight() - editor.px(6)) / 2});
-  ui::meter(editor, progress.fraction(), tone::kAccent, bar);
+  ui::jobBar(editor, progress, bar);
   ImGui::SetCursorScreenPos({at.x + bar + editor.px(10), at.y});
-  if (ui::button("Cancel###cancel-task", progress.cancelled() ? "Stops at the next safe point" : "", {cancel, 0}))
-    progress.cancel();
+  ui::cancelButton(editor, "Cancel###cancel-task", progress, 64);
 }
 
 void drawStatusBar(Editor& editor, const Box& box) {
@@ -381,7 +382,7 @@ void drawStatusBar(Editor& editor, const Box& box) {
   ImGui::End();
 }
 
-// While a model is looked at before it is taken in, there is it and the question, and nothing else.
+// While a model is previewed, there is it and the question, and nothing else.
 void drawPreviewLayout(Editor& editor, const Box& all) {
   const float panel = std::min(editor.px(400), all.w * 0.5F), gap = editor.px(3);
   beginFixed("###preview", {all.x + all.w - panel, all.y, panel, all.h}, {editor.px(14), editor.px(12)},

@@ -10,6 +10,7 @@
 #include <imgui.h>
 #include <vtk_glew.h>
 
+#include "editor/model/frame_pacer.h"
 #include "editor/model/input_queue.h"
 #include "editor/model/interface_scale.h"
 #include "editor/shell/actions.h"
@@ -23,13 +24,19 @@ namespace standpoint {
 
 namespace {
 
-constexpr int kFramesAfterInput = 3;  // hovering and layouts settle one frame late
-constexpr double kStill_s = 0.25;     // without input the picture is made fine
-std::atomic<bool> window_open{false};
+constexpr double kStill_s = 0.25;  // without input the picture is made fine
+std::atomic<FramePacer*> shown_window{nullptr};
+
+class GlfwEvents : public EventSource {
+ public:
+  void poll() override { glfwPollEvents(); }
+  void wait() override { glfwWaitEvents(); }
+  void waitAtMost(double seconds) override { glfwWaitEventsTimeout(seconds); }
+};
 
 class Window {
  public:
-  Window(Editor& editor, GLFWwindow* handle) : editor_(editor), handle_(handle) {
+  Window(Editor& editor, GLFWwindow* handle, FramePacer& pacer) : editor_(editor), handle_(handle), pacer_(pacer) {
     ImGui::CreateContext();
     auto& io = ImGui::GetIO();
     io.IniFilename = nullptr;
@@ -68,7 +75,7 @@ class Window {
       if (glfwWindowShouldClose(handle_) != 0) {
         glfwSetWindowShouldClose(handle_, GLFW_FALSE);
         invoke(editor_, "quit");
-        frames_wanted_ = kFramesAfterInput;
+        pacer_.drawSome();
       }
       drawFrame();
       if (editor_.settings.recovery) keeper_.keep(editor_.session);
@@ -114,12 +121,11 @@ class Window {
         handle_, [](GLFWwindow* w, int focused) { of(w).focus_lost_ = of(w).focus_lost_ || focused == 0; });
     glfwSetDropCallback(handle_, [](GLFWwindow* w, int count, const char** paths) {
       if (count > 0) openFiles(of(w).editor_, {paths, paths + count});
-      of(w).frames_wanted_ = kFramesAfterInput;
+      of(w).pacer_.drawSome();
     });
-    glfwSetFramebufferSizeCallback(handle_, [](GLFWwindow* w, int, int) { of(w).frames_wanted_ = kFramesAfterInput; });
-    glfwSetWindowContentScaleCallback(handle_,
-                                      [](GLFWwindow* w, float, float) { of(w).frames_wanted_ = kFramesAfterInput; });
-    glfwSetWindowRefreshCallback(handle_, [](GLFWwindow* w) { of(w).frames_wanted_ = kFramesAfterInput; });
+    glfwSetFramebufferSizeCallback(handle_, [](GLFWwindow* w, int, int) { of(w).pacer_.drawSome(); });
+    glfwSetWindowContentScaleCallback(handle_, [](GLFWwindow* w, float, float) { of(w).pacer_.drawSome(); });
+    glfwSetWindowRefreshCallback(handle_, [](GLFWwindow* w) { of(w).pacer_.drawSome(); });
   }
 
   void makeCursors() {
@@ -130,23 +136,21 @@ class Window {
     cursors_[ImGuiMouseCursor_Hand] = glfwCreateStandardCursor(GLFW_HAND_CURSOR);
   }
 
-  // Nothing is drawn while nothing happens. Tasks and the ray scene wake us; a blinking text cursor and the moment when
-  // the picture may be made fine need a clock.
+  bool jobRuns() const {
+    return !editor_.session.running().empty() || editor_.underlays.progress() != nullptr || editor_.preview.reading();
+  }
+
   void waitForWork() {
-    glfwPollEvents();
-    if (input_.pending() || frames_wanted_ > 0) return;
-    const auto& io = ImGui::GetIO();
-    if (keyboard::anyHeld()) {
-      glfwWaitEventsTimeout(1.0 / 30);  // Dear ImGui repeats held keys itself, once a frame
-    } else if (io.WantTextInput) {
-      glfwWaitEventsTimeout(0.4);
-    } else if (!editor_.fine_picture) {
-      glfwWaitEventsTimeout(std::max(0.01, last_input_s_ + kStill_s - glfwGetTime()));
-      editor_.fine_picture = !input_.pending() && glfwGetTime() - last_input_s_ >= kStill_s;
-    } else {
-      glfwWaitEvents();
-    }
-    frames_wanted_ = std::max(frames_wanted_, 1);
+    const auto untilFine = [&] { return last_input_s_ + kStill_s - glfwGetTime(); };
+    pacer_.waitForWork(events_, [&] {
+      FramePacer::Reasons reasons{.input = input_.pending(),
+                                  .key_held = keyboard::anyHeld(),
+                                  .text_edited = ImGui::GetIO().WantTextInput,
+                                  .job_runs = jobRuns()};
+      if (!editor_.fine_picture) reasons.until_fine_s = std::max(0.0, untilFine());
+      return reasons;
+    });
+    if (!editor_.fine_picture) editor_.fine_picture = !input_.pending() && untilFine() <= 0;
   }
 
   void takeInput() {
@@ -157,7 +161,7 @@ class Window {
     }
     const auto events = input_.takeFrame();
     if (!events.empty()) {
-      frames_wanted_ = kFramesAfterInput;
+      pacer_.drawSome();
       editor_.fine_picture = false;
     }
     for (const auto& e : events) apply(io, e);
@@ -193,14 +197,14 @@ class Window {
     editor_.fonts = buildFonts(wanted);
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
-    frames_wanted_ = kFramesAfterInput;
+    pacer_.drawSome();
   }
 
   void drawFrame() {
     int window_w = 0, window_h = 0, w = 0, h = 0;
     glfwGetWindowSize(handle_, &window_w, &window_h);
     glfwGetFramebufferSize(handle_, &w, &h);
-    if (frames_wanted_ > 0) --frames_wanted_;
+    pacer_.drawn();
     if (w <= 0 || h <= 0) return;  // minimised
     auto& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(window_w), static_cast<float>(window_h)};
@@ -242,7 +246,8 @@ class Window {
   InputQueue input_;
   std::unique_ptr<SceneView> scene_, beside_;
   GLFWcursor* cursors_[ImGuiMouseCursor_COUNT] = {};
-  int frames_wanted_ = kFramesAfterInput;
+  FramePacer& pacer_;
+  GlfwEvents events_;
   double last_input_s_ = 0, last_frame_s_ = 0;
   RecoveryKeeper keeper_{recoveryFolder(recoveryRoot(), getpid())};
   float built_scale_ = 0;
@@ -253,7 +258,10 @@ class Window {
 }  // namespace
 
 void wakeWindow() {
-  if (window_open.load()) glfwPostEmptyEvent();
+  auto* pacer = shown_window.load(std::memory_order_acquire);
+  if (pacer == nullptr) return;
+  pacer->wake();
+  glfwPostEmptyEvent();
 }
 
 Result<void> runWindow(Editor& editor, int width, int height) {
@@ -275,14 +283,15 @@ Result<void> runWindow(Editor& editor, int width, int height) {
   glfwSetWindowSizeLimits(handle, 800, 500, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwMakeContextCurrent(handle);
   glfwSwapInterval(1);
-  window_open.store(true);
+  FramePacer pacer;
+  shown_window.store(&pacer, std::memory_order_release);
   {
-    Window window(editor, handle);
+    Window window(editor, handle, pacer);
     window.run();
   }
   editor.session.cancelAll();  // a task that still runs may wake a window that is about to go
   editor.session.wait();
-  window_open.store(false);
+  shown_window.store(nullptr);
   glfwDestroyWindow(handle);
   glfwTerminate();
   removeRecovery(recoveryFolder(recoveryRoot(), getpid()));

@@ -62,5 +62,47 @@ TEST(InputQueue, KeepsTypedTextInOrder) {
   EXPECT_EQ(typed, "wall");
 }
 
+// Typed with 6 ms a key while a frame takes 100: keys and their characters.
+TEST(InputQueue, DelaysNoFastTyping) {
+  InputQueue queue;
+  for (const char c : std::string("walk")) {
+    queue.push(keyEvent(c - 32, true));
+    queue.push({Kind::character, 0, 0, c});
+    queue.push(keyEvent(c - 32, false));
+  }
+  int frames = 0, presses = 0;
+  std::string typed;
+  for (; queue.pending(); ++frames)
+    for (const auto& e : queue.takeFrame()) {
+      if (e.kind == Kind::character) typed += static_cast<char>(e.code);
+      if (e.kind == Kind::key && e.down) ++presses;
+    }
+  EXPECT_EQ(typed, "walk");
+  EXPECT_EQ(presses, 4);
+  EXPECT_LE(frames, 5) << "one per key";
+}
+
+TEST(InputQueue, ACharacterNeverOvertakesTheKeyBeforeIt) {
+  InputQueue queue;
+  queue.push(keyEvent(259, true));  // Backspace: Dear ImGui would take the character first
+  queue.push({Kind::character, 0, 0, '5'});
+  ASSERT_EQ(queue.takeFrame().size(), 1U);
+  EXPECT_EQ(queue.takeFrame().at(0).kind, Kind::character);
+}
+
+TEST(InputQueue, ManyTapsOfOneKeyAreAllSeen) {
+  InputQueue queue;
+  for (int i = 0; i < 7; ++i) queue.push(keyEvent('N', true)), queue.push(keyEvent('N', false));
+  int presses = 0;
+  bool down = false;
+  while (queue.pending())
+    for (const auto& e : queue.takeFrame()) {
+      EXPECT_NE(e.down, down);
+      down = e.down;
+      presses += down ? 1 : 0;
+    }
+  EXPECT_EQ(presses, 7);
+}
+
 }  // namespace
 }  // namespace standpoint
