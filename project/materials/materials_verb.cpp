@@ -179,13 +179,19 @@ Result<bool> judge(MaterialChoice& choice, const std::vector<MaterialFinding>& f
   return true;
 }
 
-std::string description(const MaterialRequest& request, const MaterialReport& report) {
+// A library is named by what it brought: its file may be one that the editor made for a moment.
+std::string description(const MaterialRequest& request, const std::vector<LibraryRow>& taken,
+                        const MaterialReport& report) {
   if (!request.accept.empty()) return fmt::format("Accepted {}", fmt::join(request.accept, ", "));
   if (!request.reopen.empty()) return fmt::format("Reopened {}", fmt::join(request.reopen, ", "));
   if (!request.assign.empty())
     return fmt::format("Assigned {} to {}", request.assign.back().material, request.assign.back().selector);
-  if (!request.libraries.empty())
-    return fmt::format("Added materials from {}", request.libraries.back().filename().string());
+  if (!taken.empty()) {
+    const auto& [file, added, changed, used] = taken.back();
+    if (added.size() == 1 && changed.empty()) return "Added material " + added.front();
+    if (added.empty() && changed.size() == 1) return "Changed material " + changed.front();
+    return "Added materials from " + request.libraries.back().filename().string();
+  }
   return fmt::format("Assigned materials to {:.1f} % of the area", report.coverage * 100);
 }
 
@@ -226,7 +232,7 @@ Result<Answered<MaterialsAnswer>> assignDocumentMaterials(const Document& docume
     choice.result = assignMaterials(environment, library, rules, choice.overrides, options, progress).value();
     done.materials = std::make_shared<const MaterialChoice>(choice);
   }
-  Answered<MaterialsAnswer> outcome{std::move(done), {}, {}, description(request, choice.result.report)};
+  Answered<MaterialsAnswer> outcome{std::move(done), {}, {}, description(request, taken, choice.result.report)};
   auto& answer = outcome.answer;
   answer = materialsAnswer(environment, choice, materialFindings(outcome.document));
   for (auto& row : taken)

@@ -164,6 +164,17 @@ tl::unexpected<Error> noStation(const Job& job, const std::string& name) {
                                                names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
 }
 
+// It becomes part of file names and of lists.
+Result<void> checkStationName(Job& job, const std::string& name) {
+  if (name.empty()) return failure(ErrorKind::usage, "a station needs a name");
+  if (name.find_first_of(",/\\") != std::string::npos)
+    return failure(ErrorKind::usage,
+                   fmt::format("invalid station name '{}': commas and slashes are not allowed", name));
+  if (find(job, name) != job.stations.end())
+    return failure(ErrorKind::usage, fmt::format("station '{}' already exists; use --move, or another name", name));
+  return {};
+}
+
 }  // namespace
 
 std::span<const Choice<StationStand>> choices(StationStand) {
@@ -177,6 +188,8 @@ const Fields<StationOptions>& stationFields() {
   static const Fields<O> fields = {
       {"add", &O::add, "name of a new station"},
       {"move", &O::move, "name of the station to move"},
+      {"rename", &O::rename, "name of the station to rename"},
+      {"name", &O::name, "its new name"},
       {"remove", &O::remove, "name of the station to remove"},
       {"at", &O::at, "X,Y,Z of the instrument's centre, in the file's frame", {.unit = "m"}},
       {"on",
@@ -237,8 +250,9 @@ Result<Answered<StationAnswer>> runStation(const Document& document, const Stati
                                            Progress& progress) {
   progress.stage("Station");
   const int asked = static_cast<int>(options.add.has_value()) + static_cast<int>(options.move.has_value()) +
-                    static_cast<int>(options.remove.has_value());
-  if (asked > 1) return failure(ErrorKind::usage, "specify one of --add NAME, --move NAME, --remove NAME");
+                    static_cast<int>(options.rename.has_value()) + static_cast<int>(options.remove.has_value());
+  if (asked > 1)
+    return failure(ErrorKind::usage, "specify one of --add NAME, --move NAME, --rename NAME, --remove NAME");
   if (options.tilt_deg && options.levelling_error_deg)
     return failure(ErrorKind::usage, "use either --tilt-deg, or --levelling-error-deg for a random tilt");
   Answered<StationAnswer> outcome{document};
@@ -246,11 +260,7 @@ Result<Answered<StationAnswer>> runStation(const Document& document, const Stati
   const auto& g = *document.georeference;
   if (options.add) {
     const auto& name = *options.add;
-    if (name.empty() || name.find_first_of(",/\\") != std::string::npos)
-      return failure(ErrorKind::usage,
-                     fmt::format("invalid station name '{}': commas and slashes are not allowed", name));
-    if (find(job, name) != job.stations.end())
-      return failure(ErrorKind::usage, fmt::format("station '{}' already exists; use --move, or another name", name));
+    TRY(checkStationName(job, name));
     TRY_ASSIGN(auto station, place(document, name, options, nullptr, outcome.report, progress));
     outcome.answer.placed = stationRow(station, g);
     outcome.description = "Added station " + name;
@@ -265,6 +275,13 @@ Result<Answered<StationAnswer>> runStation(const Document& document, const Stati
     *at = std::move(station);
     outcome.answer.placed = stationRow(*at, g);
     outcome.description = fmt::format("Moved station {} by {:.2f} m", name, distance);
+  } else if (options.rename) {
+    const auto at = find(job, *options.rename);
+    if (at == job.stations.end()) return noStation(job, *options.rename);
+    if (options.name != at->name) TRY(checkStationName(job, options.name));
+    at->name = options.name;
+    outcome.answer.placed = stationRow(*at, g);
+    outcome.description = fmt::format("Renamed station {} to {}", *options.rename, options.name);
   } else if (options.remove) {
     const auto& name = *options.remove;
     const auto at = find(job, name);

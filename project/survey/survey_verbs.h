@@ -26,9 +26,10 @@ namespace standpoint {
 enum class StationStand { tripod, free };  // free: it hangs or is held, and only its clearance is checked
 std::span<const Choice<StationStand>> choices(StationStand);
 
-// Of add, move and remove at most one; none lists. Places in metres, the frame of the model's file.
+// Of add, move, rename and remove at most one; none lists. Places in metres, the frame of the model's file.
 struct StationOptions {
-  std::optional<std::string> add, move, remove;
+  std::optional<std::string> add, move, rename, remove;
+  std::string name;                   // the new one, for `rename`
   std::optional<Eigen::Vector3d> at;  // the instrument's centre
   std::optional<FloorPlace> on;
   std::optional<double> height_m;
@@ -67,7 +68,8 @@ std::span<const Choice<TargetKind>> choices(TargetKind);
 
 // Places in metres, the frame of the model's file.
 struct TargetOptions : TargetPlace {
-  std::optional<std::string> add, remove;
+  std::optional<std::string> add, move, rename, remove;
+  std::string name;  // the new one, for `rename`
   std::string type;  // article; empty: the first of the kind
   std::optional<TargetKind> kind;
   std::optional<double> size_m;

@@ -30,14 +30,19 @@ std::optional<double> wholePoints(const std::optional<double>& points) {
   return points ? std::optional(std::round(*points)) : std::nullopt;
 }
 
-// Builds the rays' scene, which only adding and looking need.
+Result<void> checkTargetName(const std::vector<Target>& targets, const std::string& name) {
+  if (name.empty() || name.find_first_of(",= \t") != std::string::npos)
+    return failure(ErrorKind::usage,
+                   fmt::format("invalid target name '{}': spaces, commas and equals signs are not allowed", name));
+  if (std::any_of(targets.begin(), targets.end(), [&](const Target& t) { return t.name == name; }))
+    return failure(ErrorKind::usage, fmt::format("target '{}' already exists; remove it, or use another name", name));
+  return {};
+}
+
 // Shape and size as said by --type, --kind and --size; place and normal are not set.
 Result<Target> targetArticleFrom(const TargetKinds& kinds, const TargetOptions& options) {
   Target t;
   t.name = options.add.value_or("");
-  if (t.name.empty() || t.name.find_first_of(",= \t") != std::string::npos)
-    return failure(ErrorKind::usage,
-                   fmt::format("invalid target name '{}': spaces, commas and equals signs are not allowed", t.name));
   const auto& type = options.type;
   const auto kind = options.kind;
   const auto found = std::find_if(kinds.articles.begin(), kinds.articles.end(), [&](const TargetArticle& a) {
@@ -73,24 +78,36 @@ Result<SightsByTarget> sightsByTarget(const Document& document, const RayScene& 
   return by_target;
 }
 
-Result<Target> addedTarget(const Document& document, const TargetOptions& options, Answered<TargetAnswer>& outcome,
-                           Progress& progress) {
-  TRY_ASSIGN(const auto kinds, readTargetKinds(dataFolder() / "scanners" / "targets" / "kinds.json"));
-  TRY_ASSIGN(auto article, targetArticleFrom(kinds, options));
-  const auto& targets = document.job->targets;
-  if (std::any_of(targets.begin(), targets.end(), [&](const Target& t) { return t.name == article.name; }))
-    return failure(ErrorKind::usage,
-                   fmt::format("target '{}' already exists; remove it, or use another name", article.name));
+Result<Target> settled(const Document& document, const Job& others, const TargetKinds& kinds, Target target_to_place,
+                       const TargetOptions& options, Answered<TargetAnswer>& outcome, Progress& progress) {
   TRY_ASSIGN(auto scene, RayScene::build(document.environment(), progress));
   std::string stands;
-  auto target = placedTarget(*document.job, document.georeference->shift_m, *scene, std::move(article), options, stands,
-                             outcome.report);
+  auto target = placedTarget(others, document.georeference->shift_m, *scene, std::move(target_to_place), options,
+                             stands, outcome.report);
   if (!target) return target;
   TRY_ASSIGN(auto sights, sightsByTarget(document, *scene, kinds, {*target}, options, outcome.report));
-  auto& placed = outcome.answer.placed.emplace(targetRow(*target, *document.georeference));
-  if (!stands.empty()) placed.stands_on = stands;
+  auto& row = outcome.answer.placed.emplace(targetRow(*target, *document.georeference));
+  if (!stands.empty()) row.stands_on = stands;
   outcome.answer.seen_from = std::move(sights[target->name]);
   return target;
+}
+
+Result<Target> addedTarget(const Document& document, const TargetOptions& options, Answered<TargetAnswer>& outcome,
+                           Progress& progress) {
+  TRY(checkTargetName(document.job->targets, *options.add));
+  TRY_ASSIGN(const auto kinds, readTargetKinds(dataFolder() / "scanners" / "targets" / "kinds.json"));
+  TRY_ASSIGN(auto article, targetArticleFrom(kinds, options));
+  return settled(document, *document.job, kinds, std::move(article), options, outcome, progress);
+}
+
+// Without itself in the job it does not stand in its own way. A plate that is given no other direction keeps its own.
+Result<Target> movedTarget(const Document& document, const Target& target, TargetOptions options,
+                           Answered<TargetAnswer>& outcome, Progress& progress) {
+  TRY_ASSIGN(const auto kinds, readTargetKinds(dataFolder() / "scanners" / "targets" / "kinds.json"));
+  Job others = *document.job;
+  std::erase_if(others.targets, [&](const Target& t) { return t.name == target.name; });
+  if (!options.normal && !options.on_surface && target.kind == TargetKind::checkerboard) options.normal = target.normal;
+  return settled(document, others, kinds, target, options, outcome, progress);
 }
 
 Result<SightsByTarget> sightsOfAll(const Document& document, const TargetOptions& options, Report& report,
@@ -112,6 +129,9 @@ const Fields<TargetOptions>& targetFields() {
   using O = TargetOptions;
   static const Fields<O> fields = {
       {"add", &O::add, "name of a new target"},
+      {"move", &O::move, "name of the target to move; it keeps its kind and size"},
+      {"rename", &O::rename, "name of the target to rename"},
+      {"name", &O::name, "its new name"},
       {"remove", &O::remove, "name of the target to remove"},
       {"at", &O::at, "X,Y,Z of its centre, in the file's frame", {.unit = "m"}},
       {"on", &O::on, "X,Y[,Z] of the floor for its tripod or pole; without Z the lowest with room", {.unit = "m"}},
@@ -164,7 +184,10 @@ const AnswerFields<TargetAnswer>& answerFields(const TargetAnswer*) {
 
 Result<Answered<TargetAnswer>> runTarget(const Document& document, const TargetOptions& options, Progress& progress) {
   progress.stage("Target");
-  if (options.add && options.remove) return failure(ErrorKind::usage, "specify one of --add NAME, --remove NAME");
+  const int asked = static_cast<int>(options.add.has_value()) + static_cast<int>(options.move.has_value()) +
+                    static_cast<int>(options.rename.has_value()) + static_cast<int>(options.remove.has_value());
+  if (asked > 1)
+    return failure(ErrorKind::usage, "specify one of --add NAME, --move NAME, --rename NAME, --remove NAME");
   Answered<TargetAnswer> outcome{document};
   Job job = *document.job;
   const auto& g = *document.georeference;
@@ -175,6 +198,19 @@ Result<Answered<TargetAnswer>> runTarget(const Document& document, const TargetO
     TRY_ASSIGN(auto target, addedTarget(document, options, outcome, progress));
     outcome.description = "Added target " + target.name;
     job.targets.push_back(std::move(target));
+  } else if (options.move) {
+    const auto at = find(*options.move);
+    if (at == job.targets.end()) return failure(ErrorKind::usage, fmt::format("unknown target '{}'", *options.move));
+    TRY_ASSIGN(auto target, movedTarget(document, *at, options, outcome, progress));
+    outcome.description = fmt::format("Moved target {} by {:.2f} m", target.name, (target.centre - at->centre).norm());
+    *at = std::move(target);
+  } else if (options.rename) {
+    const auto at = find(*options.rename);
+    if (at == job.targets.end()) return failure(ErrorKind::usage, fmt::format("unknown target '{}'", *options.rename));
+    if (options.name != at->name) TRY(checkTargetName(job.targets, options.name));
+    at->name = options.name;
+    outcome.answer.placed = targetRow(*at, g);
+    outcome.description = fmt::format("Renamed target {} to {}", *options.rename, options.name);
   } else if (options.remove) {
     const auto at = find(*options.remove);
     if (at == job.targets.end()) return failure(ErrorKind::usage, fmt::format("unknown target '{}'", *options.remove));

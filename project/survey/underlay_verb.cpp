@@ -18,8 +18,8 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr std::array kActions = {"add", "move", "register", "remove", "show", "hide"};
-enum class Action { add, move, fit, remove, show, hide };  // of kActions
+constexpr std::array kActions = {"add", "move", "register", "rename", "remove", "show", "hide"};
+enum class Action { add, move, fit, rename, remove, show, hide };  // of kActions
 
 UnderlayRow underlayRow(const Underlay& u) {
   std::error_code ignored;
@@ -106,6 +106,12 @@ Result<void> change(Answered<UnderlayAnswer>& outcome, Action what, const std::s
     changed = std::move(done);
     outcome.answer.registered = std::move(came_of_it);
     description = fmt::format("Registered underlay {}", name);
+  } else if (what == Action::rename) {
+    if (options.name.empty()) return failure(ErrorKind::usage, "an underlay needs a name");
+    if (options.name != name && freeName(underlays, options.name) != options.name)
+      return failure(ErrorKind::usage, fmt::format("underlay '{}' already exists; use another name", options.name));
+    changed.name = options.name;
+    description = fmt::format("Renamed underlay {} to {}", name, options.name);
   } else {
     changed.visible = what == Action::show;
     description = fmt::format("{} underlay {}", changed.visible ? "Showed" : "Hid", name);
@@ -122,7 +128,7 @@ const Fields<UnderlayOptions>& underlayFields() {
   using O = UnderlayOptions;
   static const Fields<O> fields = {
       {"add", &O::add, "cloud file (.e57, .las, .ply, .ptx, .pts, .xyz)"},
-      {"name", &O::name, "name of what is added (default: the file's)"},
+      {"name", &O::name, "name of what is added (default: the file's), or the new name"},
       {"move", &O::move, "name of the underlay to move"},
       {"register", &O::fit, "name of the underlay to register to the model, by --pairs, --icp, or both in this order"},
       {"pairs", &O::pairs, "three or more x,y,z=X,Y,Z: a place in the cloud's file, and in the model's"},
@@ -131,6 +137,7 @@ const Fields<UnderlayOptions>& underlayFields() {
        &O::reach_m,
        "maximum distance of a point from its surface for --icp",
        {.unit = "m", .minimum = 0.01, .maximum = 100}},
+      {"rename", &O::rename, "name of the underlay to rename"},
       {"remove", &O::remove, "name of the underlay to remove"},
       {"show", &O::show, "name of the underlay to show"},
       {"hide", &O::hide, "name of the underlay to hide"},
@@ -171,7 +178,8 @@ Result<Answered<UnderlayAnswer>> runUnderlay(const Document& document, const Und
                                              Progress& progress) {
   progress.stage("Underlay");
   const auto added_file = options.add ? std::optional(options.add->string()) : std::nullopt;
-  const std::array said = {&added_file, &options.move, &options.fit, &options.remove, &options.show, &options.hide};
+  const std::array said = {&added_file,     &options.move, &options.fit, &options.rename,
+                           &options.remove, &options.show, &options.hide};
   std::optional<Action> action;
   for (std::size_t i = 0; i < said.size(); ++i) {
     if (!said[i]->has_value()) continue;

@@ -64,8 +64,8 @@ Result<Underlay> registered(const Document& document, const Underlay& underlay, 
 // Of the actions at most one; none lists.
 struct UnderlayOptions : RegisterRequest {  // for `fit`
   std::optional<std::filesystem::path> add;
-  std::string name;  // of what is added; empty: the file's
-  std::optional<std::string> move, fit, remove, show, hide;
+  std::string name;  // of what is added, empty: the file's; the new one, for `rename`
+  std::optional<std::string> move, fit, rename, remove, show, hide;
   std::optional<Eigen::Vector3d> at;  // the cloud's origin in the file's frame, m
   std::optional<double> yaw_deg;
 };

@@ -49,6 +49,20 @@ TEST(Station, PlacesItselfWhereItSeesMostAndApartFromTheOthers) {
   EXPECT_GE((stations[0].true_pose.translation - stations[1].true_pose.translation).norm(), 2.5);
 }
 
+TEST(Station, IsRenamedAndKeepsWhatItHas) {
+  Document d = run("station", twoStoreyDocument(), {{"add", "S1"}, {"at", {500002, 5600002, 1.5}}})->document;
+  d = run("station", d, {{"add", "S2"}, {"at", {500004, 5600002, 1.5}}})->document;
+  const auto renamed = run("station", d, {{"rename", "S1"}, {"name", "Hall"}});
+  ASSERT_TRUE(renamed) << describe(renamed.error());
+  EXPECT_EQ(renamed->description, "Renamed station S1 to Hall");
+  EXPECT_EQ(renamed->document.job->stations[0].name, "Hall");
+  EXPECT_EQ(renamed->document.job->stations[0].true_pose.translation, d.job->stations[0].true_pose.translation);
+  for (const char* name : {"S2", "", "a/b", "a,b"})
+    EXPECT_FALSE(run("station", d, {{"rename", "S1"}, {"name", name}})) << name;
+  EXPECT_FALSE(run("station", d, {{"rename", "S9"}, {"name", "Hall"}}));
+  EXPECT_FALSE(run("station", d, {{"rename", "S1"}, {"move", "S1"}, {"name", "Hall"}}));
+}
+
 TEST(Station, MovesAndIsRemovedAndItsNameIsUnique) {
   const Document d = run("station", twoStoreyDocument(), {{"add", "S1"}, {"at", {500002, 5600002, 1.5}}})->document;
   EXPECT_FALSE(run("station", d, {{"add", "S1"}, {"at", {500003, 5600002, 1.5}}}));

@@ -18,6 +18,25 @@ std::string targetRefusal(const Document& d, const json& options) {
   return done ? std::string("placed") : done.error().message;
 }
 
+TEST(Target, IsMovedAndRenamedAndKeepsItsKindAndDirection) {
+  const auto d =
+      run("target", withStation(), {{"add", "T1"}, {"at", {500004, 5600001.5, 1.6}}, {"type", "bw-152"}})->document;
+  const Target before = d.job->targets.at(0);
+  const auto moved = run("target", d, {{"move", "T1"}, {"at", {500004.05, 5600001.5, 1.6}}});
+  ASSERT_TRUE(moved) << describe(moved.error());
+  const Target& t = moved->document.job->targets.at(0);
+  EXPECT_EQ(moved->description, "Moved target T1 by 0.05 m");
+  EXPECT_NEAR(t.centre.x(), before.centre.x() + 0.05, 1e-9);
+  EXPECT_TRUE(t.normal.isApprox(before.normal, 1e-9));
+  EXPECT_EQ(t.size_m, before.size_m);
+  EXPECT_EQ(t.kind, before.kind);
+  const auto renamed = run("target", moved->document, {{"rename", "T1"}, {"name", "Column"}});
+  ASSERT_TRUE(renamed) << describe(renamed.error());
+  EXPECT_EQ(renamed->document.job->targets.at(0).name, "Column");
+  EXPECT_THAT(targetRefusal(d, {{"rename", "T1"}, {"name", "a b"}}), HasSubstr("invalid"));
+  EXPECT_THAT(targetRefusal(d, {{"move", "T9"}, {"at", {500004, 5600001.5, 1.6}}}), HasSubstr("unknown"));
+}
+
 TEST(Target, OnATripodStandsItsHeightAboveTheFloorAndAPlateLooksAtTheNearestStation) {
   const auto done =
       run("target", withStation(), {{"add", "T1"}, {"on", {500004, 5600001.5}}, {"height", 1.6}, {"type", "bw-152"}});

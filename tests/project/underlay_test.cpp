@@ -81,6 +81,10 @@ TEST(Underlay, IsMovedTurnedHiddenAndRemovedByName) {
   const Bounds b = boundsInFile(*moved->document.underlays[0]);
   EXPECT_LT((b.min - Eigen::Vector3d(9, 21, 30)).norm(), 1e-12);
   EXPECT_EQ(document.underlays[0]->file_from_cloud.translation.x(), 0) << "a verb changes no document";
+  const auto renamed = run("underlay", moved->document, {{"rename", "scan"}, {"name", "hall"}});
+  ASSERT_TRUE(renamed) << describe(renamed.error());
+  EXPECT_EQ(renamed->document.underlays[0]->name, "hall");
+  EXPECT_FALSE(run("underlay", moved->document, {{"rename", "scan"}, {"name", ""}}));
   const auto hidden = run("underlay", moved->document, {{"hide", "scan"}});
   ASSERT_TRUE(hidden) << describe(hidden.error());
   EXPECT_FALSE(hidden->document.underlays[0]->visible);
