@@ -79,10 +79,11 @@ struct OutlinerView {
   std::optional<std::uint32_t> scroll_to;  // product to bring into view
 };
 
-// Chosen in the lists of the survey and in the view: indices into the job, -1 for none.
+// Chosen in the lists of the survey and in the view: indices into the job and into the underlays, -1 for none.
 struct SurveyChoice {
   int station = -1;
   int target = -1;
+  int underlay = -1;
 };
 
 // Chosen in the lists of materials or with the eyedropper; a remedy and the brush use it.
@@ -125,6 +126,7 @@ struct Model : Style {
   std::deque<std::filesystem::path> waiting_clouds;  // dropped, each to become an underlay when the document is free
 
   SurveyChoice survey;
+  bool rename_wanted = false;  // the field of the chosen one's name is to be edited
   ChosenMaterial material;
   ScanChoice scan_choice{.instrument = "leica-rtc360"};  // what the next scan is set to
   SeenLimits seen;

@@ -186,6 +186,12 @@ bool Session::start(std::string_view name, json options, std::string title) {
   return true;
 }
 
+bool Session::startAndShow(std::string_view name, json options, std::string title) {
+  if (!start(name, std::move(options), std::move(title))) return false;
+  running_.back()->shows_answer = true;
+  return true;
+}
+
 bool Session::start(const VerbOptions& options, std::string title) {
   const Verb* wanted = findVerb(verbs_, options.type());
   return wanted != nullptr && start(wanted->name, wanted->job_options(options.held()), std::move(title));
@@ -335,6 +341,8 @@ void Session::succeed(VerbTask& task, Outcome outcome) {
   if (verb_name == "save-recovery") return succeedKeeping();
   const bool begins_project = task.verb().scope == VerbScope::creates && !task.options().value("update", false);
   const std::string text = outcome.description.empty() ? task.title() : outcome.description;
+  const bool changes = writesDocument(task.verb()) && !outcome.description.empty();  // a verb that only lists says none
+  if (task.shows_answer && !changes) answers_.push_back({text, outcome.text, outcome.answer});
   finished_.push_front(
       {task.title(), task.verb().name, true, false, text, timeOfDay(), task.seconds(), std::move(outcome.typed)});
   for (const auto& issue : outcome.report.issues) say(levelOf(issue.severity), issue.source, issue.message);
@@ -355,7 +363,7 @@ void Session::succeed(VerbTask& task, Outcome outcome) {
     stayIn(project->saved_in, stateOnDisk(project->saved_in));
     recovered_from_ = project->folder.parent_path();
     ++revision_;
-  } else if (writesDocument(task.verb())) {
+  } else if (changes) {
     if (begins_project) leaveFolder();
     history_.push(std::move(outcome.document), text);
     ++revision_;

@@ -37,6 +37,12 @@ struct ShownError {
   Error error;
 };
 
+// What a verb that changes nothing has found, to be read.
+struct ShownAnswer {
+  std::string title, text;
+  nlohmann::json figures;
+};
+
 // A verb that runs in the background on a snapshot.
 class VerbTask : public Task<Outcome> {
  public:
@@ -44,6 +50,7 @@ class VerbTask : public Task<Outcome> {
       : Task(std::move(title), std::move(work), std::move(wake)), verb_(verb), options_(std::move(options)) {}
   const Verb& verb() const { return verb_; }
   const nlohmann::json& options() const { return options_; }
+  bool shows_answer = false;
 
  private:
   // The work has copies of its own: it may outlive these for as long as the base joins.
@@ -84,6 +91,8 @@ class Session {
   bool start(const VerbOptions& options, std::string title, Work work);
   // By name, as a form has filled them in.
   bool start(std::string_view verb, nlohmann::json options, std::string title = {});
+  // The same; what it answers without changing the document is kept in answers().
+  bool startAndShow(std::string_view verb, nlohmann::json options, std::string title = {});
   // Refused where another program has changed the project since it was opened or saved here.
   bool save(const std::filesystem::path& folder);
   bool open(const std::filesystem::path& folder);
@@ -123,7 +132,8 @@ class Session {
   const std::vector<LogEntry>& log() const { return log_; }
   void clearLog() { log_.clear(); }
   void say(LogLevel level, std::string source, std::string message);
-  std::deque<ShownError>& errors() { return errors_; }  // not yet read by the user, oldest first
+  std::deque<ShownAnswer>& answers() { return answers_; }  // not yet read by the user, oldest first
+  std::deque<ShownError>& errors() { return errors_; }     // not yet read by the user, oldest first
 
   // Whether another program has changed the open project; looks at most once a second.
   bool changedOnDisk();
@@ -157,6 +167,7 @@ class Session {
   std::deque<FinishedTask> finished_;
   std::vector<LogEntry> log_;
   std::deque<ShownError> errors_;
+  std::deque<ShownAnswer> answers_;
   std::uint64_t revision_ = 0;
   struct Kept {
     std::filesystem::path folder;

@@ -24,6 +24,9 @@ class Actions {
   virtual bool start(const VerbOptions& options, std::string title) = 0;
   virtual bool startScan(const ScanVerbOptions& options, std::string title) = 0;  // its points are shown as they come
   virtual void report(std::string title, Error error) = 0;
+  // Why the task of this title was refused, once: whoever asks says it himself, instead of a dialog. "" when it was
+  // not.
+  virtual std::string refused(const std::string& title) = 0;
   virtual void clearLog() = 0;
 
   // Products, local frame for boxes.
@@ -44,10 +47,12 @@ class Actions {
   virtual void showReflectanceAt(double wavelength_nm) = 0;
   virtual void showWalkable(bool shown) = 0;
   virtual void showShapes(bool shown) = 0;
+  virtual void showScan(const std::filesystem::path& file) = 0;  // its points, instead of the model
 
   // What several panels and the view share.
   virtual void choose(const SurveyChoice& choice) = 0;
   virtual void choose(const ChosenMaterial& material) = 0;
+  virtual void renameBegun() = 0;
   virtual void set(const ScanChoice& scan) = 0;
   virtual void set(const SeenLimits& limits) = 0;
   virtual void set(const Body& walker) = 0;
@@ -70,6 +75,7 @@ class Actions {
   using WhenChosen = std::function<void(Actions& later, const std::filesystem::path& chosen)>;
   virtual void run(const char* command) = 0;       // of those that menus and keys have
   virtual void menuItem(const char* command) = 0;  // in an open menu
+  virtual void button(const char* command, float width) = 0;
   virtual void openForm(const VerbOptions& filled) = 0;
   virtual void askForFile(FileDialogState::Purpose purpose, std::string title, std::string accept,
                           std::vector<std::string> extensions, std::string name, WhenChosen done) = 0;

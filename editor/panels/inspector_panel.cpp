@@ -10,6 +10,7 @@
 #include "editor/model/material_scope.h"
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
+#include "editor/panels/survey_inspector.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
@@ -293,6 +294,16 @@ void drawPlaceProperties(const Model& model, const Product& product) {
   ui::endProperties();
 }
 
+// What can be done with what is selected.
+void drawButtons(Actions& actions) {
+  const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+  int i = 0;
+  for (const char* id : {"frame", "hide", "isolate", "exclude", "keep", "by-rules"}) {
+    if (i++ % 2 != 0) ImGui::SameLine();
+    actions.button(id, width);
+  }
+}
+
 void drawMany(const Model& model, InspectorState& state, Actions& actions) {
   const auto& products = model.selection.products();
   ui::heading(model, fmt::format("{} products", products.size()).c_str());
@@ -312,15 +323,19 @@ void drawMany(const Model& model, InspectorState& state, Actions& actions) {
     if (!all.empty()) ui::property("Size", coordinates(all.max - all.min) + " m");
     ui::endProperties();
   }
+  drawButtons(actions);
   ui::heading(model, "Physical material");
   drawAssign(model, state, actions, "Assign to …");
 }
 
-void draw(const Model& model, InspectorState& state, Actions& actions) {
+void draw(const Model& model, PanelStates& states, Actions& actions) {
+  auto& state = states.of<InspectorState>();
+  const bool in_survey = drawSurveyInspector(model, states, actions);
   const auto& environment = model.environment();
   if (!environment || model.selection.empty() || model.selection.primary() >= environment->products.size()) {
-    ui::emptyState(model, ICON_POINTER, "Nothing selected",
-                   "Select a product in the view or outliner to see its properties, materials and reflectance.");
+    if (!in_survey)
+      ui::emptyState(model, ICON_POINTER, "Nothing selected",
+                     "Select a product, station, target or underlay to see its properties and edit them.");
     return;
   }
   if (model.selection.products().size() > 1) {
@@ -333,6 +348,7 @@ void draw(const Model& model, InspectorState& state, Actions& actions) {
   ui::wrapped(productLabel(product));
   if (model.fonts.bold != nullptr) ImGui::PopFont();
   drawIdentity(model, product);
+  drawButtons(actions);
   drawPhysicalMaterial(model, state, actions, index);
   drawGeometry(model, state, index);
   drawLayers(model, product);
@@ -343,8 +359,6 @@ void draw(const Model& model, InspectorState& state, Actions& actions) {
 
 }  // namespace
 
-void drawInspectorPanel(const Model& model, PanelStates& states, Actions& actions) {
-  draw(model, states.of<InspectorState>(), actions);
-}
+void drawInspectorPanel(const Model& model, PanelStates& states, Actions& actions) { draw(model, states, actions); }
 
 }  // namespace standpoint

@@ -164,8 +164,9 @@ void drawUnderlays(const Model& model, Actions& actions) {
     ImGui::PushID(static_cast<int>(i));
     const float left = ImGui::GetCursorPosX(), right = left + ImGui::GetContentRegionAvail().x, eye = model.px(24);
     const bool pressed = ImGui::Selectable(
-        "###underlay", false, ImGuiSelectableFlags_AllowItemOverlap | ImGuiSelectableFlags_AllowDoubleClick,
-        {0, model.px(19)});
+        "###underlay", model.survey.underlay == static_cast<int>(i),
+        ImGuiSelectableFlags_AllowItemOverlap | ImGuiSelectableFlags_AllowDoubleClick, {0, model.px(19)});
+    if (pressed) actions.choose(SurveyChoice{.underlay = static_cast<int>(i)});
     if (pressed && ImGui::IsMouseDoubleClicked(0)) frameUnderlay(model, actions, u);
     ImGui::SetItemAllowOverlap();
     underlayMenu(model, actions, u);

@@ -133,7 +133,7 @@ void drawStationChoice(const Model& model, ScanState& state, Actions& actions) {
     if (ImGui::Selectable(fmt::format("{}###station{}", stations[static_cast<std::size_t>(i)].name, i).c_str(),
                           !state.all_stations && model.survey.station == i)) {
       state.all_stations = false;
-      actions.choose(SurveyChoice{i, model.survey.target});
+      actions.choose(SurveyChoice{i, model.survey.target, model.survey.underlay});
     }
   ImGui::EndCombo();
 }

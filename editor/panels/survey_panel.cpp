@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 #include <imgui.h>
-#include <imgui_stdlib.h>
 
-#include "core/units.h"
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
+#include "editor/panels/survey_inspector.h"
 #include "editor/widgets/icons.h"
-#include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 #include "project/survey/survey_verbs.h"
@@ -18,12 +15,6 @@
 namespace standpoint {
 
 namespace {
-
-struct SurveyState {
-  Eigen::Vector3d move_to = Eigen::Vector3d::Zero();
-  int move_of = -1;  // station that `move_to` was filled from
-  Eigen::Vector3d move_from = Eigen::Vector3d::Zero();
-};
 
 void lookAt(Actions& actions, const Eigen::Vector3d& place) {
   Bounds around;
@@ -73,55 +64,6 @@ void drawStations(const Model& model, Actions& actions, const Job& job) {
   ImGui::EndTable();
 }
 
-void fillMove(const Model& model, SurveyState& state, const Station& station) {
-  if (state.move_of == model.survey.station && state.move_from == station.true_pose.translation) return;
-  state.move_of = model.survey.station;
-  state.move_from = station.true_pose.translation;
-  state.move_to = station.true_pose.translation + model.shift_m();
-}
-
-void drawChosenStation(const Model& model, SurveyState& state, Actions& actions, const Station& station) {
-  fillMove(model, state, station);
-  ui::heading(model, station.name.c_str());
-  const auto why = model.session.whyNot("station");
-  if (ui::beginProperties("move", 0.3F)) {
-    static constexpr const char* kAxes[] = {"X", "Y", "Z"};
-    for (std::size_t i = 0; i < 3; ++i) {
-      ui::propertyLabel(kAxes[i]);
-      ui::numberField(fmt::format("###move{}", i).c_str(), state.move_to[static_cast<Eigen::Index>(i)],
-                      {.kind = {.unit = "m"}, .decimals = 3});
-    }
-    ui::property("Above floor", metres(station.instrument_height_m));
-    if (station.solved_pose) {
-      const Pose& solved = *station.solved_pose;
-      ui::property("Registered", fmt::format("off by {:.1f} mm and {:.4f}°",
-                                             (solved.translation - station.true_pose.translation).norm() * 1000,
-                                             solved.rotation.angularDistance(station.true_pose.rotation) / kRadPerDeg));
-    }
-    ui::endProperties();
-  }
-  const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
-  if (ui::button(ui::fittingLabel(ICON_MOVE, "Move", "move-station", width).c_str(), why, {width, 0},
-                 "Move to these coordinates"))
-    actions.start(StationOptions{.move = station.name, .at = state.move_to, .height_m = station.instrument_height_m},
-                  "Move station " + station.name);
-  ImGui::SameLine();
-  if (ui::button(ui::fittingLabel(ICON_CROSSHAIRS, "Look", "look-station", width).c_str(), {}, {width, 0},
-                 "Frame in view"))
-    lookAt(actions, station.true_pose.translation);
-  ImGui::SameLine();
-  if (ui::button(ui::fittingLabel(ICON_TRASH, "Remove", "remove-station", width).c_str(), why, {width, 0},
-                 "Remove station"))
-    actions.start(StationOptions{.remove = station.name}, "Remove station " + station.name);
-  for (const auto& scan : station.scans) {
-    ImGui::TextColored(colour(tone::kGood), "%s", ICON_CHECK);
-    ImGui::SameLine();
-    ui::fitted(fmt::format("{}   {} points   {}", scan.instrument, groupedDigits(scan.points),
-                           std::filesystem::path(scan.file).filename().string()),
-               ImGui::GetContentRegionAvail().x);
-  }
-}
-
 void drawTargets(const Model& model, Actions& actions, const Job& job) {
   ui::heading(model, fmt::format("Targets  {}", job.targets.size()).c_str());
   for (int i = 0; i < static_cast<int>(job.targets.size()); ++i) {
@@ -150,7 +92,7 @@ void drawTargets(const Model& model, Actions& actions, const Job& job) {
   if (job.targets.empty()) ui::dimText("None.");
 }
 
-void draw(const Model& model, SurveyState& state, Actions& actions) {
+void draw(const Model& model, PanelStates& states, Actions& actions) {
   const auto& job = model.session.document().job;
   if (!model.environment() || !job) {
     ui::emptyState(model, ICON_STATION, "No stations", "Import a model, then place stations on its floors.");
@@ -168,16 +110,13 @@ void draw(const Model& model, SurveyState& state, Actions& actions) {
     actions.run("add-target");
   drawStations(model, actions, *job);
   if (model.survey.station >= static_cast<int>(job->stations.size()))
-    actions.choose(SurveyChoice{-1, model.survey.target});
-  if (model.survey.station >= 0)
-    drawChosenStation(model, state, actions, job->stations[static_cast<std::size_t>(model.survey.station)]);
+    actions.choose(SurveyChoice{-1, model.survey.target, model.survey.underlay});
   drawTargets(model, actions, *job);
+  drawSurveyInspector(model, states, actions);
 }
 
 }  // namespace
 
-void drawSurveyPanel(const Model& model, PanelStates& states, Actions& actions) {
-  draw(model, states.of<SurveyState>(), actions);
-}
+void drawSurveyPanel(const Model& model, PanelStates& states, Actions& actions) { draw(model, states, actions); }
 
 }  // namespace standpoint

@@ -89,6 +89,16 @@ void removeChosen(Editor& e) {
   else
     e.session.start(StationOptions{.remove = name}, title);
 }
+void renameChosen(Editor& e) {
+  e.rename_wanted = true;
+  if (e.workspace == Workspace::instrument) e.workspace = Workspace::survey;
+  e.wanted_tab[1] = "inspector";
+}
+std::string whyRenameNot(const Editor& e) {
+  const auto& chosen = e.survey;
+  const bool any = chosen.station >= 0 || chosen.target >= 0 || chosen.underlay >= 0;
+  return any ? "" : "Select a station, target or underlay first";
+}
 std::string whyRemoveNot(const Editor& e) {
   const auto [verb, name] = chosenInSurvey(e);
   if (auto why = e.session.whyNot(verb); !why.empty()) return why;
@@ -318,6 +328,7 @@ const std::array kActions = {
              showWorkspace(e, Workspace::survey);
            },
            whyTargetNot},
+    Action{"rename", "Rename selected station, target or underlay", ICON_PENCIL, {kKeyF2}, renameChosen, whyRenameNot},
     Action{"remove", "Remove selected station or target", ICON_TRASH, {kKeyDelete}, removeChosen, whyRemoveNot},
     Action{"take-material",
            "Pick material from a surface",
@@ -431,6 +442,7 @@ std::string shortcutText(const Shortcut& s) {
   if (s.key == kKeyEscape) return text + "Esc";
   if (s.key == kKeyDelete) return text + "Del";
   if (s.key == kKeyF1) return text + "F1";
+  if (s.key == kKeyF2) return text + "F2";
   if (s.key == kKeyPlus) return text + "+";
   return text + static_cast<char>(s.key);
 }
@@ -469,6 +481,15 @@ void actionToolButton(Editor& editor, const char* id) {
   if (ui::iconButton((std::string(action.icon) + "###tool_" + id).c_str(), tip.c_str(), whyNot(action, editor)))
     action.run(editor);
   ImGui::SameLine();
+}
+
+void actionButton(Editor& editor, const char* id, float width) {
+  const Action& action = *findAction(id);
+  const std::string keys = shortcutText(action.shortcut);
+  const std::string tip = std::string(action.title) + (keys.empty() ? "" : "  (" + keys + ")");
+  if (ui::button(ui::fittingLabel(action.icon, action.title, id, width).c_str(), whyNot(action, editor), {width, 0},
+                 tip.c_str()))
+    action.run(editor);
 }
 
 void openVerbForm(Editor& editor, const char* verb) {

@@ -25,6 +25,7 @@ void askForFile(Editor& editor, FileDialogState::Purpose purpose, std::string ti
 void drawFileDialog(Editor& editor);
 void drawVerbDialog(Editor& editor);
 void drawPalette(Editor& editor);
+void drawAnswer(Editor& editor);
 void drawMessages(Editor& editor);  // errors, unsaved changes, recovery, shortcuts, preferences, about
 
 // The widgets of a verb's options.

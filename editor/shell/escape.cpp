@@ -88,7 +88,8 @@ EscapeLayer escapeLayer(const Editor& editor) {
   if (editor.preview.isOpen()) return EscapeLayer::preview;
   if (editor.view.tool == Tool::walk) return EscapeLayer::walk;
   if (editor.view.tool != Tool::select) return EscapeLayer::tool;
-  const bool chosen = !editor.selection.empty() || editor.survey.station >= 0 || editor.survey.target >= 0;
+  const auto& survey = editor.survey;
+  const bool chosen = !editor.selection.empty() || survey.station >= 0 || survey.target >= 0 || survey.underlay >= 0;
   return chosen ? EscapeLayer::selection : EscapeLayer::none;
 }
 

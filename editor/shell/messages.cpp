@@ -223,7 +223,7 @@ void drawVerbDialog(Editor& editor) {
   std::string why = editor.session.whyNot(state.verb);
   if (why.empty()) why = state.form.problem();
   if (ui::primaryButton("Run###run", why, {editor.px(110), 0})) {
-    editor.session.start(state.verb, state.form.options());
+    editor.session.startAndShow(state.verb, state.form.options());
     state.open = false;
   }
   ImGui::SameLine();
@@ -239,6 +239,7 @@ void drawMessages(Editor& editor) {
   drawShortcuts(editor);
   drawPreferences(editor);
   drawAbout(editor);
+  drawAnswer(editor);
   drawError(editor);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/shell/panel_actions.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "editor/shell/actions.h"
@@ -18,6 +19,14 @@ bool PanelActions::startScan(const ScanVerbOptions& options, std::string title) 
 }
 void PanelActions::report(std::string title, Error error) {
   editor_.session.errors().push_back({std::move(title), std::move(error)});
+}
+std::string PanelActions::refused(const std::string& title) {
+  auto& errors = editor_.session.errors();
+  const auto found = std::find_if(errors.begin(), errors.end(), [&](const auto& e) { return e.title == title; });
+  if (found == errors.end()) return {};
+  std::string why = found->error.message;
+  errors.erase(found);
+  return why;
 }
 void PanelActions::clearLog() { editor_.session.clearLog(); }
 
@@ -43,8 +52,11 @@ void PanelActions::showReflectanceAt(double wavelength_nm) { editor_.view.wavele
 void PanelActions::showWalkable(bool shown) { editor_.view.walkable = shown; }
 void PanelActions::showShapes(bool shown) { editor_.view.shapes = shown; }
 
+void PanelActions::showScan(const std::filesystem::path& file) { editor_.showCloud(file); }
+
 void PanelActions::choose(const SurveyChoice& choice) { editor_.survey = choice; }
 void PanelActions::choose(const ChosenMaterial& material) { editor_.material = material; }
+void PanelActions::renameBegun() { editor_.rename_wanted = false; }
 void PanelActions::set(const ScanChoice& scan) { editor_.scan_choice = scan; }
 void PanelActions::set(const SeenLimits& limits) { editor_.seen = limits; }
 void PanelActions::set(const Body& walker) { editor_.walker = walker; }
@@ -72,6 +84,7 @@ void PanelActions::selectInPreview(std::uint32_t product) { editor_.preview_sele
 
 void PanelActions::run(const char* command) { invoke(editor_, command); }
 void PanelActions::menuItem(const char* command) { actionMenuItem(editor_, command); }
+void PanelActions::button(const char* command, float width) { actionButton(editor_, command, width); }
 void PanelActions::openForm(const VerbOptions& filled) {
   const auto* verb = findVerb(editor_.session.verbs(), filled.type());
   if (verb == nullptr) return;

@@ -15,6 +15,7 @@ class PanelActions final : public Actions {
   bool start(const VerbOptions& options, std::string title) override;
   bool startScan(const ScanVerbOptions& options, std::string title) override;
   void report(std::string title, Error error) override;
+  std::string refused(const std::string& title) override;
   void clearLog() override;
 
   void select(std::vector<std::uint32_t> products) override;
@@ -33,9 +34,11 @@ class PanelActions final : public Actions {
   void showReflectanceAt(double wavelength_nm) override;
   void showWalkable(bool shown) override;
   void showShapes(bool shown) override;
+  void showScan(const std::filesystem::path& file) override;
 
   void choose(const SurveyChoice& choice) override;
   void choose(const ChosenMaterial& material) override;
+  void renameBegun() override;
   void set(const ScanChoice& scan) override;
   void set(const SeenLimits& limits) override;
   void set(const Body& walker) override;
@@ -54,6 +57,7 @@ class PanelActions final : public Actions {
 
   void run(const char* command) override;
   void menuItem(const char* command) override;
+  void button(const char* command, float width) override;
   void openForm(const VerbOptions& filled) override;
   void askForFile(FileDialogState::Purpose purpose, std::string title, std::string accept,
                   std::vector<std::string> extensions, std::string name, WhenChosen done) override;

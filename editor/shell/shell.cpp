@@ -150,8 +150,8 @@ void drawMenuBar(Editor& editor) {
     ImGui::EndMenu();
   }
   if (ImGui::BeginMenu("Edit")) {
-    items(editor, {"undo", "redo", "", "select-all", "select-none", "", "remove", "", "take-material", "paint-material",
-                   "", "measure"});
+    items(editor, {"undo", "redo", "", "select-all", "select-none", "", "rename", "remove", "", "take-material",
+                   "paint-material", "", "measure"});
     ImGui::EndMenu();
   }
   if (ImGui::BeginMenu("View")) {

@@ -241,6 +241,18 @@ bool numberField(const char* id, double& value, const NumberFormat& format, cons
   return changed;
 }
 
+bool textField(const char* id, std::string& value, const char* hint) {
+  const ImGuiID item = ImGui::GetID(id);
+  const double version = static_cast<double>(std::hash<std::string>()(value) >> 12);  // stands for the value
+  Draft* draft = draftOf(item, version);
+  std::string text = draft != nullptr ? draft->text : value;
+  ImGui::InputTextWithHint(id, hint, &text, ImGuiInputTextFlags_AutoSelectAll);
+  if (!followEdit(item, draft, value, text, version, {})) return false;
+  drafts().of.erase(item);
+  value = text;
+  return true;
+}
+
 bool numberSlider(const char* id, double& value, double low, double high, const NumberFormat& format, const char* help,
                   bool logarithmic) {
   const float width = ImGui::CalcItemWidth(), between = ImGui::GetStyle().ItemInnerSpacing.x;

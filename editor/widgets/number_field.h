@@ -24,6 +24,9 @@ namespace ui {
 // units: numberFromText. True in the frame in which the value has become another.
 bool numberField(const char* id, double& value, const NumberFormat& format, const char* help = nullptr);
 
+// The same for a text, such as a name: taken over and taken back alike.
+bool textField(const char* id, std::string& value, const char* hint = "");
+
 // A bar to pull, with the field of the same number beside it. `low` and `high` are the ends of the bar.
 bool numberSlider(const char* id, double& value, double low, double high, const NumberFormat& format,
                   const char* help = nullptr, bool logarithmic = false);

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/panels/survey_inspector.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "core/units.h"
+#include "editor/panels/actions.h"
+#include "editor/panels/panel.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/number_field.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
+#include "project/survey/underlays.h"
+#include "survey/stations/levelling.h"
+
+namespace standpoint {
+
+namespace {
+
+// The fields of one thing: what stands in them, whose they are, and what came of the last change.
+struct SurveyEdit {
+  const void* of = nullptr;  // the value that they were filled from
+  std::string name;
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();
+  double heading_deg = 0, height_m = 0;
+  std::string asked, problem;  // the title of the task, and why it was refused
+};
+
+struct SurveyInspectorState {
+  SurveyEdit station, target, underlay;
+};
+
+const NumberFormat kPlace{.kind = {.unit = "m"}, .decimals = 3};
+const NumberFormat kHeading{.kind = {.unit = "°", .least = -360, .most = 360}, .decimals = 2, .drag = 0.5};
+
+// True when the fields are to be filled: another thing, or it has changed.
+bool begins(SurveyEdit& edit, const void* of, Actions& actions) {
+  if (!edit.asked.empty())
+    if (auto why = actions.refused(edit.asked); !why.empty()) edit.problem = std::move(why), edit.asked.clear();
+  if (edit.of == of) return false;
+  edit = {.of = of};
+  return true;
+}
+
+void start(Actions& actions, SurveyEdit& edit, const VerbOptions& options, std::string title) {
+  edit.problem.clear();
+  edit.asked = title;
+  actions.start(options, std::move(title));
+}
+
+bool nameRow(const Model& model, Actions& actions, SurveyEdit& edit) {
+  ui::propertyLabel("Name");
+  if (model.rename_wanted) {
+    ImGui::SetKeyboardFocusHere();
+    actions.renameBegun();
+  }
+  return ui::textField("###inspected-name", edit.name);
+}
+
+bool placeRows(SurveyEdit& edit) {
+  bool changed = false;
+  static constexpr const char* kAxes[] = {"X", "Y", "Z"};
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    ui::propertyLabel(kAxes[i]);
+    changed = ui::numberField(fmt::format("###inspected-{}", kAxes[i]).c_str(), edit.at[i], kPlace) || changed;
+  }
+  return changed;
+}
+
+bool headingRow(SurveyEdit& edit, const char* help) {
+  ui::propertyLabel("Heading");
+  return ui::numberField("###inspected-heading", edit.heading_deg, kHeading, help);
+}
+
+void drawProblem(SurveyEdit& edit) {
+  if (edit.problem.empty()) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, tone::kBad);
+  ui::wrapped(edit.problem);
+  ImGui::PopStyleColor();
+  if (ui::button("Revert###revert-inspected")) edit = {};
+}
+
+void bringNear(Actions& actions, const Eigen::Vector3d& place) {
+  Bounds around;
+  around.extend(place - Eigen::Vector3d(3, 3, 2));
+  around.extend(place + Eigen::Vector3d(3, 3, 2));
+  actions.bringIntoView(around);
+}
+
+float columnWidth(int columns) {
+  return (ImGui::GetContentRegionAvail().x - static_cast<float>(columns - 1) * ImGui::GetStyle().ItemSpacing.x) /
+         static_cast<float>(columns);
+}
+
+bool smallButton(const char* icon, const char* text, const char* id, float width, const std::string& why,
+                 const char* help) {
+  return ui::button(ui::fittingLabel(icon, text, id, width).c_str(), why, {width, 0}, help);
+}
+
+void drawScans(const Model& model, Actions& actions, const Station& station) {
+  if (station.scans.empty()) return;
+  ui::heading(model, fmt::format("Scans  {}", station.scans.size()).c_str());
+  for (std::size_t i = 0; i < station.scans.size(); ++i) {
+    const auto& scan = station.scans[i];
+    const std::filesystem::path file = scan.file;
+    ImGui::PushID(static_cast<int>(i));
+    const bool open = ImGui::TreeNodeEx("###scan", ImGuiTreeNodeFlags_SpanAvailWidth, "%s   %s points",
+                                        file.filename().string().c_str(), groupedDigits(scan.points).c_str());
+    if (open) {
+      if (ui::beginProperties("scan", 0.36F)) {
+        ui::property("Instrument", scan.instrument);
+        for (const auto& [key, value] : scan.settings) ui::property(key.c_str(), value);
+        ui::property("Points", groupedDigits(scan.points));
+        ui::property("Pulses", groupedDigits(scan.pulses));
+        ui::property("Instrument time", durationText(scan.instrument_seconds));
+        ui::property("Noise seed", std::to_string(scan.seed));
+        ui::property("File", scan.file);
+        ui::endProperties();
+      }
+      std::error_code ignored;
+      const bool there = std::filesystem::is_regular_file(file, ignored);
+      if (ui::button(ICON_EYE "  Show points###show-scan", there ? "" : "The file is missing: " + scan.file,
+                     {-FLT_MIN, 0}))
+        actions.showScan(file);
+      ImGui::TreePop();
+    }
+    ImGui::PopID();
+  }
+}
+
+StationOptions movedStation(const Station& station, const SurveyEdit& edit) {
+  StationOptions options{.move = station.name, .at = edit.at, .yaw_deg = edit.heading_deg};
+  if (const Tilt tilt = tiltOf(station.true_pose.rotation); tilt.angle_rad > 0) {
+    options.tilt_deg = tilt.angle_rad / kRadPerDeg;
+    options.tilt_towards_deg = tilt.towards_rad / kRadPerDeg;
+  }
+  return options;
+}
+
+void stationFieldRows(const Model& model, SurveyEdit& edit, Actions& actions, const Station& station) {
+  if (!ui::beginProperties("station", 0.36F)) return;
+  const auto why = model.session.whyNot("station");
+  ImGui::BeginDisabled(!why.empty());
+  if (nameRow(model, actions, edit))
+    start(actions, edit, StationOptions{.rename = station.name, .name = edit.name}, "Rename station " + station.name);
+  bool moved = placeRows(edit);
+  ui::propertyLabel("Above floor");
+  const double before = edit.height_m;
+  if (ui::numberField("###inspected-height", edit.height_m,
+                      {.kind = {.unit = "m", .least = 0.1, .most = 10}, .decimals = 3},
+                      "Height of the instrument's centre above the floor")) {
+    edit.at.z() += edit.height_m - before;
+    moved = true;
+  }
+  moved = headingRow(edit, "Direction of the instrument's X axis, counter-clockwise from the file's X") || moved;
+  if (moved) start(actions, edit, movedStation(station, edit), "Move station " + station.name);
+  ImGui::EndDisabled();
+  if (const Tilt tilt = tiltOf(station.true_pose.rotation); tilt.angle_rad > 1e-9)
+    ui::property("Tilt",
+                 fmt::format("{:.3f}° towards {:.0f}°", tilt.angle_rad / kRadPerDeg, tilt.towards_rad / kRadPerDeg));
+  if (station.solved_pose) {
+    const Pose& solved = *station.solved_pose;
+    ui::property("Registered", fmt::format("off by {:.1f} mm and {:.4f}°",
+                                           (solved.translation - station.true_pose.translation).norm() * 1000,
+                                           solved.rotation.angularDistance(station.true_pose.rotation) / kRadPerDeg));
+  }
+  ui::endProperties();
+}
+
+void drawStation(const Model& model, SurveyEdit& edit, Actions& actions, const Station& station) {
+  if (begins(edit, &station, actions)) {
+    edit.name = station.name;
+    edit.at = station.true_pose.translation + model.shift_m();
+    edit.heading_deg = yawOf(station.true_pose.rotation) / kRadPerDeg;
+    edit.height_m = station.instrument_height_m;
+  }
+  ui::heading(model, ("Station " + station.name).c_str());
+  stationFieldRows(model, edit, actions, station);
+  drawProblem(edit);
+  const float width = columnWidth(3);
+  if (smallButton(ICON_CROSSHAIRS, "Look", "look-station", width, {}, "Frame in view"))
+    bringNear(actions, station.true_pose.translation);
+  ImGui::SameLine();
+  if (smallButton(ICON_PLAY, "Scan…", "scan-station", width, model.session.whyNot("scan"), "Open the Scan panel"))
+    actions.run("scan");
+  ImGui::SameLine();
+  if (smallButton(ICON_TRASH, "Remove", "remove-station", width, model.session.whyNot("station"), "Remove station"))
+    actions.start(StationOptions{.remove = station.name}, "Remove station " + station.name);
+  drawScans(model, actions, station);
+}
+
+double headingOf(const Eigen::Vector3d& direction) { return std::atan2(direction.y(), direction.x()) / kRadPerDeg; }
+
+// Turned about the plumb line.
+Eigen::Vector3d turnedTo(const Eigen::Vector3d& direction, double heading_deg) {
+  const double level = direction.head<2>().norm(), angle = heading_deg * kRadPerDeg;
+  return {level * std::cos(angle), level * std::sin(angle), direction.z()};
+}
+
+void drawTarget(const Model& model, SurveyEdit& edit, Actions& actions, const Target& target) {
+  if (begins(edit, &target, actions)) {
+    edit.name = target.name;
+    edit.at = target.centre + model.shift_m();
+    edit.heading_deg = headingOf(target.normal);
+  }
+  const bool plate = target.kind == TargetKind::checkerboard;
+  ui::heading(model, ("Target " + target.name).c_str());
+  const auto why = model.session.whyNot("target");
+  if (ui::beginProperties("target", 0.36F)) {
+    ImGui::BeginDisabled(!why.empty());
+    if (nameRow(model, actions, edit))
+      start(actions, edit, TargetOptions{.rename = target.name, .name = edit.name}, "Rename target " + target.name);
+    bool moved = placeRows(edit);
+    if (plate) moved = headingRow(edit, "Direction that it faces, counter-clockwise from the file's X") || moved;
+    if (moved) {
+      TargetOptions options{.move = target.name};
+      options.at = edit.at;
+      if (plate) options.normal = turnedTo(target.normal, edit.heading_deg);
+      start(actions, edit, options, "Move target " + target.name);
+    }
+    ImGui::EndDisabled();
+    ui::property("Kind", plate ? "checkerboard" : "sphere");
+    ui::property(plate ? "Side" : "Diameter", fmt::format("{:.4g} mm", target.size_m * 1000));
+    ui::endProperties();
+  }
+  drawProblem(edit);
+  const float width = columnWidth(2);
+  if (smallButton(ICON_CROSSHAIRS, "Look", "look-target", width, {}, "Frame in view"))
+    bringNear(actions, target.centre);
+  ImGui::SameLine();
+  if (smallButton(ICON_TRASH, "Remove", "remove-target", width, why, "Remove target"))
+    actions.start(TargetOptions{.remove = target.name}, "Remove target " + target.name);
+}
+
+void underlayButtons(const Model& model, Actions& actions, const Underlay& underlay, const std::string& why) {
+  const float width = columnWidth(2);
+  if (smallButton(ICON_EXPAND, "Frame", "frame-underlay", width, {}, "Frame in view"))
+    if (const Bounds b = underlayBounds(underlay, *model.session.document().georeference); !b.empty())
+      actions.bringIntoView(b);
+  ImGui::SameLine();
+  const bool shown = underlay.visible;
+  if (smallButton(shown ? ICON_EYE_OFF : ICON_EYE, shown ? "Hide" : "Show", "show-underlay", width, why,
+                  shown ? "Hide its points" : "Show its points"))
+    shown ? actions.start(UnderlayOptions{.hide = underlay.name}, "Hide " + underlay.name)
+          : actions.start(UnderlayOptions{.show = underlay.name}, "Show " + underlay.name);
+  if (smallButton(ICON_MOVE, "Register…", "register-underlay", width, why, "Fit it to the model")) {
+    UnderlayOptions options{.fit = underlay.name};
+    options.to_surface = true;
+    actions.openForm(options);
+  }
+  ImGui::SameLine();
+  if (smallButton(ICON_TRASH, "Remove", "remove-underlay", width, why, "Remove underlay; its file stays"))
+    actions.start(UnderlayOptions{.remove = underlay.name}, "Remove underlay " + underlay.name);
+}
+
+void drawUnderlay(const Model& model, SurveyEdit& edit, Actions& actions, const Underlay& underlay) {
+  if (begins(edit, &underlay, actions)) {
+    edit.name = underlay.name;
+    edit.at = underlay.file_from_cloud.translation;
+    edit.heading_deg = yawOf(underlay.file_from_cloud.rotation) / kRadPerDeg;
+  }
+  ui::heading(model, ("Underlay " + underlay.name).c_str());
+  const auto why = model.session.whyNot("underlay");
+  if (ui::beginProperties("underlay", 0.36F)) {
+    ImGui::BeginDisabled(!why.empty());
+    if (nameRow(model, actions, edit)) {
+      UnderlayOptions options{.name = edit.name};
+      options.rename = underlay.name;
+      start(actions, edit, options, "Rename underlay " + underlay.name);
+    }
+    bool moved = placeRows(edit);
+    moved = headingRow(edit, "Angle from the file's X axis to the cloud's, counter-clockwise") || moved;
+    if (moved) {
+      UnderlayOptions options{.move = underlay.name};
+      options.at = edit.at;
+      options.yaw_deg = edit.heading_deg;
+      start(actions, edit, options, "Move underlay " + underlay.name);
+    }
+    ImGui::EndDisabled();
+    ui::property("Points", groupedDigits(underlay.points));
+    ui::property("Format", underlay.format);
+    ui::property("CRS", underlay.crs);
+    ui::property("File", underlay.file);
+    ui::endProperties();
+  }
+  drawProblem(edit);
+  underlayButtons(model, actions, underlay, why);
+}
+
+bool drawMeasured(const Model& model, Actions& actions) {
+  const auto &from = model.view.measured_from, &to = model.view.measured_to;
+  if (!from || !to) return false;
+  const Eigen::Vector3d way = *to - *from;
+  ui::heading(model, "Measured distance");
+  if (ui::beginProperties("measured", 0.36F)) {
+    ui::property("Distance", metres(way.norm(), 4));
+    ui::property("Horizontal", metres(way.head<2>().norm(), 4));
+    ui::property("Vertical", metres(way.z(), 4));
+    ui::property("From", coordinates(*from + model.shift_m()));
+    ui::property("To", coordinates(*to + model.shift_m()));
+    ui::endProperties();
+  }
+  const float width = columnWidth(2);
+  if (smallButton(ICON_LIST, "Copy", "copy-measured", width, {}, "Copy the distance"))
+    ImGui::SetClipboardText(metres(way.norm(), 4).c_str());
+  ImGui::SameLine();
+  if (smallButton(ICON_CLOSE, "Clear", "clear-measured", width, {}, "Clear the measurement and leave the tool"))
+    actions.run("select-none");
+  return true;
+}
+
+template <class Things>
+auto* chosenOf(const Things& things, int index) {
+  return index >= 0 && index < static_cast<int>(things.size()) ? &things[static_cast<std::size_t>(index)] : nullptr;
+}
+
+}  // namespace
+
+bool drawSurveyInspector(const Model& model, PanelStates& states, Actions& actions) {
+  auto& state = states.of<SurveyInspectorState>();
+  bool any = drawMeasured(model, actions);
+  const auto job = model.session.document().job;  // a copy: a button may change it
+  const auto underlays = model.session.document().underlays;
+  const auto chosen = model.survey;
+  if (job)
+    if (const auto* station = chosenOf(job->stations, chosen.station)) {
+      drawStation(model, state.station, actions, *station);
+      any = true;
+    }
+  if (job)
+    if (const auto* target = chosenOf(job->targets, chosen.target)) {
+      drawTarget(model, state.target, actions, *target);
+      any = true;
+    }
+  if (const auto* underlay = chosenOf(underlays, chosen.underlay)) {
+    drawUnderlay(model, state.underlay, actions, **underlay);
+    any = true;
+  }
+  return any;
+}
+
+}  // namespace standpoint

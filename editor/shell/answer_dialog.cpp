@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "core/number_text.h"
+#include "editor/model/option_form.h"
+#include "editor/shell/dialogs.h"
+#include "editor/shell/editor.h"
+#include "editor/widgets/modal.h"
+#include "editor/widgets/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+constexpr std::size_t kMostRows = 200;  // of a list
+
+std::string readableKey(std::string key) {
+  std::replace(key.begin(), key.end(), '_', '-');
+  return readableOption(key.c_str());
+}
+
+std::string scalarText(const json& value) {
+  if (value.is_null()) return "–";
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (value.is_number_float()) return fmt::format("{:.10g}", value.get<double>());
+  return value.dump();
+}
+
+bool isRow(const json& value) {  // of a few numbers, such as a place
+  return value.is_array() && value.size() <= 4 &&
+         std::all_of(value.begin(), value.end(), [](const json& v) { return v.is_primitive(); });
+}
+
+std::string rowText(const json& values) {
+  std::string text;
+  for (const auto& value : values) text += (text.empty() ? "" : "   ") + scalarText(value);
+  return text;
+}
+
+// What a row of a list is called: by its name, else its number.
+std::string rowTitle(const json& row, std::size_t index) {
+  for (const char* key : {"name", "station", "id", "title", "class", "file"})
+    if (row.is_object() && row.contains(key) && row[key].is_string()) return row[key].get<std::string>();
+  return std::to_string(index + 1);
+}
+
+void drawFigures(const json& object);
+
+void drawBranch(const std::string& title, const json& value) {
+  const std::string shown = value.is_array() ? fmt::format("{}   {}", title, value.size()) : title;
+  const auto flags = value.is_object() ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None;
+  if (!ImGui::TreeNodeEx(shown.c_str(), flags | ImGuiTreeNodeFlags_SpanAvailWidth)) return;
+  if (value.is_object()) drawFigures(value);
+  if (value.is_array()) {
+    for (std::size_t i = 0; i < std::min(value.size(), kMostRows); ++i) {
+      ImGui::PushID(static_cast<int>(i));
+      const auto& row = value[i];
+      if (row.is_primitive() || isRow(row))
+        ui::wrapped(row.is_primitive() ? scalarText(row) : rowText(row));
+      else
+        drawBranch(rowTitle(row, i), row);
+      ImGui::PopID();
+    }
+    if (value.size() > kMostRows) ui::dimText(fmt::format("and {} more", value.size() - kMostRows));
+  }
+  ImGui::TreePop();
+}
+
+void drawFigures(const json& object) {
+  if (ui::beginProperties("figures", 0.36F)) {
+    for (const auto& [key, value] : object.items())
+      if (value.is_primitive() || isRow(value))
+        ui::property(readableKey(key).c_str(), value.is_primitive() ? scalarText(value) : rowText(value));
+    ui::endProperties();
+  }
+  for (const auto& [key, value] : object.items())
+    if (!value.is_primitive() && !isRow(value)) drawBranch(readableKey(key), value);
+}
+
+}  // namespace
+
+void drawAnswer(Editor& editor) {
+  auto& answers = editor.session.answers();
+  if (!ui::beginModal(editor, "Result###answer", !answers.empty(), 680, 520)) return;
+  const ShownAnswer& shown = answers.front();
+  if (editor.fonts.bold != nullptr) ImGui::PushFont(editor.fonts.bold);
+  ui::wrapped(shown.title);
+  if (editor.fonts.bold != nullptr) ImGui::PopFont();
+  const float footer = ImGui::GetFrameHeightWithSpacing();
+  ImGui::BeginChild("answer", {0, ImGui::GetContentRegionAvail().y - footer});
+  if (!shown.text.empty()) {
+    ui::wrapped(shown.text);
+    ui::gap(editor, 4);
+  }
+  if (shown.figures.is_object() && !shown.figures.empty()) drawFigures(shown.figures);
+  ImGui::EndChild();
+  const bool close = ui::primaryButton("Close###close-answer", {}, {editor.px(110), 0}) || ui::modalCancelled();
+  ImGui::SameLine();
+  if (ImGui::Button("Copy text###copy-answer"))
+    ImGui::SetClipboardText((shown.title + "\n" + shown.text + "\n" + shown.figures.dump(1)).c_str());
+  if (close) {
+    answers.pop_front();
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
+}
+
+}  // namespace standpoint

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/units.h"
+#include "demo_verbs.h"
+#include "editor/shell/actions.h"
+#include "editor/widgets/keyboard.h"
+#include "item_probe.h"
+#include "survey/stations/levelling.h"
+
+namespace standpoint {
+namespace {
+
+class Inspector : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(editor.session.start("demo", nlohmann::json::object()));
+    gui.settle();
+    editor.session.wait();
+    editor.workspace = Workspace::model;
+    editor.wanted_tab[1] = "inspector";
+    gui.frames(3);
+  }
+  const Job& job() const { return *editor.session.document().job; }
+  void typeInto(const char* id, const char* text) {
+    ASSERT_TRUE(gui.click(id)) << id;
+    gui.type(text);
+    gui.key(kKeyEnter);
+    gui.settle();
+  }
+  Editor editor{verbsWithDemo(), [] {}};
+  GuiDriver gui{editor};
+};
+
+TEST_F(Inspector, MovesAStationByATypedNumberAndUndoTakesItBack) {
+  editor.survey.station = 0;
+  gui.frames(3);
+  const auto before = job().stations[0];
+  typeInto("###inspected-X", fmt::format("{}+10cm", before.true_pose.translation.x() + editor.shift_m().x()).c_str());
+  ASSERT_TRUE(editor.session.errors().empty()) << describe(editor.session.errors().front().error);
+  EXPECT_NEAR(job().stations[0].true_pose.translation.x(), before.true_pose.translation.x() + 0.1, 1e-9);
+  EXPECT_TRUE(job().stations[0].true_pose.rotation.isApprox(before.true_pose.rotation, 1e-9)) << "it keeps its heading";
+  editor.session.undo();
+  gui.frames(2);
+  EXPECT_EQ(job().stations[0].true_pose.translation, before.true_pose.translation);
+}
+
+TEST_F(Inspector, TurnsAStationToATypedHeading) {
+  editor.survey.station = 0;
+  gui.frames(3);
+  const auto at = job().stations[0].true_pose.translation;
+  typeInto("###inspected-heading", "37,5°");
+  ASSERT_TRUE(editor.session.errors().empty()) << describe(editor.session.errors().front().error);
+  EXPECT_NEAR(yawOf(job().stations[0].true_pose.rotation) / kRadPerDeg, 37.5, 1e-9);
+  EXPECT_LT((job().stations[0].true_pose.translation - at).norm(), 1e-6);
+}
+
+TEST_F(Inspector, RenamesAStationAfterF2AndUndoTakesItBack) {
+  editor.survey.station = 0;
+  gui.frames(3);
+  const auto name = job().stations[0].name;
+  const auto scans = job().stations[0].scans.size();
+  gui.key(kKeyF2);
+  gui.frames(3);
+  ASSERT_TRUE(ImGui::GetIO().WantTextInput);
+  gui.type("Hall");
+  gui.key(kKeyEnter);
+  gui.settle();
+  EXPECT_EQ(job().stations[0].name, "Hall");
+  EXPECT_EQ(job().stations[0].scans.size(), scans);
+  EXPECT_EQ(editor.session.history().undoDescription(), "Renamed station " + name + " to Hall");
+  editor.session.undo();
+  gui.frames(2);
+  EXPECT_EQ(job().stations[0].name, name);
+}
+
+TEST_F(Inspector, SaysARefusalBesideTheFieldsInsteadOfInADialog) {
+  ASSERT_GE(job().stations.size(), 2U);
+  editor.survey.station = 0;
+  gui.frames(3);
+  const auto name = job().stations[0].name;
+  typeInto("###inspected-name", job().stations[1].name.c_str());
+  gui.frames(3);
+  EXPECT_EQ(job().stations[0].name, name);
+  EXPECT_TRUE(editor.session.errors().empty());
+  EXPECT_EQ(ImGui::GetCurrentContext()->OpenPopupStack.Size, 0);
+  ASSERT_NE(gui.find("###revert-inspected"), nullptr) << "the reason, and the way back";
+  ASSERT_TRUE(gui.click("###revert-inspected"));
+  gui.frames(2);
+  EXPECT_EQ(gui.find("###revert-inspected"), nullptr);
+}
+
+TEST_F(Inspector, MovesAndRenamesATarget) {
+  if (job().targets.empty()) {
+    ASSERT_TRUE(editor.session.start("target", {{"add", "T1"}, {"at", {2.0, 2.0, 1.2}}}));
+    gui.settle();
+    ASSERT_FALSE(job().targets.empty());
+  }
+  editor.survey.target = 0;
+  gui.frames(3);
+  const double z = job().targets[0].centre.z();
+  typeInto("###inspected-Z", fmt::format("{}+5cm", z + editor.shift_m().z()).c_str());
+  ASSERT_EQ(gui.find("###revert-inspected"), nullptr);
+  EXPECT_NEAR(job().targets[0].centre.z(), z + 0.05, 1e-9);
+  typeInto("###inspected-name", "Column");
+  EXPECT_EQ(job().targets[0].name, "Column");
+}
+
+TEST_F(Inspector, OffersWhatCanBeDoneWithAProduct) {
+  editor.select(2, false);
+  gui.frames(3);
+  ASSERT_TRUE(gui.click("###hide"));
+  EXPECT_TRUE(editor.visibility.hidden(2));
+}
+
+TEST_F(Inspector, AnswersOfVerbsThatChangeNothingAreShownWithTheirContent) {
+  const auto steps = editor.session.history().undoDescription();
+  for (const char* verb : {"instruments", "station"}) {
+    openVerbForm(editor, verb);
+    gui.frames(3);
+    ASSERT_TRUE(gui.click("###run")) << verb;
+    gui.settle();
+    gui.frames(3);
+    ASSERT_EQ(editor.session.answers().size(), 1U) << verb;
+    const auto& answer = editor.session.answers().front();
+    EXPECT_TRUE(!answer.text.empty() || !answer.figures.empty()) << verb;
+    EXPECT_NE(gui.find("###close-answer"), nullptr) << verb;
+    gui.key(kKeyEscape);
+    gui.frames(3);
+    EXPECT_TRUE(editor.session.answers().empty()) << verb;
+  }
+  EXPECT_EQ(editor.session.history().undoDescription(), steps) << "a list is no step to be undone";
+}
+
+}  // namespace
+}  // namespace standpoint
