@@ -75,7 +75,7 @@ class Actions {
   using WhenChosen = std::function<void(Actions& later, const std::filesystem::path& chosen)>;
   virtual void run(const char* command) = 0;       // of those that menus and keys have
   virtual void menuItem(const char* command) = 0;  // in an open menu
-  virtual void button(const char* command, float width) = 0;
+  virtual void button(const char* command, const char* text, float width) = 0;
   virtual void openForm(const VerbOptions& filled) = 0;
   virtual void askForFile(FileDialogState::Purpose purpose, std::string title, std::string accept,
                           std::vector<std::string> extensions, std::string name, WhenChosen done) = 0;

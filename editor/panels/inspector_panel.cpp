@@ -298,9 +298,11 @@ void drawPlaceProperties(const Model& model, const Product& product) {
 void drawButtons(Actions& actions) {
   const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
   int i = 0;
-  for (const char* id : {"frame", "hide", "isolate", "exclude", "keep", "by-rules"}) {
+  for (const auto& [id, text] : {std::pair{"frame", "Frame"}, std::pair{"hide", "Hide"},
+                                 std::pair{"isolate", "Isolate"}, std::pair{"exclude", "Exclude"},
+                                 std::pair{"keep", "Never simplify"}, std::pair{"by-rules", "Reset to rules"}}) {
     if (i++ % 2 != 0) ImGui::SameLine();
-    actions.button(id, width);
+    actions.button(id, text, width);
   }
 }
 
@@ -316,7 +318,7 @@ void drawMany(const Model& model, InspectorState& state, Actions& actions) {
   }
   for (const auto& i : model.environment()->instances)
     if (chosen[i.product] != 0) triangles += model.environment()->meshes[i.mesh]->triangles.size();
-  if (ui::beginProperties("many", 0.6F)) {
+  if (ui::beginProperties("many", 0.45F)) {
     for (const auto& [name, count] : classes) ui::property(name.c_str(), std::to_string(count));
     ui::property("Triangles", groupedDigits(triangles));
     const auto all = model.selectionBounds();

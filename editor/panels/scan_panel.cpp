@@ -58,8 +58,8 @@ void drawInstrumentChoice(const Model& model, ScanChoice& asked, const Instrumen
 // A setting that is a number within bounds.
 void drawNumber(const InstrumentSetting& setting, std::string& text) {
   double number = std::strtod(text.c_str(), nullptr);
-  const NumberKind kind{
-      .unit = setting.unit == "deg" ? "°" : setting.unit, .least = setting.minimum, .most = setting.maximum};
+  const std::string_view unit = setting.unit == "deg" ? std::string_view("°") : std::string_view(setting.unit);
+  const NumberKind kind{.unit = unit, .least = setting.minimum, .most = setting.maximum};
   if (ui::numberField("###value", number, {.kind = kind}, rangeText(kind).c_str())) text = exactText(number);
 }
 
@@ -99,8 +99,10 @@ void drawOutput(const Model& model, ScanState& state, Actions& actions,
                 const std::vector<const CloudFormat*>& formats) {
   state.format = std::clamp(state.format, 0, std::max(0, static_cast<int>(formats.size()) - 1));
   ui::propertyLabel("Format");
-  if (ImGui::BeginCombo("###format",
-                        formats.empty() ? "" : formats[static_cast<std::size_t>(state.format)]->description)) {
+  const auto* chosen = formats.empty() ? nullptr : formats[static_cast<std::size_t>(state.format)];
+  const bool open = ImGui::BeginCombo("###format", chosen == nullptr ? "" : chosen->extension);
+  if (!open && chosen != nullptr) ui::tooltip(chosen->description);  // too long for the field
+  if (open) {
     for (int i = 0; i < static_cast<int>(formats.size()); ++i)
       if (ImGui::Selectable(formats[static_cast<std::size_t>(i)]->description, i == state.format)) state.format = i;
     ImGui::EndCombo();

@@ -483,11 +483,11 @@ void actionToolButton(Editor& editor, const char* id) {
   ImGui::SameLine();
 }
 
-void actionButton(Editor& editor, const char* id, float width) {
+void actionButton(Editor& editor, const char* id, const char* text, float width) {
   const Action& action = *findAction(id);
   const std::string keys = shortcutText(action.shortcut);
   const std::string tip = std::string(action.title) + (keys.empty() ? "" : "  (" + keys + ")");
-  if (ui::button(ui::fittingLabel(action.icon, action.title, id, width).c_str(), whyNot(action, editor), {width, 0},
+  if (ui::button(ui::fittingLabel(action.icon, text, id, width).c_str(), whyNot(action, editor), {width, 0},
                  tip.c_str()))
     action.run(editor);
 }

@@ -34,7 +34,7 @@ std::string shortcutText(const Shortcut& shortcut);  // "Ctrl+Shift+S"
 void runShortcuts(Editor& editor);
 void actionMenuItem(Editor& editor, const char* id);
 void actionToolButton(Editor& editor, const char* id);
-void actionButton(Editor& editor, const char* id, float width);
+void actionButton(Editor& editor, const char* id, const char* text, float width);
 
 // Opens the form of a verb, generated from its parameters.
 void openVerbForm(Editor& editor, const char* verb);

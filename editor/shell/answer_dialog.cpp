@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "core/number_text.h"
 #include "editor/model/option_form.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
@@ -17,11 +17,19 @@ namespace standpoint {
 namespace {
 
 using nlohmann::json;
-constexpr std::size_t kMostRows = 200;  // of a list
+constexpr std::size_t kMostRows = 200, kOpenRows = 8;  // of a list: that are drawn, that it is open with
 
+// "latitude_deg" → "Latitude, °"
 std::string readableKey(std::string key) {
+  std::string unit;
+  for (const auto& [ending, written] :
+       {std::pair{"_deg", "°"}, {"_mm", "mm"}, {"_nm", "nm"}, {"_m2", "m²"}, {"_m", "m"}})
+    if (unit.empty() && key.ends_with(ending)) {
+      unit = written;
+      key.resize(key.size() - std::string_view(ending).size());
+    }
   std::replace(key.begin(), key.end(), '_', '-');
-  return readableOption(key.c_str());
+  return readableOption(key.c_str()) + (unit.empty() ? "" : ", " + unit);
 }
 
 std::string scalarText(const json& value) {
@@ -54,7 +62,8 @@ void drawFigures(const json& object);
 
 void drawBranch(const std::string& title, const json& value) {
   const std::string shown = value.is_array() ? fmt::format("{}   {}", title, value.size()) : title;
-  const auto flags = value.is_object() ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None;
+  const auto flags =
+      value.is_object() || value.size() <= kOpenRows ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None;
   if (!ImGui::TreeNodeEx(shown.c_str(), flags | ImGuiTreeNodeFlags_SpanAvailWidth)) return;
   if (value.is_object()) drawFigures(value);
   if (value.is_array()) {

@@ -58,6 +58,11 @@ std::string whyNotAccept(const FileDialogState& state) {
   return {};
 }
 
+// Why the name that was entered cannot be taken; an empty one only waits.
+std::string typedProblem(const FileDialogState& state) {
+  return state.name.empty() ? std::string() : whyNotAccept(state);
+}
+
 bool wouldOverwrite(const FileDialogState& state) {
   std::error_code ignored;
   return forWriting(state) && std::filesystem::exists(chosenPath(state), ignored);
@@ -186,6 +191,8 @@ void drawFooter(Editor& editor) {
     ImGui::CloseCurrentPopup();
     if (const auto cancelled = state.cancelled) cancelled();
   }
+  if (const auto wrong = typedProblem(state); !wrong.empty() && state.open)
+    ImGui::TextColored(colour(tone::kWarning), "%s  %s", ICON_WARNING, wrong.c_str());
   if (state.confirm_overwrite && state.open)
     ImGui::TextColored(colour(tone::kWarning), "%s  '%s' already exists. Press again to replace it.", ICON_WARNING,
                        state.name.c_str());
@@ -270,7 +277,8 @@ void drawFileDialog(Editor& editor) {
   }
   drawPathLine(state);
   const float footer =
-      ImGui::GetFrameHeightWithSpacing() + (state.confirm_overwrite ? ImGui::GetTextLineHeightWithSpacing() : 0);
+      ImGui::GetFrameHeightWithSpacing() +
+      (state.confirm_overwrite || !typedProblem(state).empty() ? ImGui::GetTextLineHeightWithSpacing() : 0);
   drawRows(editor, ImGui::GetContentRegionAvail().y - footer - ImGui::GetStyle().ItemSpacing.y);
   if (state.open) drawFooter(editor);
   if (!state.open) ImGui::CloseCurrentPopup();

@@ -228,6 +228,13 @@ void drawVerbDialog(Editor& editor) {
   }
   ImGui::SameLine();
   if (ImGui::Button("Cancel", {editor.px(110), 0}) || ui::modalCancelled(edited)) state.open = false;
+  if (!why.empty()) {
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    ImGui::PushStyleColor(ImGuiCol_Text, tone::kWarning);
+    ui::fitted(why, ImGui::GetContentRegionAvail().x);
+    ImGui::PopStyleColor();
+  }
   ImGui::EndPopup();
 }
 

@@ -84,7 +84,9 @@ void PanelActions::selectInPreview(std::uint32_t product) { editor_.preview_sele
 
 void PanelActions::run(const char* command) { invoke(editor_, command); }
 void PanelActions::menuItem(const char* command) { actionMenuItem(editor_, command); }
-void PanelActions::button(const char* command, float width) { actionButton(editor_, command, width); }
+void PanelActions::button(const char* command, const char* text, float width) {
+  actionButton(editor_, command, text, width);
+}
 void PanelActions::openForm(const VerbOptions& filled) {
   const auto* verb = findVerb(editor_.session.verbs(), filled.type());
   if (verb == nullptr) return;

@@ -57,7 +57,7 @@ class PanelActions final : public Actions {
 
   void run(const char* command) override;
   void menuItem(const char* command) override;
-  void button(const char* command, float width) override;
+  void button(const char* command, const char* text, float width) override;
   void openForm(const VerbOptions& filled) override;
   void askForFile(FileDialogState::Purpose purpose, std::string title, std::string accept,
                   std::vector<std::string> extensions, std::string name, WhenChosen done) override;

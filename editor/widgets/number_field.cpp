@@ -158,11 +158,12 @@ bool dragUnit(const char* id, double& value, const NumberFormat& format, const I
   return changed;
 }
 
-bool stepButtons(double& value, const NumberFormat& format) {
+bool stepButtons(double& value, const NumberFormat& format, const ImRect& frame) {
   const float side = ImGui::GetFrameHeight(), between = ImGui::GetStyle().ItemInnerSpacing.x;
   bool changed = false;
   for (const double sign : {-1.0, 1.0}) {
     ImGui::SameLine(0, between);
+    if (sign < 0) ImGui::SetCursorScreenPos({frame.Max.x + between, frame.Min.y});
     ImGui::PushButtonRepeat(true);
     if (ImGui::Button(sign < 0 ? "-###less" : "+###more", {side, side})) {
       const double step = sign * format.step * (ImGui::GetIO().KeyCtrl ? 10 : 1);
@@ -218,6 +219,8 @@ bool numberField(const char* id, double& value, const NumberFormat& format, cons
   const bool was_active = draft != nullptr && draft->editing;
   inputIn(id, text, {width, draft != nullptr && !draft->problem.empty(), was_active, format.drag > 0}, unit);
   const bool hovered = ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled);
+  auto& extent = ImGui::GetCurrentWindow()->DC.CursorMaxPos;
+  extent.x = std::max(extent.x, frame.Max.x);  // what comes beside it comes behind the unit
   bool changed = followEdit(item, draft, before, text, value, format) && takeOver(item, draft, value, format);
   if (draft == nullptr || !was_active)
     drawShown(draft != nullptr ? draft->text : shownText(value, format),
@@ -225,7 +228,7 @@ bool numberField(const char* id, double& value, const NumberFormat& format, cons
   drawUnit(format, frame, value, draft != nullptr);
   if (format.step > 0) {
     ImGui::PushID(id);
-    changed = stepButtons(value, format) || changed;
+    changed = stepButtons(value, format, frame) || changed;
     ImGui::PopID();
   }
   if (format.drag > 0) changed = dragUnit(id, value, format, frame) || changed;
