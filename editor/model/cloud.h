@@ -66,6 +66,7 @@ class CloudLoader {
   void start(const std::filesystem::path& file, const Eigen::Vector3d& shift_m, std::function<void()> wake);
   bool busy() const { return task_ && !task_->done(); }
   Progress* progress() { return busy() ? &task_->progress() : nullptr; }
+  double seconds() const { return busy() ? task_->seconds() : 0; }
   // What the last start brought; once.
   std::optional<Result<Cloud>> take();
 

@@ -46,6 +46,11 @@ std::optional<ScanSettings> Model::plannedSettings() const {
   return *std::move(resolved);
 }
 
+bool Model::jobRuns() const {
+  return !session.running().empty() || readingCloud() || preview.reading() || deviation.busy() ||
+         !underlays.reading().empty();
+}
+
 void Model::showCloud(const std::filesystem::path& file) {
   cloud_.reset();
   live_.reset();

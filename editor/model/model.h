@@ -162,6 +162,8 @@ struct Model : Style {
   bool startScan(const ScanVerbOptions& options, std::string title);
   bool showsLiveScan() const { return live_ != nullptr; }
   bool readingCloud() const { return cloud_loader_.busy(); }
+  CloudLoader& cloudLoader() { return cloud_loader_; }
+  bool jobRuns() const;  // a bar moves
   Bounds visibleBounds() const;
   Bounds buildingBounds() const;  // what is visible without the terrain around it
   Bounds selectionBounds() const;

@@ -9,7 +9,8 @@ namespace standpoint {
 
 std::optional<double> timeLeft(double fraction, double seconds_so_far) {
   constexpr double kSoon = 0.1, kSoon_s = 2;
-  if (!(fraction > 0) || fraction >= 1 || (fraction < kSoon && seconds_so_far < kSoon_s)) return std::nullopt;
+  if (!(fraction > 0) || fraction >= 1 || !(seconds_so_far > 0) || (fraction < kSoon && seconds_so_far < kSoon_s))
+    return std::nullopt;
   return seconds_so_far / fraction * (1 - fraction);
 }
 

@@ -11,6 +11,7 @@
 
 #include "editor/panels/actions.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/job_progress.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 
@@ -174,14 +175,12 @@ void drawIssues(const Model& model, ImportPreviewState& state, Actions& actions)
 }
 
 void drawReading(const Model& model) {
-  auto& progress = model.preview.task()->progress();
-  const std::string stage = progress.stageName();
+  auto* task = model.preview.task();
+  const auto text = ui::jobText(task->progress(), task->seconds());
   ui::gap(model, 6);
-  ui::dimText(stage.empty() ? "Reading" : stage);
+  ui::dimText(text.empty() ? "Reading" : text);
   ui::gap(model, 2);
-  ui::meter(model, progress.fraction(), tone::kAccent);
-  ui::gap(model, 2);
-  ui::dimText(fmt::format("{:.0f} %   {:.1f} s", progress.fraction() * 100, model.preview.task()->seconds()));
+  ui::jobBar(model, task->progress(), ImGui::GetContentRegionAvail().x);
 }
 
 void drawFailure(const Model& model) {

@@ -76,7 +76,9 @@ void askForClick() {
   const auto* top = topPopup();
   if (top == nullptr || !isModal(*top) || !ImGui::IsMouseClicked(0) || !top->Window->WasActive) return;
   const ImVec2 p = ImGui::GetIO().MousePos;
-  if (!top->Window->Rect().Contains(p)) ui::askModalToGo(top->PopupId, true);
+  ImRect box = top->Window->Rect();
+  box.Expand(6);  // where its edges can be pulled
+  if (!box.Contains(p)) ui::askModalToGo(top->PopupId, true);
 }
 
 }  // namespace

@@ -338,17 +338,24 @@ std::string hoverText(const Editor& editor) {
                      p.x(), p.y(), p.z());
 }
 
-// A task, else the cloud that is being read to be shown.
+// A task, else the scan or the underlay that is being read to be shown.
 void drawRunningTask(Editor& editor) {
   const auto& running = editor.session.running();
   VerbTask* shown = nullptr;
   for (const auto& task : running)
     if (std::strcmp(task->verb().name, "save-recovery") != 0) shown = task.get();
-  Progress* const followed = shown != nullptr ? &shown->progress() : editor.underlays.progress();
+  const bool scan = shown == nullptr && editor.readingCloud();
+  Progress* const followed = shown != nullptr ? &shown->progress()
+                             : scan           ? editor.cloudLoader().progress()
+                                              : editor.underlays.progress();
   if (followed == nullptr) return;
   auto& progress = *followed;
-  const std::string title = shown != nullptr ? shown->title() : "Showing " + editor.underlays.reading();
-  const std::string how_far = ui::jobText(progress, shown != nullptr ? shown->seconds() : 0);
+  const std::string title = shown != nullptr ? shown->title()
+                            : scan           ? "Reading the scan"
+                                             : "Showing " + editor.underlays.reading();
+  const std::string how_far = ui::jobText(progress, shown != nullptr ? shown->seconds()
+                                                    : scan           ? editor.cloudLoader().seconds()
+                                                                     : 0);
   const std::string text = how_far.empty() ? title : title + "   " + how_far;
   const float bar = editor.px(160), cancel = editor.px(64);
   const float width = ImGui::CalcTextSize(text.c_str()).x + bar + cancel + editor.px(30);

@@ -136,17 +136,13 @@ class Window {
     cursors_[ImGuiMouseCursor_Hand] = glfwCreateStandardCursor(GLFW_HAND_CURSOR);
   }
 
-  bool jobRuns() const {
-    return !editor_.session.running().empty() || editor_.underlays.progress() != nullptr || editor_.preview.reading();
-  }
-
   void waitForWork() {
     const auto untilFine = [&] { return last_input_s_ + kStill_s - glfwGetTime(); };
     pacer_.waitForWork(events_, [&] {
       FramePacer::Reasons reasons{.input = input_.pending(),
                                   .key_held = keyboard::anyHeld(),
                                   .text_edited = ImGui::GetIO().WantTextInput,
-                                  .job_runs = jobRuns()};
+                                  .job_runs = editor_.jobRuns()};
       if (!editor_.fine_picture) reasons.until_fine_s = std::max(0.0, untilFine());
       return reasons;
     });

@@ -188,7 +188,9 @@ bool inputIn(const char* id, std::string& text, const Look& look, float unit) {
   const bool hovered = ImGui::IsMouseHoveringRect(frame.Min, frame.Max) && ImGui::IsWindowHovered();
   ImGui::RenderFrame(frame.Min, frame.Max, ImGui::GetColorU32(hovered ? ImGuiCol_FrameBgHovered : ImGuiCol_FrameBg),
                      true, ImGui::GetStyle().FrameRounding);
-  if (hovered && ImGui::GetIO().MousePos.x > frame.Max.x - unit && ImGui::IsMouseClicked(0) && !look.draggable)
+  const bool disabled = (ImGui::GetCurrentContext()->CurrentItemFlags & ImGuiItemFlags_Disabled) != 0;
+  if (hovered && !disabled && ImGui::GetIO().MousePos.x > frame.Max.x - unit && ImGui::IsMouseClicked(0) &&
+      !look.draggable)
     ImGui::SetKeyboardFocusHere();  // a click on the unit is one into the field
   ImGui::SetNextItemWidth(std::max(1.0F, look.width - unit));
   ImGui::PushStyleColor(ImGuiCol_FrameBg, 0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <functional>
+#include <random>
 #include <set>
 #include <string>
 
@@ -239,6 +240,36 @@ TEST_F(Escape, GoesFromTheEditThroughTheToolToTheSelection) {
   gui.key(kKeyEscape);
   EXPECT_TRUE(editor.selection.empty());
   EXPECT_EQ(escapeLayer(editor), EscapeLayer::none);
+}
+
+// Whatever was pressed, eight of them lead back to the plain state.
+TEST_F(Escape, EightOfThemReachThePlainState) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 25; ++round) {
+    editor.workspace = static_cast<Workspace>(round % kWorkspaces);
+    gui.frames(3);
+    for (int i = 0; i < 12; ++i) {
+      const auto& items = itemProbe().items;
+      const auto& item = items[random() % items.size()];
+      if (item.disabled || item.label.find("quit") != std::string::npos) continue;
+      if (random() % 2 == 0) {
+        gui.activate(item.id);
+      } else {
+        gui.moveTo(item.rect.GetCenter());
+        gui.press(random() % 5 == 0 ? 1 : 0);
+      }
+      gui.frames(2);
+    }
+    gui.settle();
+    editor.session.errors().clear();
+    for (int i = 0; i < 8; ++i) {
+      gui.key(kKeyEscape);
+      gui.frames(2);
+    }
+    EXPECT_EQ(escapeLayer(editor), EscapeLayer::none) << "round " << round;
+    EXPECT_EQ(openPopups(), 0) << "round " << round;
+    if (!editor.environment()) SetUp();
+  }
 }
 
 TEST_F(Escape, TakesBackADragInTheView) {

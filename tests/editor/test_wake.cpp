@@ -122,6 +122,7 @@ TEST(TimeLeft, IsSaidFromATenthOrTwoSecondsOn) {
   ASSERT_TRUE(timeLeft(0.05, 2));
   EXPECT_DOUBLE_EQ(*timeLeft(0.05, 2), 38);
   EXPECT_FALSE(timeLeft(0, 60)) << "nothing is known";
+  EXPECT_FALSE(timeLeft(0.5, 0)) << "nor how long it took";
   EXPECT_FALSE(timeLeft(1, 60)) << "only the end is missing";
   EXPECT_EQ(timeLeftText(0.5, 30), "30 s left");
   EXPECT_EQ(timeLeftText(0.5, 125), "2:05 min left");
