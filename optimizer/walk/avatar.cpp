@@ -15,44 +15,64 @@ using Eigen::Vector3d;
 constexpr double kStride = 0.05;  // m
 constexpr int kMostSlides = 4;    // of one stride: into a corner and out of it
 constexpr double kCrack = 0.04;   // m, between two floors, that a foot does not notice
-const Vector3d kStepUp(0, 0, kStepHeight);
+constexpr double kFoot = 0.12;    // m around the axis: on this much of a floor one still stands
+const Vector3d kStepUp(0, 0, kHighestStep);
 
 }  // namespace
 
 // Under the axis itself, so that nobody floats beside a step.
-std::optional<double> Avatar::floorUnder(const Vector3d& p, double below_m) const {
+Avatar::Ground Avatar::groundUnder(const Vector3d& p, double below_m) const {
   const auto hit = obstacles_->ray(p + kStepUp, p - Vector3d(0, 0, below_m));
+  if (!hit) return {};
   const double least = std::cos(kSteepestSlopeDeg * std::numbers::pi / 180) - 1e-6;
-  return hit && hit->normal.z() >= least ? std::optional(hit->point.z()) : std::nullopt;
+  return {hit->normal.z() >= least ? Under::floor : Under::steep, hit->point.z()};
+}
+
+// Whether a floor is under the feet somewhere, so that nobody falls into a crack or off an edge with the toes.
+bool Avatar::carries(const Vector3d& p) const {
+  for (int i = 0; i < 8; ++i) {
+    const double angle = i * std::numbers::pi / 4;
+    const auto ground = groundUnder(p + kFoot * Vector3d(std::cos(angle), std::sin(angle), 0), 0.02);
+    if (ground.kind == Under::floor && ground.height <= p.z() + 0.02) return true;
+  }
+  return false;
 }
 
 bool Avatar::stand(const Vector3d& p, double reach_m) {
-  const auto floor = floorUnder(p, reach_m);
-  if (!floor) return false;
-  const Vector3d feet(p.x(), p.y(), *floor);
+  const auto ground = groundUnder(p, reach_m);
+  if (ground.kind != Under::floor) return false;
+  const Vector3d feet(p.x(), p.y(), ground.height);
   if (obstacles_->overlap(upper(), feet + kStepUp, 1e-3)) return false;
   feet_ = feet;
+  on_floor_ = true;
   return true;
 }
 
-// The feet go to the floor there, unless it is too deep, too high or too low above it.
-bool Avatar::moveTo(const Vector3d& place) {
-  const auto floor = floorUnder(place, kStepHeight);
-  if (!floor) return false;
-  const Vector3d feet(place.x(), place.y(), *floor);
+// The feet go to the floor there, unless it is too high or too steep for them; or too deep, where they mind.
+bool Avatar::moveTo(const Vector3d& place, bool over_edges) {
+  const auto ground = groundUnder(place, kHighestStep);
+  if (ground.kind == Under::steep) return false;
+  if (ground.kind == Under::nothing) {
+    if (!over_edges) return false;
+    feet_ = place;
+    on_floor_ = on_floor_ && carries(place);
+    return true;
+  }
+  const Vector3d feet(place.x(), place.y(), ground.height);
   if (obstacles_->sweep(upper(), place + kStepUp, feet + kStepUp)) return false;
   feet_ = feet;
+  on_floor_ = true;
   return true;
 }
 
-void Avatar::stride(Vector2d way_m) {
+void Avatar::stride(Vector2d way_m, bool over_edges) {
   for (int i = 0; i < kMostSlides && way_m.norm() > 1e-6; ++i) {
     const Vector3d from = feet_ + kStepUp, way(way_m.x(), way_m.y(), 0);
     const auto hit = obstacles_->sweep(upper(), from, from + way);
     const double fraction = hit ? hit->fraction : 1;
-    if (fraction > 0 && !moveTo(feet_ + fraction * way)) {
+    if (fraction > 0 && !moveTo(feet_ + fraction * way, over_edges)) {
       const Vector3d over = way + kCrack * way.normalized();
-      if (!hit && !obstacles_->sweep(upper(), from, from + over)) moveTo(feet_ + over);
+      if (!hit && !obstacles_->sweep(upper(), from, from + over)) moveTo(feet_ + over, false);
       return;
     }
     if (!hit) return;
@@ -63,11 +83,54 @@ void Avatar::stride(Vector2d way_m) {
   }
 }
 
+void Avatar::fall(double down_m) {
+  if (const auto ground = groundUnder(feet_, down_m); ground.kind == Under::floor) {
+    const Vector3d feet(feet_.x(), feet_.y(), ground.height);
+    if (!obstacles_->sweep(upper(), feet_ + kStepUp, feet + kStepUp)) {
+      feet_ = feet;
+      on_floor_ = true;
+      return;
+    }
+  }
+  on_floor_ = false;
+  Vector3d way(0, 0, -down_m);
+  for (int i = 0; i < kMostSlides && way.norm() > 1e-6; ++i) {
+    const auto hit = obstacles_->sweep(upper(), feet_ + kStepUp, feet_ + kStepUp + way);
+    feet_ += (hit ? hit->fraction : 1) * way;
+    if (!hit) return;
+    way *= 1 - hit->fraction;
+    way -= hit->normal * std::min(0.0, way.dot(hit->normal));
+  }
+}
+
+double Avatar::headroom(double most_m) const {
+  const double over = most_m - body_.height_m;
+  if (over <= 0) return body_.height_m;
+  const Vector3d from = feet_ + kStepUp;
+  const auto hit = obstacles_->sweep(upper(), from, from + Vector3d(0, 0, over));
+  return body_.height_m + (hit ? hit->fraction : 1) * over;
+}
+
+double Avatar::ceiling(double most_m) const {
+  double lowest = headroom(most_m);
+  const auto look = [&](const Vector3d& aside) {
+    const Vector3d from = feet_ + aside;
+    if (const auto hit = obstacles_->ray(from + kStepUp, from + Vector3d(0, 0, lowest)))
+      lowest = hit->point.z() - feet_.z();
+  };
+  look(Vector3d::Zero());
+  for (int i = 0; i < 16; ++i) {
+    const double angle = i * std::numbers::pi / 8;
+    look((body_.radius_m - 2e-3) * Vector3d(std::cos(angle), std::sin(angle), 0));
+  }
+  return lowest;
+}
+
 void Avatar::walk(const Vector2d& way_m) {
   const double length = way_m.norm();
   if (!std::isfinite(length)) return;
   const int strides = static_cast<int>(std::ceil(std::min(length, 100.0) / kStride));
-  for (int i = 0; i < strides; ++i) stride(way_m / strides);
+  for (int i = 0; i < strides; ++i) stride(way_m / strides, false);
 }
 
 }  // namespace standpoint

@@ -18,6 +18,7 @@ namespace standpoint {
 struct Body {
   double radius_m = 0.3;
   double height_m = 1.8;
+  bool operator==(const Body&) const = default;
 };
 
 struct Contact {

@@ -7,11 +7,13 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include "optimizer/walk/doors.h"
+#include "optimizer/walk/spaces.h"
 
 namespace standpoint {
 
@@ -33,47 +35,10 @@ struct Patch {
   double lowest = std::numeric_limits<double>::infinity();
 };
 
-struct Space {
-  std::uint32_t product = 0;
-  std::vector<Vector3d> corners;  // three for each triangle
-  Bounds box;
+struct Space : SpaceBody {
   std::map<std::uint32_t, Patch> patches;  // by island
   double area_m2 = 0;
 };
-
-// By how often a ray straight up leaves and enters; a little beside the grid, so that it meets no edge of a rectangle.
-bool isInside(const Space& space, const Vector3d& p) {
-  if ((p.array() < space.box.min.array()).any() || (p.array() > space.box.max.array()).any()) return false;
-  bool inside = false;
-  const double x = p.x() + 1.7e-6, y = p.y() + 2.3e-6;
-  for (std::size_t i = 0; i + 2 < space.corners.size(); i += 3) {
-    const Vector3d &a = space.corners[i], &b = space.corners[i + 1], &c = space.corners[i + 2];
-    const auto side = [&](const Vector3d& s, const Vector3d& e) {
-      return (e.x() - s.x()) * (y - s.y()) - (e.y() - s.y()) * (x - s.x());
-    };
-    const double u = side(b, c), v = side(c, a), w = side(a, b), sum = u + v + w;
-    if (sum == 0 || u * sum < 0 || v * sum < 0 || w * sum < 0) continue;
-    if ((u * a.z() + v * b.z() + w * c.z()) / sum > p.z()) inside = !inside;
-  }
-  return inside;
-}
-
-std::vector<Space> spacesOf(const Environment& environment) {
-  std::vector<Space> spaces;
-  for (const auto& instance : environment.instances) {
-    const auto& product = environment.products[instance.product];
-    if (product.ifc_class != "IfcSpace" || product.excluded) continue;
-    if (spaces.empty() || spaces.back().product != instance.product) spaces.emplace_back().product = instance.product;
-    const auto& mesh = *environment.meshes[instance.mesh];
-    for (const auto& t : mesh.triangles)
-      for (const auto v : t) {
-        spaces.back().corners.push_back(instance.world_from_mesh * mesh.positions[v].cast<double>());
-        spaces.back().box.extend(spaces.back().corners.back());
-      }
-  }
-  std::erase_if(spaces, [](const Space& space) { return space.box.empty(); });
-  return spaces;
-}
 
 // What of each island lies in the space, on a grid laid over its rectangles.
 void measure(const Walkable& walkable, Space& space) {
@@ -92,7 +57,7 @@ void measure(const Walkable& walkable, Space& space) {
       for (int row = 0; row < rows; ++row) {
         const Vector3d p(low.x() + (column + 0.5) * (high.x() - low.x()) / columns,
                          low.y() + (row + 0.5) * (high.y() - low.y()) / rows, z);
-        if (!isInside(space, p)) continue;
+        if (!space.contains(p)) continue;
         auto& patch = space.patches[walkable.island_of_triangle[i]];
         patch.area_m2 += fraction;
         patch.lowest = std::min(patch.lowest, low.z());
@@ -139,7 +104,7 @@ std::vector<Vector3d> entrances(const Environment& environment, const std::vecto
                                 const std::vector<Door>& doors) {
   std::vector<Vector3d> found;
   const auto isInAny = [&](const Vector3d& p) {
-    return std::any_of(spaces.begin(), spaces.end(), [&](const Space& space) { return isInside(space, p); });
+    return std::any_of(spaces.begin(), spaces.end(), [&](const Space& space) { return space.contains(p); });
   };
   for (const auto& door : doors) {
     const auto passage = door.passable ? passageOf(environment, door.product) : std::nullopt;
@@ -170,7 +135,8 @@ std::set<std::uint32_t> reachedIslands(const Environment& environment, const Wal
 
 std::vector<Room> checkRooms(const Environment& environment, const Walkable& walkable, const std::vector<Door>& doors,
                              Report& report) {
-  auto spaces = spacesOf(environment);
+  std::vector<Space> spaces;
+  for (auto& body : spaceBodies(environment)) spaces.push_back({std::move(body), {}, 0});
   tbb::parallel_for(std::size_t{0}, spaces.size(), [&](std::size_t i) { measure(walkable, spaces[i]); });
   const auto reached = reachedIslands(environment, walkable, spaces, doors);
   std::vector<Room> rooms;

@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "optimizer/walk/start.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "core/ceiling.h"
+#include "optimizer/walk/avatar.h"
+#include "optimizer/walk/doors.h"
+#include "optimizer/walk/spaces.h"
+
+namespace standpoint {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kBelowEye = 3;          // m
+constexpr double kSmallestIsland = 2;    // m²
+constexpr double kHead = 1.1;            // m above the feet: over tables, below ceilings
+constexpr double kHighestCover = 60;     // m
+constexpr double kStoreyBelow = 1.5;     // m; what has a floor so far under it is not the ground
+constexpr double kBehindEntrance = 0.8;  // m
+constexpr double kBesideIsland = 0.6;    // m from a place to the rectangle of the island that it is on
+constexpr double kRoomStep = 0.25;       // m between the places that are compared in a room
+constexpr double kWideEnough = 2;        // m of clearance; more is no better
+constexpr double kLongView = 50;         // m
+
+Vector3d up(double height_m) { return {0, 0, height_m}; }
+
+// Triangles of the walkable surface that can be walked to from each other: level boxes that touch, with no more than a
+// step between them.
+class Islands {
+ public:
+  explicit Islands(const Mesh& mesh) : root_(mesh.triangles.size()) {
+    std::iota(root_.begin(), root_.end(), 0U);
+    for (const auto& t : mesh.triangles) {
+      auto& box = boxes_.emplace_back();
+      for (const auto v : t) box.extend(mesh.positions[v].cast<double>());
+      const Vector3d size = box.max - box.min;
+      areas_.push_back(0.5 * size.x() * size.y());
+    }
+    join();
+    for (std::uint32_t i = 0; i < root_.size(); ++i) area_of_root_[rootOf(i)] += areas_[i];
+  }
+
+  std::size_t size() const { return boxes_.size(); }
+  const Bounds& box(std::uint32_t i) const { return boxes_[i]; }
+  double area(std::uint32_t i) const { return areas_[i]; }
+  std::uint32_t rootOf(std::uint32_t i) const {
+    while (root_[i] != i) i = root_[i];
+    return i;
+  }
+  double islandArea(std::uint32_t i) const { return area_of_root_.at(rootOf(i)); }
+
+  // The triangle that p stands on or beside.
+  std::optional<std::uint32_t> at(const Vector3d& p) const {
+    std::optional<std::uint32_t> best;
+    double nearest = kBesideIsland;
+    for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
+      const Vector3d off = p - p.cwiseMax(boxes_[i].min).cwiseMin(boxes_[i].max);
+      if (std::abs(off.z()) > kStepHeight || off.head<2>().norm() >= nearest) continue;
+      nearest = off.head<2>().norm();
+      best = i;
+    }
+    return best;
+  }
+
+  bool anyUnder(const Vector3d& p) const {
+    return std::any_of(boxes_.begin(), boxes_.end(), [&](const Bounds& box) {
+      return box.max.z() < p.z() - kStoreyBelow &&
+             (p.head<2>().array() >= box.min.head<2>().array() - kBesideIsland).all() &&
+             (p.head<2>().array() <= box.max.head<2>().array() + kBesideIsland).all();
+    });
+  }
+
+ private:
+  void join() {
+    constexpr double kTouching = 1e-3;
+    std::vector<std::uint32_t> order(boxes_.size());
+    std::iota(order.begin(), order.end(), 0U);
+    const auto low = [&](std::uint32_t i) { return boxes_[i].min.y(); };
+    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return std::pair(low(a), a) < std::pair(low(b), b); });
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const Bounds& a = boxes_[order[i]];
+      for (std::size_t k = i + 1; k < order.size() && low(order[k]) <= a.max.y() + kTouching; ++k) {
+        const Bounds& b = boxes_[order[k]];
+        if (a.min.x() <= b.max.x() + kTouching && b.min.x() <= a.max.x() + kTouching &&
+            a.min.z() <= b.max.z() + kStepHeight && b.min.z() <= a.max.z() + kStepHeight)
+          unite(order[i], order[k]);
+      }
+    }
+  }
+
+  void unite(std::uint32_t a, std::uint32_t b) {
+    a = shortened(a), b = shortened(b);
+    root_[std::max(a, b)] = std::min(a, b);
+  }
+  std::uint32_t shortened(std::uint32_t i) {
+    while (root_[i] != i) i = root_[i] = root_[root_[i]];
+    return i;
+  }
+
+  std::vector<Bounds> boxes_;
+  std::vector<double> areas_;
+  std::vector<std::uint32_t> root_;
+  std::map<std::uint32_t, double> area_of_root_;
+};
+
+bool isRoofItself(const Product& product) {
+  return product.ifc_class == "IfcRoof" || (product.ifc_class == "IfcSlab" && product.predefined_type == "ROOF") ||
+         isSuspendedCeiling(product);
+}
+
+bool isRoof(const Environment& environment, std::uint32_t product) {
+  for (auto p = static_cast<std::int32_t>(product); p >= 0; p = environment.products[static_cast<std::size_t>(p)].whole)
+    if (isRoofItself(environment.products[static_cast<std::size_t>(p)])) return true;
+  return false;
+}
+
+// Everything that places are judged by.
+class Places {
+ public:
+  Places(const Environment& environment, const CollideResult& collision, const Obstacles& obstacles, const Body& body)
+      : environment_(environment),
+        collision_(collision),
+        obstacles_(obstacles),
+        avatar_(obstacles, body),
+        islands_(collision.walkable),
+        spaces_(spaceBodies(environment)) {}
+
+  std::optional<StartPlace> belowEye(const Onlooker& onlooker) {
+    const auto feet = standing(onlooker.eye, kBelowEye);
+    return feet && covered(*feet) && good(*feet) ? std::optional(StartPlace{*feet, {}}) : std::nullopt;
+  }
+
+  std::optional<StartPlace> lookedAt(const Onlooker& onlooker) {
+    if (!onlooker.looked_at) return std::nullopt;
+    const auto feet = standing(*onlooker.looked_at, kStepHeight);
+    return feet && good(*feet) ? std::optional(StartPlace{*feet, {}}) : std::nullopt;
+  }
+
+  // The outer door with the largest island behind it; of several the widest, then the lowest.
+  std::optional<StartPlace> mainEntrance() {
+    struct Entrance {
+      double area_m2, width_m, low_m;
+      StartPlace place;
+    };
+    const auto rank = [](const Entrance& e) { return std::tuple(e.area_m2, e.low_m, e.width_m); };
+    std::optional<Entrance> best;
+    for (const bool by_rooms : {true, false}) {  // not every model has them, and an entrance may have a porch
+      for (const auto& door : collision_.doors) {
+        const auto place = behind(door, by_rooms);
+        if (!place) continue;
+        const auto triangle = islands_.at(place->feet);
+        const Entrance entrance{triangle ? islands_.islandArea(*triangle) : 0, door.clear_width_m, -place->feet.z(),
+                                *place};
+        if (!best || rank(entrance) > rank(*best)) best = entrance;
+      }
+      if (best) return best->place;
+    }
+    return std::nullopt;
+  }
+
+  // Indoors where there is an indoors.
+  std::optional<StartPlace> largestIsland() {
+    for (const bool indoors : {true, false}) {
+      std::map<std::uint32_t, std::pair<double, Vector3d>> sums;  // by island: area, and first moment of it
+      for (std::uint32_t i = 0; i < islands_.size(); ++i) {
+        const Vector3d middle = middleOf(i);
+        if (islands_.islandArea(i) < kSmallestIsland || (indoors && !covered(middle)) || !bears(middle)) continue;
+        auto& [area, moment] = sums.try_emplace(islands_.rootOf(i), 0.0, Vector3d::Zero()).first->second;
+        area += islands_.area(i);
+        moment += islands_.area(i) * middle;
+      }
+      const auto most = std::max_element(sums.begin(), sums.end(),
+                                         [](const auto& a, const auto& b) { return a.second.first < b.second.first; });
+      if (most == sums.end()) continue;
+      const Vector3d centre = most->second.second / std::max(most->second.first, 1e-9);
+      if (auto place = nearestOf(most->first, centre, indoors)) return place;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  Vector3d middleOf(std::uint32_t i) const { return 0.5 * (islands_.box(i).min + islands_.box(i).max); }
+
+  std::optional<Vector3d> standing(const Vector3d& p, double reach_m) {
+    return avatar_.stand(p, reach_m) ? std::optional(avatar_.feet()) : std::nullopt;
+  }
+
+  bool covered(const Vector3d& feet) const {
+    return obstacles_.ray(feet + up(kHead), feet + up(kHighestCover)).has_value();
+  }
+
+  // Neither roof nor ceiling by its class, nor by standing open to the sky above another floor.
+  bool bears(const Vector3d& feet) const {
+    const auto floor = obstacles_.ray(feet + up(kStepHeight), feet - up(kStepHeight));
+    if (!floor || isRoof(environment_, floor->product)) return false;
+    return covered(feet) || !islands_.anyUnder(feet);
+  }
+
+  bool good(const Vector3d& feet) const {
+    const auto triangle = islands_.at(feet);
+    return triangle && islands_.islandArea(*triangle) >= kSmallestIsland && bears(feet);
+  }
+
+  bool inside(const Vector3d& feet, bool by_rooms) const {
+    return by_rooms ? spaceAt(spaces_, feet + up(kHead)).has_value() : covered(feet);
+  }
+
+  std::optional<StartPlace> behind(const Door& door, bool by_rooms) {
+    const auto passage = door.floor ? passageOf(environment_, door.product) : std::nullopt;
+    if (!passage) return std::nullopt;
+    const double away = passage->half_depth + kBehindEntrance;
+    const Vector3d ahead = passage->middle + away * passage->through, back = passage->middle - away * passage->through;
+    const bool ahead_inside = inside(ahead, by_rooms), back_inside = inside(back, by_rooms);
+    if (ahead_inside == back_inside) return std::nullopt;
+    const auto feet = standing((ahead_inside ? ahead : back) + up(kStepHeight), 2 * kStepHeight);
+    if (!feet || !good(*feet)) return std::nullopt;
+    const Vector2d through = passage->through.head<2>();
+    return StartPlace{*feet, ahead_inside ? through : Vector2d(-through)};
+  }
+
+  std::optional<StartPlace> nearestOf(std::uint32_t island, const Vector3d& centre, bool indoors) {
+    std::vector<std::pair<double, std::uint32_t>> order;
+    for (std::uint32_t i = 0; i < islands_.size(); ++i)
+      if (islands_.rootOf(i) == island) order.emplace_back((middleOf(i) - centre).squaredNorm(), i);
+    std::sort(order.begin(), order.end());
+    for (const auto& [distance, i] : order) {
+      const auto feet = standing(middleOf(i), kStepHeight);
+      if (feet && bears(*feet) && (!indoors || covered(*feet))) return StartPlace{*feet, {}};
+    }
+    return std::nullopt;
+  }
+
+  const Environment& environment_;
+  const CollideResult& collision_;
+  const Obstacles& obstacles_;
+  Avatar avatar_;
+  Islands islands_;
+  std::vector<SpaceBody> spaces_;
+};
+
+double clearance(const Obstacles& obstacles, const Vector3d& feet) {
+  double gap = kWideEnough;
+  constexpr double kThin = 0.05;  // m, the radius of the line that the distance is taken from
+  obstacles.near({kThin, kHead}, feet + up(kStepHeight), kWideEnough, [&](const Contact& contact, double found) {
+    if (std::abs(contact.normal.z()) < 0.7) gap = std::min(gap, found);
+  });
+  return gap;
+}
+
+Vector2d longestView(const Obstacles& obstacles, const Vector3d& feet) {
+  constexpr int kDirections = 32;
+  Vector2d best(0, 1);
+  double farthest = -1;
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kDirections;
+    const Vector3d way(std::cos(angle), std::sin(angle), 0), eye = feet + up(1.5);
+    const auto hit = obstacles.ray(eye, eye + kLongView * way);
+    const double free = hit ? hit->fraction : 1;
+    if (free <= farthest) continue;
+    farthest = free;
+    best = way.head<2>();
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<StartPlace> startPlace(const Environment& environment, const CollideResult& collision,
+                                     const Obstacles& obstacles, const Body& body, const Onlooker& onlooker) {
+  Places places(environment, collision, obstacles, body);
+  if (auto place = places.belowEye(onlooker)) return place;
+  if (auto place = places.lookedAt(onlooker)) return place;
+  if (auto place = places.mainEntrance()) return place;
+  return places.largestIsland();
+}
+
+std::optional<StartPlace> placeInRoom(const Environment& environment, std::uint32_t product,
+                                      const CollideResult& collision, const Obstacles& obstacles, const Body& body) {
+  const auto spaces = spaceBodies(environment);
+  const auto space = std::find_if(spaces.begin(), spaces.end(), [&](const auto& s) { return s.product == product; });
+  if (space == spaces.end()) return std::nullopt;
+  Avatar avatar(obstacles, body);
+  std::optional<Vector3d> best;
+  double widest = -1;
+  const auto look = [&](const Vector3d& p) {
+    if (!space->contains(p + up(kHead)) || !avatar.stand(p, kStepHeight)) return;
+    const double wide = clearance(obstacles, avatar.feet());
+    if (wide <= widest) return;
+    widest = wide;
+    best = avatar.feet();
+  };
+  const auto& mesh = collision.walkable;
+  for (const auto& t : mesh.triangles) {
+    Bounds box;
+    for (const auto v : t) box.extend(mesh.positions[v].cast<double>());
+    const Vector3d low = box.min.cwiseMax(space->box.min), high = box.max.cwiseMin(space->box.max);
+    if (low.x() > high.x() || low.y() > high.y()) continue;
+    const int columns = 1 + static_cast<int>((high.x() - low.x()) / kRoomStep),
+              rows = 1 + static_cast<int>((high.y() - low.y()) / kRoomStep);
+    for (int column = 0; column < columns; ++column)
+      for (int row = 0; row < rows; ++row)
+        look({low.x() + (column + 0.5) * (high.x() - low.x()) / columns,
+              low.y() + (row + 0.5) * (high.y() - low.y()) / rows, box.min.z()});
+  }
+  if (!best) return std::nullopt;
+  return StartPlace{*best, longestView(obstacles, *best)};
+}
+
+}  // namespace standpoint

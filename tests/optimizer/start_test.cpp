@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "optimizer/walk/start.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/optimizer/models.h"
+
+namespace standpoint {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr Body kVisitor{0.25, 1.70};
+
+// A hut of 8 x 6 m with a flat roof, a door in the wall at y = 0 and lawn around; beside it a platform of 1 m².
+class Hut {
+ public:
+  Hut() {
+    box({-10, -10, -0.3}, {20, 16, 0}, "IfcGeographicElement");
+    box({0, 0, 0}, {0.2, 6, 3}, "IfcWall");
+    box({7.8, 0, 0}, {8, 6, 3}, "IfcWall");
+    box({0.2, 5.8, 0}, {7.8, 6, 3}, "IfcWall");
+    box({0.2, 0, 0}, {5, 0.2, 3}, "IfcWall");
+    box({6, 0, 0}, {7.8, 0.2, 3}, "IfcWall");
+    box({5, 0, 2.1}, {6, 0.2, 3}, "IfcWall");
+    box({5, 0.08, 0}, {6, 0.12, 2.1}, "IfcDoor");
+    box({0, 0, 3}, {8, 6, 3.3}, "IfcSlab");
+    Progress progress;
+    result = collide(environment, {.agent_radius_m = kVisitor.radius_m, .agent_height_m = kVisitor.height_m}, progress)
+                 .value();
+    obstacles = std::make_unique<Obstacles>(result.shapes);
+  }
+  std::optional<StartPlace> from(const Vector3d& eye, std::optional<Vector3d> looked_at = {}) const {
+    return startPlace(environment, result, *obstacles, kVisitor, {eye, looked_at});
+  }
+
+  Environment environment;
+  CollideResult result;
+  std::unique_ptr<Obstacles> obstacles;
+
+ private:
+  void box(const Vector3d& low, const Vector3d& high, const std::string& ifc_class) {
+    models::add(environment, models::box(high - low, 1), ifc_class, Eigen::Affine3d(Eigen::Translation3d(low)));
+  }
+};
+
+TEST(StartPlace, IsUnderTheEyeThatIsIndoors) {
+  const auto place = Hut().from({2, 3, 1.7});
+  ASSERT_TRUE(place);
+  EXPECT_NEAR((place->feet - Vector3d(2, 3, 0)).norm(), 0, 1e-5);
+  EXPECT_FALSE(place->facing) << "the way one looks already";
+}
+
+TEST(StartPlace, IsTheFloorThatIsLookedAtButNeverTheRoof) {
+  const Hut hut;
+  const auto lawn = hut.from({30, 30, 30}, Vector3d(12, 10, 0));
+  ASSERT_TRUE(lawn);
+  EXPECT_NEAR((lawn->feet - Vector3d(12, 10, 0)).norm(), 0, 1e-5);
+  const auto roof = hut.from({30, 30, 30}, Vector3d(4, 3, 3.3));
+  ASSERT_TRUE(roof);
+  EXPECT_NEAR(roof->feet.z(), 0, 1e-5);
+}
+
+TEST(StartPlace, IsBehindTheMainEntranceForWhoeverLooksFromOutside) {
+  const auto place = Hut().from({30, 30, 30});
+  ASSERT_TRUE(place);
+  EXPECT_NEAR((place->feet - Vector3d(5.5, 0.12 + 0.8, 0)).norm(), 0, 0.1) << place->feet.transpose();
+  ASSERT_TRUE(place->facing);
+  EXPECT_GT(place->facing->y(), 0.99) << "into the house";
+}
+
+TEST(StartPlace, IsIndoorsWhereThereIsNoDoorToComeInBy) {
+  Hut hut;
+  hut.result.doors.clear();
+  const auto place = hut.from({30, 30, 30});
+  ASSERT_TRUE(place);
+  EXPECT_NEAR((place->feet - Vector3d(4, 3, 0)).norm(), 0, 1) << place->feet.transpose();
+}
+
+TEST(StartPlace, IsNowhereWhereThereIsOnlyAPlinth) {
+  Environment environment;
+  models::add(environment, models::box({1.2, 1.2, 0.3}, 1), "IfcSlab");
+  Progress progress;
+  const auto result = collide(environment, {.agent_radius_m = 0.25, .agent_height_m = 1.7}, progress).value();
+  const Obstacles obstacles(result.shapes);
+  EXPECT_FALSE(
+      startPlace(environment, result, obstacles, kVisitor, {Vector3d(0.6, 0.6, 1.9), Vector3d(0.6, 0.6, 0.3)}));
+}
+
+TEST(PlaceInRoom, IsWhereMostIsFree) {
+  Hut hut;
+  auto& e = hut.environment;
+  models::add(e, models::box({7.6, 5.6, 3}, 1), "IfcSpace", Eigen::Affine3d(Eigen::Translation3d(0.2, 0.2, 0)));
+  e.products.back().tangible = false;
+  const auto place =
+      placeInRoom(e, static_cast<std::uint32_t>(e.products.size() - 1), hut.result, *hut.obstacles, kVisitor);
+  ASSERT_TRUE(place);
+  EXPECT_GT(place->feet.x(), 2);
+  EXPECT_LT(place->feet.x(), 6);
+  EXPECT_GT(place->feet.y(), 2);
+  EXPECT_LT(place->feet.y(), 4);
+  ASSERT_TRUE(place->facing);
+  EXPECT_GT(std::abs(place->facing->x()), 0.7) << "along the room";
+}
+
+}  // namespace
+}  // namespace standpoint
