@@ -7,7 +7,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr double kKeyRepeats_s = 1.0 / 30, kCursorBlinks_s = 0.4, kBarMoves_s = 0.1;
+constexpr double kKeyRepeats_s = 1.0 / 30, kWalkerMoves_s = 1.0 / 60, kCursorBlinks_s = 0.4, kBarMoves_s = 0.1;
 
 // The shortest of what there is to wait for; less than 0: nothing but events.
 double longestWait(const FramePacer::Reasons& r) {
@@ -16,6 +16,7 @@ double longestWait(const FramePacer::Reasons& r) {
     if (reason) wait = wait < 0 ? seconds : std::min(wait, seconds);
   };
   atMost(r.key_held, kKeyRepeats_s);
+  atMost(r.walker_moves, kWalkerMoves_s);
   atMost(r.text_edited, kCursorBlinks_s);
   atMost(r.job_runs, kBarMoves_s);
   atMost(r.until_fine_s >= 0, std::max(0.01, r.until_fine_s));

@@ -20,11 +20,12 @@ class FramePacer {
  public:
   // Why there is something to draw though nothing came in.
   struct Reasons {
-    bool input = false;        // is waiting to be drawn
-    bool key_held = false;     // repeats once a frame
-    bool text_edited = false;  // its cursor blinks
-    bool job_runs = false;     // its bar moves
-    double until_fine_s = -1;  // until the picture may be made fine; less than 0: it is
+    bool input = false;         // is waiting to be drawn
+    bool key_held = false;      // repeats once a frame
+    bool walker_moves = false;  // slows down, falls or rises by itself
+    bool text_edited = false;   // its cursor blinks
+    bool job_runs = false;      // its bar moves
+    double until_fine_s = -1;   // until the picture may be made fine; less than 0: it is
   };
 
   // From any thread: what was published before this call will be drawn. Whoever calls it posts an event after it.

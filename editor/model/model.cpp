@@ -48,7 +48,7 @@ std::optional<ScanSettings> Model::plannedSettings() const {
 
 bool Model::jobRuns() const {
   return !session.running().empty() || readingCloud() || preview.reading() || deviation.busy() ||
-         !underlays.reading().empty();
+         !underlays.reading().empty() || walk_ground.preparing();
 }
 
 void Model::showCloud(const std::filesystem::path& file) {
@@ -99,6 +99,7 @@ void Model::update() {
     seen_revision_ = session.revision();
     adoptDocument();
   }
+  followWalking(*this);
   followPreview();
   startWaitingCloud();
   underlays.follow(session.document(), wake);
@@ -186,15 +187,14 @@ bool Model::followModel(const Environment& before, const Environment& after) {
 void Model::adoptDocument() {
   const auto& document = session.document();
   picker.follow(document.environment(), wake);
-  if (walk.active() && !walk.isIn(document.collision)) {
-    walk.stop();
-    if (view.tool == Tool::walk) view.tool = Tool::select;
-  }
   if (document.imported == imported_) return;
   const auto before = std::exchange(imported_, document.imported);
+  walk_ground.cancel();
+  wanted_walk = nullptr;
   // A changed model in place of the one before keeps what is hidden, chosen and looked at.
   if (before && imported_ && followModel(*before, *imported_)) return;
   selection.clear();
+  views = {};
   visibility.reset(imported_ ? imported_->products.size() : 0);
   visibility.cut_height_m.reset();
   cloud_.reset();

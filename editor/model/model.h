@@ -31,7 +31,7 @@
 #include "editor/model/underlay_view.h"
 #include "editor/model/view_state.h"
 #include "editor/model/visibility.h"
-#include "editor/model/walk.h"
+#include "editor/model/walking.h"
 
 namespace standpoint {
 
@@ -56,6 +56,7 @@ struct ViewportState {
   ModelSide side = ModelSide::lighter;
   double wavelength_nm = kReflectanceWavelength_nm;  // at which reflectance is shown
   Probe probe;
+  TeleportAim teleport;
   bool coverage_made = false;  // the map of coverage shows scans that were made, not the stations as planned
   bool edges = true, grid = true, walkable = false, shapes = false, labels = true, shaded_points = false;
   Tool tool = Tool::select;
@@ -111,6 +112,9 @@ struct Model : Style {
   Picker picker;
   PlacementView placement;  // of what is picked
   Walk walk;                // while the tool is Tool::walk
+  WalkGround walk_ground;
+  WalkPlace wanted_walk;  // from where, as soon as the ground is there
+  ViewHistory views;
   ImportPreview preview;
   Selection preview_selection;  // products of what the preview shows
   UnderlayView underlays;
@@ -130,7 +134,7 @@ struct Model : Style {
   ChosenMaterial material;
   ScanChoice scan_choice{.instrument = "leica-rtc360"};  // what the next scan is set to
   SeenLimits seen;
-  Body walker;  // who walks through the model, and for whom its surface is computed
+  Body walker{0.25, 1.70};  // who walks through the model, and for whom its surface is computed
 
   std::function<void()> wake;
 

@@ -3,69 +3,73 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
-#include <vector>
+
+#include <fmt/format.h>
 
 namespace standpoint {
 
 namespace {
 
-constexpr double kEyes = 0.92;             // of the height
-constexpr double kSpeed = 1.4, kFast = 4;  // m/s
-constexpr double kLongestFrame_s = 0.2;    // a picture that took longer does not make one run
-constexpr double kLookAhead_m = 1;         // the camera's target is this far before the eyes
-constexpr std::size_t kMostTries = 200;
+constexpr double kSpeed = 1.8, kFast = 4, kCrouching = 0.9;  // m/s
+constexpr double kSlowest = 0.25, kFastest = 4, kSpeedStep = 1.25;
+constexpr double kViewAngle_rad = 60 * std::numbers::pi / 180;  // vertical
+constexpr double kLookAhead_m = 1;                              // the camera's target is this far before the eyes
 
 }  // namespace
 
-bool Walk::start(std::shared_ptr<const CollideResult> collision, const Body& body, const Eigen::Vector3d& place,
+bool Walk::start(std::shared_ptr<const WalkedGround> ground, const Body& body, const StartPlace& place,
                  Camera& camera) {
-  stop();
-  struct Start {
-    double distance;
-    Eigen::Vector3d at;
-  };
-  std::vector<Start> starts;
-  const auto& mesh = collision->walkable;
-  for (const auto& t : mesh.triangles) {
-    const Eigen::Vector3d at = (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]).cast<double>() / 3;
-    starts.push_back({(at - place).squaredNorm(), at});
-  }
-  std::stable_sort(starts.begin(), starts.end(),
-                   [](const Start& a, const Start& b) { return a.distance < b.distance; });
-  auto obstacles = std::make_unique<Obstacles>(collision->shapes);
-  Avatar avatar(*obstacles, body);
-  for (std::size_t i = 0; i < std::min(starts.size(), kMostTries); ++i) {
-    if (!avatar.stand(starts[i].at, 0.5)) continue;
-    collision_ = std::move(collision);
-    obstacles_ = std::move(obstacles);
-    avatar_ = avatar;
-    body_ = body;
-    camera.orthographic = false;
-    camera.elevation_rad = 0;
-    lookFromEyes(camera);
-    return true;
-  }
-  return false;
-}
-
-void Walk::stop() {
-  avatar_.reset();
-  obstacles_.reset();
-  collision_.reset();
-}
-
-void Walk::go(const Eigen::Vector2d& keys, bool fast, double seconds, Camera& camera) {
-  if (!avatar_ || keys.isZero()) return;
-  const Eigen::Vector2d right(std::cos(camera.azimuth_rad), std::sin(camera.azimuth_rad)), ahead(-right.y(), right.x());
-  const Eigen::Vector2d way = (right * keys.x() + ahead * keys.y()).normalized();
-  avatar_->walk(way * ((fast ? kFast : kSpeed) * std::clamp(seconds, 0.0, kLongestFrame_s)));
+  Walker walker(ground->obstacles, body, ground->lowest_m);
+  if (!walker.stand(place.feet + Eigen::Vector3d(0, 0, 0.05), 0.5)) return false;
+  if (!walker_) view_angle_before_rad_ = camera.view_angle_rad;
+  walker_ = walker;
+  ground_ = std::move(ground);
+  body_ = body;
+  camera.orthographic = false;
+  camera.view_angle_rad = kViewAngle_rad;
+  camera.elevation_rad = 0;
+  if (place.facing) camera.azimuth_rad = std::atan2(-place.facing->x(), place.facing->y());
   lookFromEyes(camera);
+  return true;
+}
+
+void Walk::stop(Camera& camera) {
+  if (!walker_) return;
+  camera.view_angle_rad = view_angle_before_rad_;
+  walker_.reset();
+  ground_.reset();
+}
+
+double Walk::speed_mps(bool fast) const { return (fast ? kFast : kSpeed) * factor_; }
+
+void Walk::changeSpeed(double steps) {
+  factor_ = std::clamp(factor_ * std::pow(kSpeedStep, steps), kSlowest, kFastest);
+}
+
+void Walk::go(const WalkKeys& keys, double seconds, Camera& camera) {
+  if (!walker_) return;
+  const Eigen::Vector2d right(std::cos(camera.azimuth_rad), std::sin(camera.azimuth_rad)), ahead(-right.y(), right.x());
+  WalkWish wish{Eigen::Vector2d::Zero(), keys.crouch};
+  if (!keys.way.isZero()) {
+    const double speed = keys.crouch ? kCrouching * factor_ : speed_mps(keys.fast);
+    wish.velocity = (right * keys.way.x() + ahead * keys.way.y()).normalized() * speed;
+  }
+  walker_->go(wish, seconds);
+  lookFromEyes(camera);
+}
+
+std::string Walk::note() const {
+  if (walker_->wasBroughtBack()) return "fell: back on the last firm floor";
+  if (const auto& headroom = walker_->headroom())
+    return fmt::format("headroom {:.2f} m, body {:.2f} m", *headroom, body_.height_m);
+  return {};
 }
 
 void Walk::lookFromEyes(Camera& camera) const {
   camera.distance_m = kLookAhead_m;
-  camera.target = avatar_->feet() + Eigen::Vector3d(0, 0, kEyes * body_.height_m) + camera.forward() * kLookAhead_m;
+  camera.target = walker_->eyes() + camera.forward() * kLookAhead_m;
 }
 
 }  // namespace standpoint

@@ -3,36 +3,54 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include <Eigen/Core>
 
 #include "editor/model/camera.h"
-#include "optimizer/walk/avatar.h"
+#include "editor/model/walk_ground.h"
+#include "optimizer/walk/start.h"
+#include "optimizer/walk/walker.h"
 
 namespace standpoint {
+
+// Keys that are held: to the right (x) and ahead (y) of where the camera looks, each -1, 0 or 1.
+struct WalkKeys {
+  Eigen::Vector2d way = Eigen::Vector2d::Zero();
+  bool fast = false, crouch = false;
+};
 
 // Somebody in the model through whose eyes the camera looks.
 class Walk {
  public:
-  // Stands up on the walkable surface as near to `place` as there is room, and looks level the way the camera looked.
-  bool start(std::shared_ptr<const CollideResult> collision, const Body& body, const Eigen::Vector3d& place,
-             Camera& camera);
-  void stop();
-  bool active() const { return avatar_.has_value(); }
-  // Whether it walks between these shapes, and not between some that were computed again since.
-  bool isIn(const std::shared_ptr<const CollideResult>& collision) const { return collision == collision_; }
+  // Stands there and looks level; false, and nothing changes, where there is no room.
+  bool start(std::shared_ptr<const WalkedGround> ground, const Body& body, const StartPlace& place, Camera& camera);
+  // The camera stays at the eyes.
+  void stop(Camera& camera);
+  bool active() const { return walker_.has_value(); }
+  // Whether it walks there, and not between shapes that were computed again since.
+  bool isIn(const std::shared_ptr<const WalkedGround>& ground) const { return ground == ground_; }
 
-  // Goes for this long to the right (x) and ahead (y) of where the camera looks, each -1, 0 or 1.
-  void go(const Eigen::Vector2d& keys, bool fast, double seconds, Camera& camera);
-  const Eigen::Vector3d& feet() const { return avatar_->feet(); }
+  void go(const WalkKeys& keys, double seconds, Camera& camera);
+  // Faster (> 0) or slower, from a quarter to four times a walk.
+  void changeSpeed(double steps);
+  double speed_mps(bool fast) const;
+
+  const WalkedGround& ground() const { return *ground_; }
+  Eigen::Vector3d feet() const { return walker_->feet(); }
+  bool moves() const { return walker_ && walker_->moves(); }
+  double eyeHeight_m() const { return walker_->height() - Walker::kCrownAboveEyes_m; }
+  // What is in the way or has just happened: "headroom 1.68 m, body 1.70 m"; "" when nothing.
+  std::string note() const;
 
  private:
   void lookFromEyes(Camera& camera) const;
 
-  std::shared_ptr<const CollideResult> collision_;
-  std::unique_ptr<Obstacles> obstacles_;
-  std::optional<Avatar> avatar_;
+  std::shared_ptr<const WalkedGround> ground_;
+  std::optional<Walker> walker_;
   Body body_;
+  double factor_ = 1;  // of the usual speed
+  double view_angle_before_rad_ = 0;
 };
 
 }  // namespace standpoint

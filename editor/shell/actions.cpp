@@ -57,12 +57,12 @@ void selectAll(Editor& e) {
 }
 void walk(Editor& e) {
   if (e.view.tool == Tool::walk) return;  // its key is the one to go ahead
-  const auto place = e.view.hover ? e.view.hover->position : e.view.camera.target;
-  if (e.walk.start(e.session.document().collision, e.walker, place, e.view.camera)) e.view.tool = Tool::walk;
+  startWalking(e);
 }
 std::string whyWalkNot(const Editor& e) {
-  if (auto why = whyNoCollision(e); !why.empty()) return why;
-  return e.session.document().collision->walkable.triangles.empty() ? "There is no walkable surface" : "";
+  if (auto why = whyNoModel(e); !why.empty()) return why;
+  const auto& collision = e.session.document().collision;
+  return collision && collision->walkable.triangles.empty() ? "There is no walkable surface" : "";
 }
 void lookFrom(Editor& e, StandardView view) {
   look(e.view.camera, view);
@@ -237,6 +237,18 @@ const std::array kActions = {
            [](Editor& e) { e.view.walkable = !e.view.walkable; },
            whyNoCollision},
     Action{"walk", "Walk mode (W A S D)", ICON_WALK, {'W'}, walk, whyWalkNot},
+    Action{"teleport",
+           "Teleport: click where to stand (hold T)",
+           ICON_CROSSHAIRS,
+           {},
+           [](Editor& e) { e.view.teleport.by_click = true; },
+           whyWalkNot},
+    Action{"view-before",
+           "Previous view",
+           "",
+           {kKeyLeft, false, false, true},
+           [](Editor& e) { goBackInViews(e); },
+           [](const Editor& e) { return e.views.empty() ? std::string("No previous view") : std::string(); }},
     Action{"shapes",
            "Collision shapes",
            ICON_CUBES,
@@ -313,7 +325,7 @@ const std::array kActions = {
     Action{"add-station",
            "Add station by clicking the floor",
            ICON_STATION,
-           {'T'},
+           {'T', false, true},
            [](Editor& e) {
              e.view.tool = Tool::placeStation;
              showWorkspace(e, Workspace::survey);
@@ -438,9 +450,10 @@ bool invoke(Editor& editor, const char* id) {
 
 std::string shortcutText(const Shortcut& s) {
   if (s.key == 0) return {};
-  std::string text = std::string(s.ctrl ? "Ctrl+" : "") + (s.shift ? "Shift+" : "");
+  std::string text = std::string(s.ctrl ? "Ctrl+" : "") + (s.alt ? "Alt+" : "") + (s.shift ? "Shift+" : "");
   if (s.key == kKeyEscape) return text + "Esc";
   if (s.key == kKeyDelete) return text + "Del";
+  if (s.key == kKeyLeft) return text + "Left";
   if (s.key == kKeyF1) return text + "F1";
   if (s.key == kKeyF2) return text + "F2";
   if (s.key == kKeyPlus) return text + "+";
@@ -455,7 +468,7 @@ void runShortcuts(Editor& editor) {
     if (s.key == kKeyEscape) continue;  // closeTopmost
     if (io.WantTextInput && !leavesText(s)) continue;
     const bool shifted = s.shift == io.KeyShift || s.key == kKeyPlus;  // some keyboards need Shift for a plus
-    if (s.key != 0 && s.ctrl == io.KeyCtrl && shifted && keyboard::pressed(s.key)) {
+    if (s.key != 0 && s.ctrl == io.KeyCtrl && s.alt == io.KeyAlt && shifted && keyboard::pressed(s.key)) {
       invoke(editor, action.id);
       return;
     }

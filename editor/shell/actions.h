@@ -11,7 +11,7 @@ struct Editor;
 
 struct Shortcut {
   int key = 0;  // of widgets/keyboard.h; 0 = none
-  bool ctrl = false, shift = false;
+  bool ctrl = false, shift = false, alt = false;
 };
 
 // What can be done by menu, toolbar, key or palette; one table, so that they cannot disagree.

@@ -4,6 +4,7 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include "editor/model/walking.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/import_preview.h"
 #include "editor/widgets/keyboard.h"
@@ -44,7 +45,7 @@ bool holdsWidget() {
 
 bool dragsInView(const Editor& editor) {
   const auto& view = editor.view;
-  return view.dragged_station >= 0 || view.probe.dragged || (view.dragging && view.dragged);
+  return view.teleport.active() || view.dragged_station >= 0 || view.probe.dragged || (view.dragging && view.dragged);
 }
 
 void endDrag(Editor& editor) {
@@ -52,6 +53,8 @@ void endDrag(Editor& editor) {
   if (ImGui::GetCurrentContext()->DragDropActive) {
     ImGui::ClearDragDrop();
     ImGui::ClearActiveID();
+  } else if (view.teleport.active()) {
+    view.teleport = {};
   } else if (view.dragged_station >= 0) {
     view.dragged_station = -1;
   } else if (view.probe.dragged) {
@@ -88,7 +91,7 @@ EscapeLayer escapeLayer(const Editor& editor) {
   if (ImGui::GetCurrentContext()->DragDropActive || dragsInView(editor) || holdsWidget()) return EscapeLayer::drag;
   if (const auto* top = topPopup()) return isModal(*top) ? EscapeLayer::modal : EscapeLayer::popup;
   if (editor.preview.isOpen()) return EscapeLayer::preview;
-  if (editor.view.tool == Tool::walk) return EscapeLayer::walk;
+  if (editor.view.tool == Tool::walk || editor.walk_ground.preparing()) return EscapeLayer::walk;
   if (editor.view.tool != Tool::select) return EscapeLayer::tool;
   const auto& survey = editor.survey;
   const bool chosen = !editor.selection.empty() || survey.station >= 0 || survey.target >= 0 || survey.underlay >= 0;
@@ -112,8 +115,9 @@ void closeTopmost(Editor& editor) {
 }
 
 void leaveTool(Editor& editor) {
+  if (editor.walk_ground.preparing()) return editor.walk_ground.cancel();
   if (editor.view.tool != Tool::select) {
-    editor.walk.stop();
+    stopWalking(editor);
     editor.view.tool = Tool::select;
     editor.view.measured_from.reset();
     editor.view.measured_to.reset();

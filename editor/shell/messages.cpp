@@ -152,7 +152,8 @@ constexpr std::array kMouse = {
     Hint{"Left drag", "Orbit around the point under the pointer"},
     Hint{"Middle or right drag, Shift+left", "Pan"},
     Hint{"Wheel", "Zoom to pointer"},
-    Hint{"W A S D", "Walk (W to start, Shift to run, Esc to leave)"},
+    Hint{"W A S D", "Walk (W to start, Shift to run, C to crouch, wheel for the speed, Esc to leave)"},
+    Hint{"T (hold)", "Teleport: aim with the pointer, release to stand there; Esc or right button cancels"},
     Hint{"Right click", "Context menu"},
 };
 

@@ -177,7 +177,41 @@ void cloudChip(Editor& editor) {
       fmt::format("{:.1f} million points loaded", static_cast<double>(cloud.points_in_file) / 1e6).c_str());
 }
 
+// A line near the lower edge, `above_pt` over it.
+void drawBanner(const Editor& editor, ImVec2 origin, ImVec2 size, const std::string& words, float above_pt,
+                ImU32 ground) {
+  const ImVec2 text = ImGui::CalcTextSize(words.c_str());
+  const float pad = editor.px(8);
+  const ImVec2 at(origin.x + (size.x - text.x) / 2, origin.y + size.y - text.y - editor.px(above_pt));
+  auto& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled({at.x - pad, at.y - pad / 2}, {at.x + text.x + pad, at.y + text.y + pad / 2}, ground, pad / 2);
+  list.AddText(at, IM_COL32(255, 255, 255, 255), words.c_str());
+}
+
+// Where whoever walks is, in the frame of the file, and what stops them.
+std::string walkLine(const Editor& editor) {
+  const auto& walk = editor.walk;
+  const Eigen::Vector3d p = walk.feet() + editor.shift_m();
+  std::string line = fmt::format("{:.2f}  {:.2f}  {:.2f} m", p.x(), p.y(), p.z());
+  if (const auto name = walkPlaceName(editor); !name.empty()) line += "   " + name;
+  line += fmt::format("   eye {:.2f} m   {:.1f} m/s", walk.eyeHeight_m(), walk.speed_mps(false));
+  if (const auto note = walk.note(); !note.empty()) line += "   " + note;
+  return line;
+}
+
 void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
+  constexpr ImU32 kHint = IM_COL32(38, 84, 148, 235);
+  if (editor.walk_ground.preparing()) {
+    const auto words =
+        fmt::format("Preparing the walkable surface … {:.0f} %   Esc to cancel", 100 * editor.walk_ground.fraction());
+    return drawBanner(editor, origin, size, words, 26, kHint);
+  }
+  if (editor.walk.active()) drawBanner(editor, origin, size, walkLine(editor), 52, IM_COL32(24, 26, 30, 220));
+  if (editor.view.teleport.active()) {
+    const char* words = editor.view.teleport.by_key ? "Aim with the pointer, release T to stand there   Esc to cancel"
+                                                    : "Click where to stand   Esc to cancel";
+    return drawBanner(editor, origin, size, words, 26, kHint);
+  }
   const char* hint = nullptr;
   switch (editor.view.tool) {
     case Tool::placeStation: hint = "Click the floor to add a station   Esc to leave"; break;
@@ -186,19 +220,15 @@ void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
     case Tool::takeMaterial: hint = "Click a surface to pick its material   Esc to leave"; break;
     case Tool::paintMaterial: hint = "Click surfaces to assign the selected material   Esc to leave"; break;
     case Tool::layWay: hint = "Click the floor to add a waypoint   Esc to leave"; break;
-    case Tool::walk: hint = "W A S D to walk, Shift to run, drag to look around   Esc to leave"; break;
+    case Tool::walk:
+      hint = "W A S D to walk, Shift to run, C to crouch, T to teleport, drag to look around   Esc to leave";
+      break;
     case Tool::select: break;
   }
   if (editor.environment() && !editor.picker.ready() && hint != nullptr && editor.view.tool != Tool::walk)
     hint = "Preparing the model for picking …";
   if (hint == nullptr) return;
-  const ImVec2 text = ImGui::CalcTextSize(hint);
-  const float pad = editor.px(8);
-  const ImVec2 at(origin.x + (size.x - text.x) / 2, origin.y + size.y - text.y - editor.px(26));
-  auto& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled({at.x - pad, at.y - pad / 2}, {at.x + text.x + pad, at.y + text.y + pad / 2},
-                     IM_COL32(38, 84, 148, 235), pad / 2);
-  list.AddText(at, IM_COL32(255, 255, 255, 255), hint);
+  drawBanner(editor, origin, size, hint, 26, kHint);
 }
 
 struct Axis {

@@ -59,6 +59,32 @@ std::vector<Entry> entries(Editor& editor) {
   return all;
 }
 
+// "@" jumps to rooms, "#" to stations.
+std::vector<Entry> places(Editor& editor, char kind) {
+  std::vector<Entry> all;
+  const auto& document = editor.session.document();
+  if (kind == '@' && document.imported)
+    for (std::uint32_t p = 0; p < document.imported->products.size(); ++p) {
+      const auto& product = document.imported->products[p];
+      if (product.ifc_class == "IfcSpace" && !product.excluded)
+        all.push_back({fmt::format("room-{}", p), ICON_WALK, readableName(product), product.storey, "",
+                       [&editor, p] { jumpToRoom(editor, p); }});
+    }
+  if (kind == '#' && document.job)
+    for (std::size_t i = 0; i < document.job->stations.size(); ++i)
+      all.push_back({fmt::format("station-{}", i), ICON_STATION, document.job->stations[i].name, "Station", "",
+                     [&editor, i] { jumpToStation(editor, i); }});
+  return all;
+}
+
+std::vector<Entry> matching(Editor& editor, const std::string& query) {
+  const bool jumps = query.starts_with('@') || query.starts_with('#');
+  std::vector<Entry> shown;
+  for (auto& entry : jumps ? places(editor, query[0]) : entries(editor))
+    if (matches(entry, jumps ? query.substr(1) : query)) shown.push_back(std::move(entry));
+  return shown;
+}
+
 void drawEntry(Editor& editor, const Entry& entry, bool chosen, bool& done) {
   const auto flags = entry.why.empty() ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
   const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - editor.px(8);
@@ -99,11 +125,10 @@ void drawPalette(Editor& editor) {
   }
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-FLT_MIN);
-  if (ImGui::InputTextWithHint("###query", "Search commands", &state.query)) state.chosen = 0;
+  if (ImGui::InputTextWithHint("###query", "Search commands; @ for rooms, # for stations", &state.query))
+    state.chosen = 0;
   const bool enter = keyboard::pressed(kKeyEnter);
-  std::vector<Entry> shown;
-  for (auto& entry : entries(editor))
-    if (matches(entry, state.query)) shown.push_back(std::move(entry));
+  const auto shown = matching(editor, state.query);
   const int last = std::max(0, static_cast<int>(shown.size()) - 1);
   const int step = (keyboard::pressedOrRepeated(kKeyDown) ? 1 : 0) - (keyboard::pressedOrRepeated(kKeyUp) ? 1 : 0);
   const bool moved = step != 0;
@@ -120,7 +145,7 @@ void drawPalette(Editor& editor) {
       entry.run();
     }
   }
-  if (shown.empty()) ui::dimText("No matching commands");
+  if (shown.empty()) ui::dimText("No matches");
   ImGui::EndChild();
   if (done) {
     state.open = false;

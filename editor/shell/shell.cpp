@@ -116,6 +116,8 @@ void viewMenu(Editor& editor) {
                  "shapes",
                  "shaded-points",
                  "walk",
+                 "teleport",
+                 "view-before",
                  "",
                  "colour-model",
                  "colour-material",
@@ -213,7 +215,7 @@ void drawToolbar(Editor& editor, const Box& box) {
   toolGap(editor);
   drawWorkspaceTabs(editor, roomForTitles(editor, box.w));
   toolGap(editor);
-  for (const char* id : {"add-station", "add-target", "measure"}) actionToolButton(editor, id);
+  for (const char* id : {"walk", "teleport", "add-station", "add-target", "measure"}) actionToolButton(editor, id);
   const float right = editor.px(96) + editor.px(36);
   ImGui::SameLine(box.w - right - editor.px(8));
   if (ui::primaryButton(ICON_PLAY "  Scan###tool_scan", editor.session.whyNot("scan"), {editor.px(96), 0}))

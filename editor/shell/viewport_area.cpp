@@ -13,6 +13,7 @@
 #include "editor/shell/overlay.h"
 #include "editor/shell/shell.h"
 #include "editor/shell/station_drag.h"
+#include "editor/shell/teleport.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keyboard.h"
 #include "editor/widgets/theme.h"
@@ -147,13 +148,14 @@ void contextMenu(Editor& editor) {
 
 void handleWalking(Editor& editor) {
   const auto& io = ImGui::GetIO();
-  if (editor.view.tool != Tool::walk || io.WantTextInput || io.KeyCtrl ||
-      ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId))
-    return;
+  if (!editor.walk.active()) return;
   const auto axis = [](int less, int more) {
     return (keyboard::held(more) ? 1.0 : 0.0) - (keyboard::held(less) ? 1.0 : 0.0);
   };
-  editor.walk.go({axis('A', 'D'), axis('S', 'W')}, io.KeyShift, io.DeltaTime, editor.view.camera);
+  WalkKeys keys;
+  if (!io.WantTextInput && !io.KeyCtrl && !ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId))
+    keys = {{axis('A', 'D'), axis('S', 'W')}, io.KeyShift, keyboard::held('C')};
+  editor.walk.go(keys, io.DeltaTime, editor.view.camera);
 }
 
 void handleMouse(Editor& editor, ImVec2 origin, bool hovered) {
@@ -164,6 +166,7 @@ void handleMouse(Editor& editor, ImVec2 origin, bool hovered) {
     if (hovered && !editor.preview.isOpen())
       view.hover = editor.picker.pick(rayThrough(view.camera, pointer(origin), view.size), editor.viewState());
   }
+  if (!view.dragging && aimTeleport(editor, hovered)) return;
   if (hovered && !view.dragging && (ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2)))
     startDrag(editor);
   if (view.dragging) continueDrag(editor);
@@ -175,7 +178,9 @@ void handleMouse(Editor& editor, ImVec2 origin, bool hovered) {
   }
   if (hovered && ImGui::IsMouseDoubleClicked(0) && view.tool == Tool::select) editor.frameSelection();
   if (view.dragging && !io.MouseDown[0] && !io.MouseDown[1] && !io.MouseDown[2]) view.dragging = false;
-  if (hovered && io.MouseWheel != 0 && view.tool != Tool::walk) {
+  if (hovered && io.MouseWheel != 0 && view.tool == Tool::walk) {
+    editor.walk.changeSpeed(io.MouseWheel);
+  } else if (hovered && io.MouseWheel != 0) {
     const auto ray = rayThrough(view.camera, pointer(origin), view.size);
     const Eigen::Vector3d on_target_plane =
         ray.origin + ray.direction * ((view.camera.target - ray.origin).dot(view.camera.forward()) /
@@ -291,6 +296,7 @@ void drawViewport(Editor& editor) {
   drawCoverageLegend(editor, origin, size);
   drawMarkers(editor, both ? right : origin);
   drawOverlay(editor, origin, whole);
+  drawTeleport(editor, both ? right : origin);
   contextMenu(editor);
   drawMaterialMenu(editor);
 }

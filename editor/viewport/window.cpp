@@ -141,6 +141,7 @@ class Window {
     pacer_.waitForWork(events_, [&] {
       FramePacer::Reasons reasons{.input = input_.pending(),
                                   .key_held = keyboard::anyHeld(),
+                                  .walker_moves = editor_.walk.moves(),
                                   .text_edited = ImGui::GetIO().WantTextInput,
                                   .job_runs = editor_.jobRuns()};
       if (!editor_.fine_picture) reasons.until_fine_s = std::max(0.0, untilFine());

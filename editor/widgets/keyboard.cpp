@@ -23,7 +23,7 @@ constexpr struct {
   Named named;
   int key;
 } kEditing[] = {{ImGuiKey_Tab, 258},
-                {ImGuiKey_LeftArrow, 263},
+                {ImGuiKey_LeftArrow, kKeyLeft},
                 {ImGuiKey_RightArrow, 262},
                 {ImGuiKey_UpArrow, kKeyUp},
                 {ImGuiKey_DownArrow, kKeyDown},
@@ -46,7 +46,7 @@ constexpr struct {
                 {ImGuiKey_Z, 'Z'}};
 
 // Two keys that do the same.
-constexpr int kShifts[] = {kKeyShift, 344}, kControls[] = {kKeyControl, 345}, kAlts[] = {342, 346},
+constexpr int kShifts[] = {kKeyShift, 344}, kControls[] = {kKeyControl, 345}, kAlts[] = {kKeyAlt, 346},
               kSupers[] = {343, 347};
 
 #if IMGUI_VERSION_NUM >= 18700

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+
 #include <gtest/gtest.h>
 
+#include "core/data_folder.h"
 #include "demo_verbs.h"
 #include "editor/shell/actions.h"
 #include "editor/widgets/keyboard.h"
@@ -9,65 +12,218 @@
 namespace standpoint {
 namespace {
 
+constexpr double kEyes_m = 1.60;
+
 class Walking : public ::testing::Test {
  protected:
   void SetUp() override {
     ASSERT_TRUE(editor.session.start("demo", nlohmann::json::object()));
     gui.settle();
-    editor.session.wait();
+    gui.frames(2);
+  }
+  void collide() {
     ASSERT_TRUE(editor.session.start("collide", nlohmann::json::object()));
     gui.settle();
-    editor.session.wait();
     gui.frames(2);
     ASSERT_TRUE(editor.session.document().collision);
+  }
+  void walk() {
+    gui.key('W');
+    editor.walk_ground.wait();
+    gui.frames(3);
+    ASSERT_TRUE(editor.walk.active());
+    gui.frames(30);  // it stands still again
+  }
+  ImVec2 pixelOf(const Eigen::Vector3d& p) {
+    const auto* scene = gui.find("###scene");
+    const auto pixel = project(editor.view.camera, p, editor.view.size);
+    return {scene->rect.Min.x + static_cast<float>(pixel->x()), scene->rect.Min.y + static_cast<float>(pixel->y())};
   }
   Editor editor{verbsWithDemo(), [] {}};
   GuiDriver gui{editor};
 };
 
 TEST_F(Walking, BeginsOnTheFloorAtEyeHeightAndEndsWithEscape) {
-  gui.key('W');
-  gui.frames(2);
+  collide();
+  walk();
   ASSERT_EQ(editor.view.tool, Tool::walk);
-  ASSERT_TRUE(editor.walk.active());
-  EXPECT_NEAR(editor.view.camera.eye().z() - editor.walk.feet().z(), 0.92 * 1.8, 1e-6);
+  EXPECT_NEAR(editor.view.camera.eye().z() - editor.walk.feet().z(), kEyes_m, 1e-3);
   EXPECT_NEAR(editor.view.camera.elevation_rad, 0, 1e-9);
+  const auto eye = editor.view.camera.eye();
   gui.key(kKeyEscape);
   gui.frames(2);
   EXPECT_EQ(editor.view.tool, Tool::select);
   EXPECT_FALSE(editor.walk.active());
+  EXPECT_NEAR((editor.view.camera.eye() - eye).norm(), 0, 1e-6) << "it stays where one walked to";
+}
+
+TEST_F(Walking, NeedsNoPreparationAndIsNoChangeOfTheDocument) {
+  const auto revision = editor.session.revision();
+  const bool modified = editor.session.modified();
+  walk();
+  EXPECT_FALSE(editor.session.document().collision);
+  EXPECT_EQ(editor.session.revision(), revision);
+  EXPECT_EQ(editor.session.modified(), modified);
+  EXPECT_NEAR(editor.walk.feet().z(), 0, 0.01) << "inside the front door, not on the roof";
+  EXPECT_TRUE(editor.walk.feet().y() > 0.3 && editor.walk.feet().y() < 2) << editor.walk.feet().transpose();
+}
+
+TEST_F(Walking, IsGivenUpWithEscapeWhileItIsPrepared) {
+  keyboard::change('W', true);
+  gui.frame();
+  keyboard::change('W', false);
+  if (!editor.walk_ground.preparing()) GTEST_SKIP() << "the machine was faster than a frame";
+  gui.key(kKeyEscape);
+  editor.walk_ground.wait();
+  gui.frames(3);
+  EXPECT_FALSE(editor.walk.active());
+  EXPECT_TRUE(editor.session.errors().empty());
+  walk();  // and can be begun again
 }
 
 TEST_F(Walking, FollowsTheKeysThatAreHeld) {
-  ASSERT_TRUE(invoke(editor, "walk"));
-  gui.frames(2);
+  walk();
   const auto camera = editor.view.camera;
   const Eigen::Vector3d before = editor.walk.feet();
   keyboard::change('D', true);
   gui.frames(10);
   keyboard::change('D', false);
-  gui.frames(2);
+  gui.frames(20);
   const Eigen::Vector3d way = editor.walk.feet() - before;
-  EXPECT_GT(way.norm(), 0.01);
-  EXPECT_GT(way.dot(camera.right()), 0);
-  EXPECT_NEAR((editor.view.camera.eye() - editor.walk.feet() - Eigen::Vector3d(0, 0, 0.92 * 1.8)).norm(), 0, 1e-6);
+  EXPECT_GT(way.norm(), 0.1);
+  EXPECT_GT(way.normalized().dot(camera.right()), 0.95);
+  EXPECT_NEAR(editor.view.camera.eye().z() - editor.walk.feet().z(), kEyes_m, 1e-3);
+}
+
+TEST_F(Walking, GoesAsFastAcrossAsAheadAndChangesItsSpeedWithTheWheel) {
+  walk();
+  const auto lengthOf = [&](std::initializer_list<int> keys) {
+    const Eigen::Vector3d before = editor.walk.feet();
+    for (const int key : keys) keyboard::change(key, true);
+    gui.frames(20);
+    for (const int key : keys) keyboard::change(key, false);
+    gui.frames(20);
+    return (editor.walk.feet() - before).norm();
+  };
+  const double ahead = lengthOf({'W'});
+  EXPECT_NEAR(ahead, 20 / 60.0 * 1.8, 0.1);
+  EXPECT_NEAR(lengthOf({'W', 'A'}), ahead, 0.02);
+  gui.moveTo(gui.find("###scene")->rect.GetCenter());
+  ImGui::GetIO().MouseWheel = -2;
+  gui.frame();
+  ImGui::GetIO().MouseWheel = 0;
+  EXPECT_NEAR(editor.walk.speed_mps(false), 1.8 / 1.5625, 1e-9);
+  EXPECT_LT(lengthOf({'S'}), 0.75 * ahead);
 }
 
 TEST_F(Walking, EndsWhenTheShapesAreComputedAgain) {
-  ASSERT_TRUE(invoke(editor, "walk"));
-  gui.frames(2);
+  walk();
   ASSERT_TRUE(editor.session.start("collide", {{"doors", "closed"}}));
   gui.settle();
-  editor.session.wait();
   gui.frames(3);
   EXPECT_FALSE(editor.walk.active());
   EXPECT_EQ(editor.view.tool, Tool::select);
 }
 
-TEST_F(Walking, IsOfferedOnlyWhereThereAreShapes) {
+TEST_F(Walking, IsOfferedOnlyWhereThereIsAModel) {
   Editor empty(verbsWithDemo(), [] {});
   EXPECT_NE(whyNot(*findAction("walk"), empty), "");
   EXPECT_EQ(whyNot(*findAction("walk"), editor), "");
+}
+
+TEST_F(Walking, IsTakenToWhereOneAimsWhileTIsHeld) {
+  walk();
+  editor.view.camera.azimuth_rad = 0;
+  gui.frame();
+  const Eigen::Vector3d from = editor.walk.feet(), aim = from + Eigen::Vector3d(1.4, 3.3, 0);
+  gui.moveTo(pixelOf(aim));
+  keyboard::change('T', true);
+  gui.frames(3);
+  ASSERT_TRUE(editor.view.teleport.active());
+  EXPECT_EQ(editor.walk.feet(), from) << "not before it is released";
+  keyboard::change('T', false);
+  gui.frames(3);
+  EXPECT_NEAR((editor.walk.feet() - aim).norm(), 0, 0.05) << editor.walk.feet().transpose();
+  keyboard::change(kKeyAlt, true);
+  gui.key(kKeyLeft);
+  keyboard::change(kKeyAlt, false);
+  gui.frames(3);
+  EXPECT_NEAR((editor.walk.feet() - from).norm(), 0, 0.01) << "Alt+Left goes back";
+}
+
+TEST_F(Walking, IsBegunByTeleportFromOutsideAndNotWithEscape) {
+  const Eigen::Vector3d lawn(5, -4, -0.3);
+  editor.view.camera = {lawn, 12, 0, 0.6};
+  gui.frames(2);
+  gui.moveTo(pixelOf(lawn));
+  keyboard::change('T', true);
+  gui.frames(2);
+  editor.walk_ground.wait();
+  gui.frames(2);
+  keyboard::change(kKeyEscape, true);
+  gui.frame();
+  keyboard::change(kKeyEscape, false);
+  gui.frame();
+  keyboard::change('T', false);
+  gui.frames(2);
+  EXPECT_FALSE(editor.walk.active()) << "Esc gave it up";
+  ASSERT_TRUE(invoke(editor, "teleport"));
+  gui.press();
+  gui.frames(2);
+  ASSERT_TRUE(editor.walk.active());
+  EXPECT_NEAR((editor.walk.feet() - lawn).norm(), 0, 0.05) << editor.walk.feet().transpose();
+  EXPECT_EQ(editor.view.tool, Tool::walk);
+}
+
+TEST_F(Walking, JumpsToARoomAndToAStationByName) {
+  const auto choose = [&](const char* query) {
+    ASSERT_TRUE(invoke(editor, "palette"));
+    gui.frames(3);
+    gui.type(query);
+    gui.key(kKeyEnter);
+    editor.walk_ground.wait();
+    gui.frames(3);
+  };
+  choose("@liv");
+  ASSERT_TRUE(editor.walk.active());
+  EXPECT_EQ(walkPlaceName(editor), "Living room · Ground floor");
+  choose("#S2");
+  EXPECT_NEAR((editor.walk.feet() - Eigen::Vector3d(7.5, 5, 0)).norm(), 0, 0.05) << editor.walk.feet().transpose();
+  EXPECT_EQ(walkPlaceName(editor), "Ground floor");
+}
+
+// By its keys, straight ahead, as far as it gets.
+void walkTowards(Editor& editor, GuiDriver& gui, const Eigen::Vector2d& place) {
+  keyboard::change('W', true);
+  for (int i = 0; i < 600; ++i) {
+    const Eigen::Vector2d way = place - editor.walk.feet().head<2>();
+    if (way.norm() < 0.1) break;
+    editor.view.camera.azimuth_rad = std::atan2(-way.x(), way.y());
+    gui.frame();
+  }
+  keyboard::change('W', false);
+  gui.frames(20);
+}
+
+// Its front door is at x = 7 to 8 in the south, its stair goes up northwards from y = 1.6 at x = 8.65 to 9.65.
+TEST(WalkingInTheSampleHouse, BeginsBehindTheFrontDoorAndLeadsUpstairs) {
+  Editor editor(verbsWithDemo(), [] {});
+  GuiDriver gui(editor);
+  ASSERT_TRUE(editor.session.start("import", {{"files", {(samplesFolder() / "house.ifc").string()}}}));
+  gui.settle();
+  gui.frames(3);
+  ASSERT_TRUE(invoke(editor, "walk"));
+  editor.walk_ground.wait();
+  gui.frames(3);
+  ASSERT_TRUE(editor.walk.active());
+  EXPECT_NEAR((editor.walk.feet() - Eigen::Vector3d(7.5, 1.1, 0)).norm(), 0, 0.3) << editor.walk.feet().transpose();
+  EXPECT_NEAR(editor.view.camera.azimuth_rad, 0, 0.05) << "into the house";
+  walkTowards(editor, gui, {9.2, 1.2});
+  walkTowards(editor, gui, {9.2, 6.3});
+  EXPECT_NEAR((editor.walk.feet() - Eigen::Vector3d(9.2, 6.3, 2.8)).norm(), 0, 0.2) << editor.walk.feet().transpose();
+  EXPECT_EQ(walkPlaceName(editor), "Upper floor");
+  walkTowards(editor, gui, {9.2, 1.2});
+  EXPECT_NEAR((editor.walk.feet() - Eigen::Vector3d(9.2, 1.2, 0)).norm(), 0, 0.2) << editor.walk.feet().transpose();
 }
 
 }  // namespace

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "optimizer/walk/obstacles.h"
+#include "optimizer/walk/spaces.h"
+#include "project/document.h"
+#include "project/task.h"
+
+namespace standpoint {
+
+// What one walks on and between.
+struct WalkedGround {
+  std::shared_ptr<const Environment> environment;
+  std::shared_ptr<const CollideResult> collision;
+  Obstacles obstacles;
+  std::vector<SpaceBody> spaces;
+  double lowest_m = 0;
+};
+
+// The document's collision shapes, made ready to walk between. Where it has none, they are computed beside the
+// interface for this view alone: that somebody looked around is no change of the document, and no step to undo.
+class WalkGround {
+ public:
+  // Starts where nothing is there or under way.
+  void prepare(const Document& document, const Body& body, const std::function<void()>& wake);
+  void cancel();
+  // For this document and body; null until it is there.
+  std::shared_ptr<const WalkedGround> of(const Document& document, const Body& body) const;
+  bool preparing() const { return task_ && !task_->done(); }
+  double fraction() const { return task_ ? task_->progress().fraction() : 0; }
+  void wait() {
+    if (task_) task_->wait();
+  }
+  // Once, when it could not be prepared.
+  std::optional<Error> takeError();
+
+ private:
+  bool isFor(const Document& document, const Body& body) const;
+
+  std::shared_ptr<const Environment> environment_;  // of the task
+  Body body_;
+  std::unique_ptr<Task<std::shared_ptr<const WalkedGround>>> task_;
+  mutable std::shared_ptr<const WalkedGround> of_document_;  // of the shapes that it has itself
+};
+
+}  // namespace standpoint

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/model/walking.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "editor/model/model.h"
+#include "optimizer/walk/landing.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr std::size_t kMostViews = 50;
+constexpr double kReach_m = 30;      // of whoever walks; from outside one points anywhere
+constexpr double kStoreySill = 0.4;  // m under a storey's level that still belong to it
+constexpr double kBodyMiddle_m = 0.9;
+
+ViewHistory::View viewNow(const Model& model) {
+  return {model.view.camera, model.walk.active() ? std::optional(model.walk.feet()) : std::nullopt};
+}
+
+void walkFrom(Model& model, WalkPlace place) {
+  model.wanted_walk = std::move(place);
+  model.walk_ground.prepare(model.session.document(), model.walker, model.wake);
+  followWalking(model);
+}
+
+Error nowhere(const char* message, const std::string& what) { return {ErrorKind::unusable, message, what}; }
+
+bool begin(Model& model, const std::shared_ptr<const WalkedGround>& ground, const StartPlace& place) {
+  const auto before = viewNow(model);
+  if (!model.walk.start(ground, model.walker, place, model.view.camera)) return false;
+  model.views.push(before);
+  model.view.tool = Tool::walk;
+  return true;
+}
+
+// What the middle of the picture shows.
+std::optional<Eigen::Vector3d> lookedAt(const Model& model) {
+  const auto ray = rayThrough(model.view.camera, model.view.size / 2, model.view.size);
+  const auto hit = model.picker.pick(ray, model.viewState());
+  return hit ? std::optional(hit->position) : std::nullopt;
+}
+
+}  // namespace
+
+void ViewHistory::push(const View& view) {
+  views_.push_back(view);
+  if (views_.size() > kMostViews) views_.erase(views_.begin());
+}
+
+std::optional<ViewHistory::View> ViewHistory::back() {
+  if (views_.empty()) return std::nullopt;
+  const View view = views_.back();
+  views_.pop_back();
+  return view;
+}
+
+void startWalking(Model& model) {
+  walkFrom(model, [&model, body = model.walker](const WalkedGround& ground) -> Result<StartPlace> {
+    const Onlooker onlooker{model.view.camera.eye(), lookedAt(model)};
+    if (auto place = startPlace(*ground.environment, *ground.collision, ground.obstacles, body, onlooker))
+      return *place;
+    return tl::unexpected(nowhere("There is no floor of 2 m² or more to walk on", "walk"));
+  });
+}
+
+std::string whyNoLanding(const Landing& landing, const Model& model) {
+  if (!landing.why_not.empty()) return landing.why_not;
+  const bool far = model.walk.active() && (landing.feet - model.walk.feet()).norm() > kReach_m;
+  return far ? "out of reach" : "";
+}
+
+void teleport(Model& model, const RayHit& hit) {
+  walkFrom(model, [&model, hit, body = model.walker](const WalkedGround& ground) -> Result<StartPlace> {
+    const auto landing = landingAt(ground.obstacles, body, hit.position, hit.normal);
+    const auto why = whyNoLanding(landing, model);
+    if (!why.empty()) return tl::unexpected(nowhere("Nobody can stand there", why));
+    return StartPlace{landing.feet, {}};
+  });
+}
+
+void jumpToRoom(Model& model, std::uint32_t product) {
+  walkFrom(model, [product, body = model.walker](const WalkedGround& ground) -> Result<StartPlace> {
+    if (auto place = placeInRoom(*ground.environment, product, *ground.collision, ground.obstacles, body))
+      return *place;
+    return tl::unexpected(
+        nowhere("The room has no floor to stand on", readableName(ground.environment->products[product])));
+  });
+}
+
+void jumpToStation(Model& model, std::size_t station) {
+  const auto& chosen = model.session.document().job->stations[station];
+  walkFrom(model, [chosen, body = model.walker](const WalkedGround& ground) -> Result<StartPlace> {
+    Avatar avatar(ground.obstacles, body);
+    if (avatar.stand(chosen.true_pose.translation, chosen.instrument_height_m + 1))
+      return StartPlace{avatar.feet(), {}};
+    return tl::unexpected(nowhere("Nobody can stand at the station", chosen.name));
+  });
+}
+
+void stopWalking(Model& model) {
+  model.wanted_walk = nullptr;
+  model.walk.stop(model.view.camera);
+  if (model.view.tool == Tool::walk) model.view.tool = Tool::select;
+}
+
+void goBackInViews(Model& model) {
+  const auto view = model.views.back();
+  if (!view) return;
+  const auto ground = view->feet ? model.walk_ground.of(model.session.document(), model.walker) : nullptr;
+  if (ground && model.walk.start(ground, model.walker, {*view->feet, {}}, model.view.camera))
+    model.view.tool = Tool::walk;
+  else
+    stopWalking(model);
+  model.view.camera = view->camera;
+}
+
+void followWalking(Model& model) {
+  if (auto error = model.walk_ground.takeError()) {
+    model.wanted_walk = nullptr;
+    if (error->kind != ErrorKind::cancelled)
+      model.session.errors().push_back({"The walkable surface could not be prepared", std::move(*error)});
+  }
+  if (model.walk.active() && model.view.tool != Tool::walk) model.walk.stop(model.view.camera);
+  if (!model.walk.active() && !model.wanted_walk) return;
+  const auto ground = model.walk_ground.of(model.session.document(), model.walker);
+  if (model.walk.active() && !model.walk.isIn(ground)) stopWalking(model);
+  if (!ground || !model.wanted_walk) return;
+  const auto place = std::exchange(model.wanted_walk, nullptr)(*ground);
+  if (!place)
+    model.session.errors().push_back({"Cannot walk there", place.error()});
+  else if (!begin(model, ground, *place))
+    model.session.errors().push_back({"Cannot walk there", nowhere("There is no room to stand", "walk")});
+}
+
+std::string walkPlaceName(const Model& model) {
+  const auto& document = model.session.document();
+  const Eigen::Vector3d feet = model.walk.feet();
+  std::string name;
+  if (const auto room = spaceAt(model.walk.ground().spaces, feet + Eigen::Vector3d(0, 0, kBodyMiddle_m)))
+    name = readableName(document.imported->products[*room]);
+  const StoreyLevel* storey = nullptr;
+  for (const auto& level : model.storeys())
+    if (level.elevation_m <= feet.z() + kStoreySill) storey = &level;
+  if (storey == nullptr) return name;
+  const auto& node = model.environment()->spatial[static_cast<std::size_t>(storey->node)];
+  if (node.name.empty()) return name;
+  return name.empty() ? node.name : name + " · " + node.name;
+}
+
+std::string readableName(const Product& product) {
+  const auto property = std::find_if(product.properties.begin(), product.properties.end(),
+                                     [](const Property& p) { return p.set == "Attributes" && p.name == "LongName"; });
+  const std::string longer = property == product.properties.end() ? "" : property->value;
+  if (longer.empty() || longer == product.name) return product.name.empty() ? product.id : product.name;
+  return product.name.empty() ? longer : product.name + " " + longer;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "editor/model/walk.h"
+#include "optimizer/walk/landing.h"
+#include "scanners/engine/ray_engine.h"
+
+namespace standpoint {
+
+struct Model;
+
+// Where to walk from, once the ground is there.
+using WalkPlace = std::function<Result<StartPlace>(const WalkedGround&)>;
+
+// Views that one came from, apart from what can be undone.
+class ViewHistory {
+ public:
+  struct View {
+    Camera camera;
+    std::optional<Eigen::Vector3d> feet;  // of whoever walked there
+  };
+  void push(const View& view);
+  std::optional<View> back();
+  bool empty() const { return views_.empty(); }
+
+ private:
+  std::vector<View> views_;
+};
+
+// Where the next release of a key or click puts somebody.
+struct TeleportAim {
+  bool by_key = false, by_click = false;
+  bool active() const { return by_key || by_click; }
+};
+
+// From where one looks. What is needed for it is prepared first.
+void startWalking(Model& model);
+// Stands at a place that is pointed at, in a room, or at the station of that index, and walks on from there.
+void teleport(Model& model, const RayHit& hit);
+void jumpToRoom(Model& model, std::uint32_t product);
+void jumpToStation(Model& model, std::size_t station);
+// A room's number and long name, as far as it has them.
+std::string readableName(const Product& product);
+// "" or why nobody can be put where that is.
+std::string whyNoLanding(const Landing& landing, const Model& model);
+
+void stopWalking(Model& model);
+void goBackInViews(Model& model);
+// To be called once a frame: begins to walk when the ground is there.
+void followWalking(Model& model);
+
+// "Living room · Ground floor", of what there is, around the feet of whoever walks.
+std::string walkPlaceName(const Model& model);
+
+}  // namespace standpoint
