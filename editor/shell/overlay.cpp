@@ -191,7 +191,8 @@ void drawBanner(const Editor& editor, ImVec2 origin, ImVec2 size, const std::str
 // Where whoever walks is, in the frame of the file, and what stops them.
 std::string walkLine(const Editor& editor) {
   const auto& walk = editor.walk;
-  const Eigen::Vector3d p = walk.feet() + editor.shift_m();
+  const auto toCentimetre = [](double x) { return std::round(100 * x) / 100 + 0.0; };  // and no "-0.00"
+  const Eigen::Vector3d p = (walk.feet() + editor.shift_m()).unaryExpr(toCentimetre);
   std::string line = fmt::format("{:.2f}  {:.2f}  {:.2f} m", p.x(), p.y(), p.z());
   if (const auto name = walkPlaceName(editor); !name.empty()) line += "   " + name;
   line += fmt::format("   eye {:.2f} m   {:.1f} m/s", walk.eyeHeight_m(), walk.speed_mps(false));

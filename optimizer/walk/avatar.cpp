@@ -12,10 +12,12 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kStride = 0.05;  // m
-constexpr int kMostSlides = 4;    // of one stride: into a corner and out of it
-constexpr double kCrack = 0.04;   // m, between two floors, that a foot does not notice
-constexpr double kFoot = 0.12;    // m around the axis: on this much of a floor one still stands
+constexpr double kStride = 0.05;   // m
+constexpr int kMostSlides = 4;     // of one stride: into a corner and out of it
+constexpr double kCrack = 0.04;    // m, between two floors, that a foot does not notice
+constexpr double kFoot = 0.12;     // m around the axis: on this much of a floor one still stands
+constexpr double kUneven = 0.012;  // m that one part of a wall stands out from another: collision shapes keep to 10 mm
+constexpr int kMostPushes = 4;
 const Vector3d kStepUp(0, 0, kHighestStep);
 
 }  // namespace
@@ -48,6 +50,29 @@ bool Avatar::stand(const Vector3d& p, double reach_m) {
   return true;
 }
 
+// That gets past an unevenness of the wall that the body touches.
+Body Avatar::slim() const {
+  const Body body = upper();
+  return {std::max(0.5 * body.radius_m, body.radius_m - kUneven), body.height_m};
+}
+
+// Beside what reaches into the body a little from aside; nothing where it stays in something.
+std::optional<Vector3d> Avatar::offWalls(Vector3d feet) const {
+  for (int i = 0; i < kMostPushes; ++i) {
+    double deepest = -1e-4;
+    Vector2d away = Vector2d::Zero();
+    obstacles_->near(upper(), feet + kStepUp, 0, [&](const Contact& contact, double gap) {
+      const Vector2d side = contact.normal.head<2>();
+      if (gap >= deepest || gap < -kUneven || side.norm() < 0.7) return;
+      deepest = gap;
+      away = side.normalized() * (1e-5 - gap);
+    });
+    if (away.isZero()) break;
+    feet.head<2>() += away;
+  }
+  return obstacles_->overlap(upper(), feet + kStepUp, 1e-3) ? std::nullopt : std::optional(feet);
+}
+
 // The feet go to the floor there, unless it is too high or too steep for them; or too deep, where they mind.
 bool Avatar::moveTo(const Vector3d& place, bool over_edges) {
   const auto ground = groundUnder(place, kHighestStep);
@@ -59,8 +84,14 @@ bool Avatar::moveTo(const Vector3d& place, bool over_edges) {
     return true;
   }
   const Vector3d feet(place.x(), place.y(), ground.height);
-  if (obstacles_->sweep(upper(), place + kStepUp, feet + kStepUp)) return false;
-  feet_ = feet;
+  if (!obstacles_->sweep(upper(), place + kStepUp, feet + kStepUp)) {
+    feet_ = feet;
+  } else {
+    if (obstacles_->sweep(slim(), place + kStepUp, feet + kStepUp)) return false;
+    const auto beside = offWalls(feet);
+    if (!beside) return false;
+    feet_ = *beside;
+  }
   on_floor_ = true;
   return true;
 }
@@ -107,7 +138,7 @@ double Avatar::headroom(double most_m) const {
   const double over = most_m - body_.height_m;
   if (over <= 0) return body_.height_m;
   const Vector3d from = feet_ + kStepUp;
-  const auto hit = obstacles_->sweep(upper(), from, from + Vector3d(0, 0, over));
+  const auto hit = obstacles_->sweep(slim(), from, from + Vector3d(0, 0, over));
   return body_.height_m + (hit ? hit->fraction : 1) * over;
 }
 
@@ -121,7 +152,7 @@ double Avatar::ceiling(double most_m) const {
   look(Vector3d::Zero());
   for (int i = 0; i < 16; ++i) {
     const double angle = i * std::numbers::pi / 8;
-    look((body_.radius_m - 2e-3) * Vector3d(std::cos(angle), std::sin(angle), 0));
+    look((slim().radius_m - 2e-3) * Vector3d(std::cos(angle), std::sin(angle), 0));
   }
   return lowest;
 }

@@ -50,6 +50,8 @@ class Avatar {
   Body upper() const { return {body_.radius_m, body_.height_m - kHighestStep}; }
   Ground groundUnder(const Eigen::Vector3d& p, double below_m) const;
   bool carries(const Eigen::Vector3d& p) const;
+  Body slim() const;
+  std::optional<Eigen::Vector3d> offWalls(Eigen::Vector3d feet) const;
   bool moveTo(const Eigen::Vector3d& place, bool over_edges);
   void stride(Eigen::Vector2d way_m, bool over_edges);
 

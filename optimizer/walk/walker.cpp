@@ -25,6 +25,7 @@ constexpr double kMostLag = 0.25;       // m
 constexpr int kFirmTicks = 30;          // between two firm places …
 constexpr std::size_t kFirmPlaces = 4;  // … of a second in all
 constexpr double kNoteFor = 4;          // s
+constexpr double kLookAhead = 0.05;     // m, to what is too low
 
 }  // namespace
 
@@ -106,8 +107,8 @@ void Walker::stride(const Vector2d& way_m) {
   Avatar tiny = from;
   tiny.setHeight(kHighestStep + 2 * body_.radius_m);
   if (tiny.height() >= kCrouched_m) return;
-  tiny.strideOut(way_m);
-  if ((tiny.feet() - from.feet()).head<2>().norm() < least) return;
+  tiny.strideOut(kLookAhead * way_m.normalized());
+  if ((tiny.feet() - from.feet()).head<2>().norm() < 0.6 * kLookAhead) return;
   if (const double free = tiny.ceiling(body_.height_m); free < kCrouched_m) headroom_ = free;
 }
 

@@ -62,6 +62,19 @@ TEST(Walker, GoesUpTheStairAndDownAgainAndIsStoppedByTheWall) {
   EXPECT_LT(walker.feet().x(), 0);
 }
 
+TEST(Walker, DoesNotStumbleAlongAnUnevenWallOfAStair) {
+  auto shapes = stairwell();
+  shapes.push_back(block({4, 0.992, 2.3}, {13, 1.2, 5}));
+  const Obstacles obstacles(shapes);
+  Walker walker(obstacles, kBody, -0.2);
+  ASSERT_TRUE(walker.stand({0, 0, 0.5}));
+  for (int i = 0; i < 60 * 9; ++i) {
+    walker.go({Vector2d(1.8, 0.3)}, 1.0 / 60);
+    ASSERT_FALSE(walker.headroom()) << walker.feet().transpose();
+  }
+  EXPECT_NEAR(walker.feet().z(), 2.72, 1e-4);
+}
+
 TEST(Walker, IsAtFullSpeedAfterATenthOfASecondAndStandsAsSoon) {
   const Obstacles obstacles(stairwell());
   Walker walker(obstacles, kBody, -0.2);
