@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <tbb/parallel_for.h>
 
@@ -24,63 +23,6 @@ double bytesPerPoint(const ScanSettings& settings, const ScanChannels& channels,
                       bitsFor(environment.products.size()) + bitsFor(materials) + (settings.imaging ? 24 : 0) +
                       (channels.time ? 64 : 0) + (channels.returns ? 16 : 0) + (channels.truth ? 6 * 32 + 8 : 0);
   return bits / 8 * 1024 / 1020;
-}
-
-void count(SurfaceCoverage& surface, const SurfaceSample& sample, int times) {
-  if (!sample.exposed) return;
-  surface.exposed += 1;
-  surface.seen += static_cast<std::uint64_t>(times > 0);
-  surface.twice += static_cast<std::uint64_t>(times > 1);
-}
-
-std::vector<SurfaceCoverage> sorted(const std::map<std::string, SurfaceCoverage>& by_name) {
-  std::vector<SurfaceCoverage> surfaces;
-  for (const auto& [name, surface] : by_name)
-    if (surface.exposed > 0) {
-      surfaces.push_back(surface);
-      surfaces.back().name = name;
-    }
-  return surfaces;
-}
-
-void countCoverage(SurveyPlan& plan, const Environment& environment) {
-  std::map<std::string, SurfaceCoverage> classes, storeys;
-  std::vector<SurfaceCoverage> products(environment.products.size());
-  for (std::size_t k = 0; k < plan.samples.samples.size(); ++k) {
-    const auto& sample = plan.samples.samples[k];
-    int times = 0;
-    for (const auto& f : plan.forecasts) times += f.seen[k];
-    const auto& product = environment.products[sample.product];
-    count(plan.all, sample, times);
-    count(classes[product.ifc_class], sample, times);
-    count(storeys[product.storey], sample, times);
-    count(products[sample.product], sample, times);
-  }
-  plan.classes = sorted(classes);
-  plan.storeys = sorted(storeys);
-  for (std::uint32_t p = 0; p < products.size(); ++p)
-    if (products[p].seen < products[p].exposed) {
-      products[p].product = p;
-      products[p].name = environment.products[p].id;
-      plan.holes.push_back(products[p]);
-    }
-  std::stable_sort(plan.holes.begin(), plan.holes.end(),
-                   [](const auto& a, const auto& b) { return a.exposed - a.seen > b.exposed - b.seen; });
-}
-
-void countPairs(SurveyPlan& plan) {
-  const double each = plan.samples.each_m2();
-  for (const auto& f : plan.forecasts)
-    plan.seen_m2.push_back(each * static_cast<double>(std::count(f.seen.begin(), f.seen.end(), 1)));
-  for (std::size_t a = 0; a < plan.forecasts.size(); ++a)
-    for (std::size_t b = a + 1; b < plan.forecasts.size(); ++b) {
-      std::uint64_t common = 0;
-      for (std::size_t k = 0; k < plan.samples.samples.size(); ++k)
-        common += plan.forecasts[a].seen[k] & plan.forecasts[b].seen[k];
-      const double area = each * static_cast<double>(common);
-      const auto fraction = [area](double of) { return of > 0 ? area / of : 0; };
-      plan.pairs.push_back({a, b, area, fraction(plan.seen_m2[a]), fraction(plan.seen_m2[b])});
-    }
 }
 
 }  // namespace
@@ -106,8 +48,9 @@ Result<SurveyPlan> planSurvey(const Job& job, std::shared_ptr<const RayScene> sc
     plan.bytes.push_back(plan.forecasts.back().points * bytes_per_point);
     progress.advance(static_cast<double>(plan.forecasts.size()) / static_cast<double>(request.stations.size()));
   }
-  countCoverage(plan, environment);
-  countPairs(plan);
+  std::vector<const std::vector<std::uint8_t>*> seen;
+  for (const auto& f : plan.forecasts) seen.push_back(&f.seen);
+  static_cast<SurfacesSeen&>(plan) = countSeen(plan.samples, environment, seen);
   return plan;
 }
 
