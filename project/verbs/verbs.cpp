@@ -8,6 +8,7 @@
 #include "project/model/model_verbs.h"
 #include "project/model/optimize_verb.h"
 #include "project/model/treatments.h"
+#include "project/survey/assess_verb.h"
 #include "project/survey/register_verb.h"
 #include "project/survey/survey_verbs.h"
 #include "project/survey/underlays.h"
@@ -60,6 +61,11 @@ const std::vector<Verb>& table() {
       verbOf("register",
              "Solve the stations' poses from their scans, by targets or cloud to cloud, with residuals and true errors",
              S::changes, registerFields(), runRegister),
+      verbOf(
+          "assess",
+          "Assess the scans of a project: coverage, overlap, density, incidence, noise, stray points, poses, targets; "
+          "each against a limit, with the worst place",
+          S::reads, assessFields(), runAssess),
       verbOf("export", "Write the model as glTF, as OBJ, or as a scene for HELIOS++", S::reads, exportFields(),
              runExport),
       verbOf("convert", "Convert a point cloud to another format or to a labelled set", S::files, convertFields(),

@@ -70,6 +70,8 @@ std::vector<Writer> writers() {
       {"scan", "las", with(scan, {"-o", "o.las"}), {project, "o.las"}},
       {"scan", "folder", with(scan, {"-o", "scans"}), {project}},
       {"register", "", {"register", "p", "s.e57", "--control", "control.txt", "-o", "o.e57"}, {"o.e57"}},
+      {"assess", "html", {"assess", "p", "--output", "o.html"}, {"o.html"}},
+      {"assess", "csv", {"assess", "p", "--output", "o.csv"}, {"o.csv"}},
       {"export", "glb", {"export", "p", "-o", "o.glb"}, {"o.glb"}},
       {"export", "gltf", {"export", "p", "-o", "o.gltf"}, {"o.gltf", "o.bin"}},
       {"export", "obj", {"export", "p", "-o", "o.obj"}, {"o.obj", "o.mtl"}},

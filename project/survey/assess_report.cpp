@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/environment.h"
+#include "core/html_text.h"
+#include "core/part_file.h"
+#include "core/units.h"
+#include "project/survey/assess_verb.h"
+
+namespace standpoint {
+
+namespace {
+
+// Okabe and Ito's colours, which people with any colour vision tell apart, and a sign beside each.
+struct Sign {
+  const char *colour, *sign, *word;
+};
+Sign signOf(Verdict verdict) {
+  constexpr Sign kSigns[] = {
+      {"#009E73", "✓", "good"}, {"#E69F00", "!", "check"}, {"#D55E00", "✗", "bad"}, {"#777777", "–", "not known"}};
+  return kSigns[static_cast<int>(verdict)];
+}
+
+constexpr const char* kStyle = R"(@page{size:A4;margin:15mm}
+body{font:10pt sans-serif;color:#111;background:#fff;max-width:180mm;margin:2em auto}
+h1{font-size:16pt;margin-bottom:.2em}h2{font-size:12pt;margin:1.4em 0 .4em}
+table{border-collapse:collapse;width:100%}td,th{border-bottom:1px solid #ccc;padding:3px 6px;text-align:left;vertical-align:top}
+th{background:#f0f0f0}td.n,th.n{text-align:right;white-space:nowrap}td.s{white-space:nowrap;font-weight:bold}
+p.verdict{font-size:13pt}small{color:#555}svg{width:100%;max-height:110mm;border:1px solid #ccc}
+tr,svg{page-break-inside:avoid}@media print{body{margin:0}}
+)";
+
+std::string verdictHtml(Verdict verdict) {
+  const auto sign = signOf(verdict);
+  return fmt::format("<span style=\"color:{}\">{}</span> {}", sign.colour, sign.sign, sign.word);
+}
+
+std::string headline(const AssessAnswer& answer) {
+  std::string text = "<p class=\"verdict\">";
+  const std::pair<std::size_t, Verdict> counts[] = {{answer.good, Verdict::good},
+                                                    {answer.warn, Verdict::warn},
+                                                    {answer.bad, Verdict::bad},
+                                                    {answer.unknown, Verdict::unknown}};
+  for (const auto& [count, verdict] : counts) {
+    const auto sign = signOf(verdict);
+    text += fmt::format("<b style=\"color:{}\">{}</b>&nbsp;{}&nbsp;{} &emsp; ", sign.colour, sign.sign, count,
+                        verdict == Verdict::warn ? "to check" : sign.word);
+  }
+  return text + "</p>\n";
+}
+
+std::string placeHtml(const std::optional<AssessPlace>& place) {
+  if (!place) return "";
+  std::string text;
+  if (!place->stations.empty()) text += htmlText(fmt::format("{}", fmt::join(place->stations, " – "))) + "<br>";
+  if (const auto& p = place->product)
+    text += htmlText(fmt::format("{} {}", p->ifc_class, p->name.empty() ? p->id : p->name)) + "<br>";
+  if (place->at)
+    text += fmt::format("<small>{:.2f} &nbsp; {:.2f} &nbsp; {:.2f}</small>", place->at->x(), place->at->y(),
+                        place->at->z());
+  return text;
+}
+
+std::string figures(const AssessAnswer& answer) {
+  std::string text =
+      "<table><tr><th>Figure<th class=\"n\">Value<th>Limit<th>Verdict<th>Worst place (m, frame of the model's "
+      "file)</tr>\n";
+  for (const auto& row : answer.rows) {
+    text += "<tr><td>" + htmlText(row.label);
+    if (!row.note.empty()) text += "<br><small>" + htmlText(row.note) + "</small>";
+    text += fmt::format("<td class=\"n\">{}<td>{}", row.good_text.empty() ? "" : htmlText(valueText(row)),
+                        htmlText(row.good_text));
+    if (!row.bad_text.empty()) text += "<br><small>bad " + htmlText(row.bad_text) + "</small>";
+    if (!row.limit_source.empty()) text += "<br><small>" + htmlText(row.limit_source) + "</small>";
+    text += "<td class=\"s\">" + verdictHtml(row.verdict) + "<td>" + placeHtml(row.worst) + "</tr>\n";
+  }
+  return text + "</table>\n";
+}
+
+Verdict linkVerdict(const AssessAnswer& answer, double overlap) {
+  for (const auto& row : answer.rows)
+    if (row.id == "overlap" && row.good && row.bad)
+      return 100 * overlap >= *row.good ? Verdict::good : 100 * overlap >= *row.bad ? Verdict::warn : Verdict::bad;
+  return Verdict::unknown;
+}
+
+// From above: what is seen and what is not, the stations, and their links coloured by overlap.
+std::string sketch(const AssessAnswer& answer) {
+  const auto& places = answer.sketch.surface;
+  if (places.empty()) return "";
+  Eigen::Vector2d low = places.front().at, high = low;
+  const auto extend = [&](const Eigen::Vector2d& at) { low = low.cwiseMin(at), high = high.cwiseMax(at); };
+  for (const auto& place : places) extend(place.at);
+  for (const auto& station : answer.sketch.stations) extend(station.at);
+  const double size = std::max((high - low).maxCoeff(), 1.0), margin = 0.05 * size;
+  const auto x = [&](const Eigen::Vector2d& at) { return at.x() - low.x() + margin; };
+  const auto y = [&](const Eigen::Vector2d& at) { return high.y() - at.y() + margin; };
+  const Eigen::Vector2d extent = high - low + Eigen::Vector2d::Constant(2 * margin);
+  std::string text = fmt::format("<svg viewBox=\"0 0 {:.2f} {:.2f}\">\n", extent.x(), extent.y());
+  for (const bool seen : {true, false}) {  // a dot is a line without length and with round ends
+    text += fmt::format("<path fill=\"none\" stroke-linecap=\"round\" stroke=\"{}\" stroke-width=\"{:.3f}\" d=\"",
+                        seen ? "#dddddd" : "#CC79A7", 0.008 * size);
+    for (const auto& place : places)
+      if (place.seen == seen) text += fmt::format("M{:.2f} {:.2f}h0", x(place.at), y(place.at));
+    text += "\"/>\n";
+  }
+  const auto where = [&](const std::string& name) {
+    return std::find_if(answer.sketch.stations.begin(), answer.sketch.stations.end(),
+                        [&](const auto& s) { return s.name == name; });
+  };
+  for (const auto& pair : answer.pairs) {
+    const auto a = where(pair.a), b = where(pair.b);
+    if (a == answer.sketch.stations.end() || b == answer.sketch.stations.end()) continue;
+    text += fmt::format(
+        "<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" stroke=\"{}\" stroke-width=\"{:.3f}\"/>\n",
+        x(a->at), y(a->at), x(b->at), y(b->at), signOf(linkVerdict(answer, pair.overlap)).colour, 0.006 * size);
+  }
+  for (const auto& station : answer.sketch.stations)
+    text += fmt::format(
+        "<circle cx=\"{0:.2f}\" cy=\"{1:.2f}\" r=\"{2:.3f}\" fill=\"#0072B2\"/><text x=\"{3:.2f}\" "
+        "y=\"{1:.2f}\" font-size=\"{4:.3f}\">{5}</text>\n",
+        x(station.at), y(station.at), 0.01 * size, x(station.at) + 0.016 * size, 0.03 * size, htmlText(station.name));
+  return text +
+         "</svg>\n<p><small>From above, all storeys: grey is covered, pink is not; lines between stations have "
+         "the colour of their overlap's verdict.</small></p>\n";
+}
+
+std::string numberOr(const std::optional<double>& value, double factor, int decimals) {
+  return value ? fmt::format("{:.{}f}", *value * factor, decimals) : "–";
+}
+
+std::string scans(const AssessAnswer& answer) {
+  std::string text =
+      "<table><tr><th>Scan<th class=\"n\">Points<th class=\"n\">Stray, %<th class=\"n\">Deviation, mm<th "
+      "class=\"n\">95 %, mm<th class=\"n\">Noise, mm<th class=\"n\">/ expected</tr>\n";
+  for (const auto& s : answer.scans)
+    text += fmt::format(
+        "<tr><td>{}<br><small>{}</small><td class=\"n\">{}<td class=\"n\">{:.2f}<td class=\"n\">{}<td class=\"n\">{}"
+        "<td class=\"n\">{}<td class=\"n\">{}</tr>\n",
+        htmlText(s.station), htmlText(std::filesystem::path(s.file).filename().string()), s.points,
+        100 * s.stray_fraction, numberOr(s.deviation_median_m, 1000, 2), numberOr(s.deviation_95_m, 1000, 2),
+        numberOr(s.noise_m, 1000, 2), numberOr(s.noise_ratio, 1, 2));
+  return text + "</table>\n";
+}
+
+std::string stationsHtml(const AssessAnswer& answer) {
+  std::string text =
+      "<table><tr><th>Station<th class=\"n\">Sees, m²<th class=\"n\">Targets<th class=\"n\">Pose error, mm<th "
+      "class=\"n\">Rotation, °</tr>\n";
+  for (const auto& s : answer.stations)
+    text += fmt::format("<tr><td>{}<td class=\"n\">{:.1f}<td class=\"n\">{}<td class=\"n\">{}<td class=\"n\">{}</tr>\n",
+                        htmlText(s.station), s.seen_m2, s.targets ? std::to_string(*s.targets) : "–",
+                        numberOr(s.pose_error_m, 1000, 2), numberOr(s.pose_error_rad, 1 / kRadPerDeg, 4));
+  return text + "</table>\n<p><small>Errors of poses are known only to a simulator.</small></p>\n";
+}
+
+std::string pairsHtml(const AssessAnswer& answer) {
+  if (answer.pairs.empty()) return "";
+  std::string text = "<h2>Overlap</h2>\n<table><tr><th>Link<th class=\"n\">Common, m²<th class=\"n\">Overlap</tr>\n";
+  for (const auto& p : answer.pairs)
+    text += fmt::format("<tr><td>{} – {}<td class=\"n\">{:.1f}<td class=\"n\">{:.0f} %</tr>\n", htmlText(p.a),
+                        htmlText(p.b), p.common_m2, 100 * p.overlap);
+  return text + "</table>\n";
+}
+
+std::string holesHtml(const AssessAnswer& answer) {
+  if (answer.holes.empty()) return "";
+  std::string text =
+      "<h2>Not covered</h2>\n<table><tr><th>Product<th class=\"n\">Not covered, m²<th class=\"n\">of</tr>\n";
+  for (const auto& h : answer.holes)
+    text += fmt::format("<tr><td>{} {} <small>{}</small><td class=\"n\">{:.2f}<td class=\"n\">{:.2f}</tr>\n",
+                        htmlText(h.ifc_class), htmlText(h.name), htmlText(h.id), h.unseen_m2, h.exposed_m2);
+  return text + "</table>\n";
+}
+
+std::string htmlPage(const AssessAnswer& answer) {
+  const auto name = htmlText(answer.project.empty() ? "a project" : answer.project);
+  std::string text = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Quality of the scans of {0}</title>\n"
+      "<style>{1}</style></head><body>\n<h1>Quality of the scans of {0}</h1>\n",
+      name, kStyle);
+  text += headline(answer);
+  text += fmt::format(
+      "<p>Limits: {}{}. Surface that counts: {:.1f} m², by {} samples; a point within {:g} mm of a surface belongs to "
+      "it.</p>\n",
+      answer.profile, answer.limits.empty() ? "" : ", changed by " + htmlText(answer.limits), answer.exposed_m2,
+      answer.samples, answer.radius_m * 1000);
+  text += figures(answer) + "<h2>Plan</h2>\n" + sketch(answer) + "<h2>Scans</h2>\n" + scans(answer) +
+          "<h2>Stations</h2>\n" + stationsHtml(answer) + pairsHtml(answer) + holesHtml(answer);
+  return text + "</body></html>\n";
+}
+
+std::string quoted(const std::string& text) {
+  std::string cell = "\"";
+  for (const char c : text) cell += c == '"' ? "\"\"" : std::string(1, c);
+  return cell + "\"";
+}
+
+std::string csvRows(const AssessAnswer& answer) {
+  const auto number = [](const std::optional<double>& value) { return value ? fmt::format("{:.6g}", *value) : ""; };
+  std::string text = "id,label,value,unit,good,bad,verdict,note,stations,product,x_m,y_m,z_m\n";
+  for (const auto& row : answer.rows) {
+    const auto place = row.worst.value_or(AssessPlace());
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},", row.id, quoted(row.label), number(row.value), row.unit,
+                        number(row.good), number(row.bad), nameOf(row.verdict), quoted(row.note),
+                        quoted(fmt::format("{}", fmt::join(place.stations, " "))),
+                        quoted(place.product ? place.product->id : ""));
+    text += place.at ? fmt::format("{:.3f},{:.3f},{:.3f}\n", place.at->x(), place.at->y(), place.at->z()) : ",,\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+Result<void> writeQualityReport(const AssessAnswer& answer, const std::filesystem::path& file) {
+  const auto ending = file.extension().string();
+  if (ending != ".html" && ending != ".csv")
+    return failure(ErrorKind::usage, "unsupported report format: use .html or .csv", file.string());
+  return writeWholeText(file, ending == ".html" ? htmlPage(answer) : csvRows(answer));
+}
+
+}  // namespace standpoint
