@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "editor/panels/actions.h"
+#include "editor/panels/panel.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
+#include "project/survey/assess_verb.h"
+
+namespace standpoint {
+
+namespace {
+
+struct QualityState {
+  QualityProfile profile = QualityProfile::loa30;
+};
+
+struct Sign {
+  ImU32 tone;
+  const char* icon;
+  const char* word;
+};
+Sign signOf(Verdict verdict) {
+  static constexpr Sign kSigns[] = {{tone::kGood, ICON_CHECK, "Good"},
+                                    {tone::kWarning, ICON_WARNING, "To check"},
+                                    {tone::kBad, ICON_CLOSE, "Bad"},
+                                    {tone::kDim, ICON_HELP, "Not known"}};
+  return kSigns[static_cast<int>(verdict)];
+}
+
+void drawSign(Verdict verdict) {
+  const auto sign = signOf(verdict);
+  ImGui::TextColored(colour(sign.tone), "%s", sign.icon);
+  ui::tooltip(sign.word);
+}
+
+std::string whyNotAssess(const Model& model) {
+  const auto& stations = model.session.document().job->stations;
+  const bool any = std::any_of(stations.begin(), stations.end(), [](const Station& s) { return !s.scans.empty(); });
+  return any ? model.session.whyNot("assess") : "Scan from a station first";
+}
+
+void drawProfile(QualityState& state) {
+  const auto all = choices(QualityProfile{});
+  if (!ui::beginProperties("limits", 0.40F)) return;
+  ui::propertyLabel("Limits for");
+  ImGui::SetNextItemWidth(-1);
+  const auto chosen = std::find_if(all.begin(), all.end(), [&](const auto& c) { return c.value == state.profile; });
+  if (ImGui::BeginCombo("###profile", chosen->name)) {
+    for (const auto& choice : all)
+      if (ImGui::Selectable(choice.name, choice.value == state.profile)) state.profile = choice.value;
+    ImGui::EndCombo();
+  }
+  ui::tooltip("Level of accuracy: the limits in millimetres scale with it");
+  ui::endProperties();
+}
+
+// The product and, nearer, the place itself.
+void goTo(const Model& model, Actions& actions, const AssessPlace& place) {
+  const auto& products = model.environment()->products;
+  for (std::uint32_t p = 0; place.product && p < products.size(); ++p)
+    if (products[p].id == place.product->id) actions.reveal(p);
+  if (!place.at) return;
+  const Eigen::Vector3d at = *place.at - model.shift_m(), half(1.5, 1.5, 1.5);
+  Bounds around;
+  around.extend(at - half);
+  around.extend(at + half);
+  actions.bringIntoView(around);
+}
+
+std::string placeText(const AssessPlace& place) {
+  std::string text = "Go to the worst place";
+  if (!place.stations.empty()) text += fmt::format("\n{}", fmt::join(place.stations, " – "));
+  if (const auto& p = place.product) text += fmt::format("\n{} {}", p->ifc_class, p->name.empty() ? p->id : p->name);
+  return text;
+}
+
+// All of it, for what the columns are too narrow for.
+std::string rowText(const AssessRow& row) {
+  std::string text = fmt::format("{}: {}", row.label, valueText(row));
+  if (!row.note.empty()) text += "\n" + row.note;
+  return text + fmt::format("\nGood {}, bad {} ({})", row.good_text, row.bad_text, row.limit_source);
+}
+
+void drawRow(const Model& model, Actions& actions, const AssessRow& row, int index) {
+  ImGui::PushID(index);
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::AlignTextToFramePadding();
+  drawSign(row.verdict);
+  ImGui::TableNextColumn();
+  ImGui::AlignTextToFramePadding();
+  ui::wrapped(row.label);
+  ui::tooltip(rowText(row));
+  for (const auto& text : {valueText(row), row.good_text}) {
+    ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
+    ui::textRightAligned(text);
+  }
+  ImGui::TableNextColumn();
+  if (row.worst && ui::iconButton(ICON_CROSSHAIRS "###go", placeText(*row.worst).c_str()))
+    goTo(model, actions, *row.worst);
+  ImGui::PopID();
+}
+
+void drawRows(const Model& model, Actions& actions, const std::vector<AssessRow>& rows) {
+  if (!ImGui::BeginTable("figures", 5, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, model.px(16));
+  ImGui::TableSetupColumn("Figure", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("Value", ImGuiTableColumnFlags_WidthFixed, model.px(62));
+  ImGui::TableSetupColumn("Limit", ImGuiTableColumnFlags_WidthFixed, model.px(62));
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, model.px(26));
+  ImGui::TableHeadersRow();
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (!rows[k].good_text.empty()) drawRow(model, actions, rows[k], static_cast<int>(k));
+  ImGui::EndTable();
+}
+
+// What the verdicts of single scans ask for.
+void drawRemedies(const AssessAnswer& answer) {
+  for (const auto& row : answer.rows) {
+    if (!row.good_text.empty()) continue;
+    drawSign(row.verdict);
+    ImGui::SameLine();
+    ui::wrapped(row.label + ": " + row.note);
+  }
+}
+
+void drawVerdict(const AssessAnswer& answer) {
+  const auto verdict = answer.bad > 0 ? Verdict::bad : answer.warn > 0 ? Verdict::warn : Verdict::good;
+  drawSign(verdict);
+  ImGui::SameLine();
+  ui::wrapped(verdictText(answer) + ", by " + answer.profile);
+}
+
+// Of what was assessed: later changes of the project are not in it.
+void drawSave(const AssessAnswer& answer, Actions& actions) {
+  if (!ui::button(ICON_SAVE "  Save report…###save-quality", {}, {-FLT_MIN, 0},
+                  "A page to print (.html), or a table (.csv)"))
+    return;
+  actions.askForFile(FileDialogState::Purpose::saveFile, "Save report", "Save", {".html", ".csv"}, "quality.html",
+                     [answer](Actions& later, const std::filesystem::path& chosen) {
+                       if (const auto written = writeQualityReport(answer, chosen); !written)
+                         later.report("The report could not be saved", written.error());
+                     });
+}
+
+void draw(const Model& model, QualityState& state, Actions& actions) {
+  if (!model.environment() || !model.session.document().job) {
+    ui::emptyState(model, ICON_CHECK_CIRCLE, "Nothing to assess", "Import a model, then scan it.");
+    return;
+  }
+  drawProfile(state);
+  if (ui::primaryButton(ICON_CHECK_CIRCLE "  Assess scans###assess", whyNotAssess(model), {-FLT_MIN, model.px(28)}))
+    actions.start(AssessOptions{.profile = state.profile}, "Assess the scans");
+  const auto* last = model.session.lastOf("assess");
+  const auto* answer = last == nullptr ? nullptr : answerAs<AssessAnswer>(last->answer);
+  if (answer == nullptr) {
+    ui::dimWrapped("Holds the scans against the model and against limits, and shows where they are worst.");
+    return;
+  }
+  if (last->revision != model.session.revision()) ui::wrapped("The project has changed since. Assess the scans again.");
+  drawVerdict(*answer);
+  drawSave(*answer, actions);
+  drawRemedies(*answer);
+  drawRows(model, actions, answer->rows);
+}
+
+}  // namespace
+
+void drawQualityPanel(const Model& model, PanelStates& states, Actions& actions) {
+  draw(model, states.of<QualityState>(), actions);
+}
+
+}  // namespace standpoint

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "demo_verbs.h"
+#include "editor/shell/actions.h"
+#include "item_probe.h"
+#include "project/survey/assess_verb.h"
+
+namespace standpoint {
+namespace {
+
+class QualityPanel : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(editor.session.start("demo", nlohmann::json::object()));
+    gui.settle();
+    editor.workspace = Workspace::survey;
+    editor.wanted_tab[1] = "quality";
+    gui.frames(3);
+  }
+  void scan() {
+    const auto file = std::filesystem::path(testing::TempDir()) / "standpoint-quality-panel.e57";
+    ASSERT_TRUE(editor.session.start(ScanVerbOptions{.instrument = "faro-focus-s350",
+                                                     .settings = {{"resolution", "1/20"}, {"quality", "4x"}},
+                                                     .ideal = true,
+                                                     .output = file}));
+    gui.settle();
+    ASSERT_TRUE(editor.session.errors().empty()) << describe(editor.session.errors().front().error);
+    editor.wanted_tab[1] = "quality";
+    gui.frames(3);
+  }
+  const AssessAnswer* answer() { return editor.session.lastAnswer<AssessAnswer>("assess"); }
+  Editor editor{verbsWithDemo(), [] {}};
+  GuiDriver gui{editor, {1280, 1400}};
+};
+
+TEST_F(QualityPanel, WaitsForAScan) {
+  Document document = editor.session.document();
+  Job job = *document.job;
+  for (auto& station : job.stations) station.scans.clear();
+  document.job = std::make_shared<const Job>(std::move(job));
+  ASSERT_TRUE(editor.session.adopt({document, {}, {}, "not scanned yet"}));
+  gui.frames(2);
+  ASSERT_NE(gui.find("###assess"), nullptr);
+  EXPECT_TRUE(gui.find("###assess")->disabled);
+  ASSERT_NO_FATAL_FAILURE(scan());
+  EXPECT_FALSE(gui.find("###assess")->disabled);
+}
+
+TEST_F(QualityPanel, AssessesAndGoesToTheWorstPlaceOfARow) {
+  ASSERT_NO_FATAL_FAILURE(scan());
+  EXPECT_EQ(gui.find("###save-quality"), nullptr) << "there is nothing to save yet";
+  ASSERT_TRUE(gui.click("###assess"));
+  gui.settle();
+  ASSERT_NE(answer(), nullptr);
+  EXPECT_GT(answer()->good, 0U);
+  gui.frames(2);
+  EXPECT_NE(gui.find("###save-quality"), nullptr);
+  const auto before = editor.view.camera;
+  ASSERT_TRUE(gui.click("###go"));  // of the first row: coverage
+  gui.frames(2);
+  const auto& worst = *answer()->rows.front().worst;
+  EXPECT_EQ(editor.selection.products().size(), 1U) << "the product with the largest hole";
+  const Eigen::Vector3d at = *worst.at - editor.shift_m();
+  EXPECT_LT((editor.view.camera.target - at).norm(), 0.01);
+  EXPECT_GT((editor.view.camera.target - before.target).norm(), 0.1);
+}
+
+}  // namespace
+}  // namespace standpoint
