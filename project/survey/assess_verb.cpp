@@ -71,7 +71,7 @@ AssessRow rowOf(const QualityRow& row, const Environment& environment, const Eig
 void addHoles(AssessAnswer& answer, const SurveyQuality& quality, const Environment& environment) {
   const double each = quality.samples.each_m2();
   for (const auto& hole : quality.seen.holes) {
-    if (answer.holes.size() == kListedHoles) return;
+    if (quality.stations.empty() || answer.holes.size() == kListedHoles) return;
     PlanHole row;
     static_cast<ProductIdentity&>(row) = identityOf(environment.products[hole.product]);
     static_cast<PlanCoverage&>(row) = {each * static_cast<double>(hole.exposed), each * static_cast<double>(hole.seen),
@@ -146,7 +146,8 @@ std::string textOf(const AssessAnswer& answer) {
                         row.label, row.good_text.empty() ? "" : valueText(row), row.good_text,
                         row.bad_text.empty() ? "" : "bad " + row.bad_text);
     if (!row.note.empty()) text += " " + row.note;
-    if (row.verdict != Verdict::good && !row.good_text.empty() && row.worst) text += ";" + placeText(row);
+    if (row.verdict != Verdict::good && !row.good_text.empty() && row.worst)
+      text += (row.note.empty() ? "" : ";") + placeText(row);
     while (text.back() == ' ') text.pop_back();
     text += "\n";
   }

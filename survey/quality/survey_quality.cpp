@@ -264,6 +264,8 @@ class Assessment {
   }
 
   void tellStations() {
+    for (auto& trouble : quality_.troubles)  // a file of its own that could be read stands in for it
+      if (hasScan(trouble.station, false)) trouble.verdict = Verdict::warn;
     for (const auto s : with_.request.stations)
       if (with_.job.stations[s].scans.empty())
         tell(s, Verdict::warn, "not scanned yet: scan it, or leave it out with --stations");
@@ -296,7 +298,8 @@ class Assessment {
     const auto& name = with_.job.stations[station].name;
     std::error_code ignored;
     if (!fs::exists(file, ignored))
-      tell(station, Verdict::bad, fmt::format("{} is missing: put it back, or scan {} again", file.string(), name));
+      tell(station, Verdict::bad,
+           fmt::format("{} is missing: put it back, or scan {} again", fs::absolute(file, ignored).string(), name));
     else if (error != nullptr)
       tell(station, Verdict::bad,
            fmt::format("{} cannot be read ({}): scan {} again", nameOfFile(file), error->message, name));

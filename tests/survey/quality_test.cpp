@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -177,6 +178,16 @@ TEST_F(Assess, WhatOfTheFilesIsMissingOrDamagedIsARowWithTheRemedy) {
   const auto none = assess(d);
   EXPECT_EQ(row(none, "coverage")["note"], "no scan could be read");
   EXPECT_EQ(none["bad"], 2);
+  EXPECT_TRUE(none["holes"].empty()) << "nothing is known of the surface";
+}
+
+TEST_F(Assess, AMissingFileOfAStationThatWasScannedAgainIsOnlyWorthALook) {
+  auto d = scanned(with(closedRoom(), "S", {0, 0, 1.5}), {{"ideal", true}}, "old.e57");
+  d = scanned(d, {{"ideal", true}}, "new.e57");
+  fs::remove(folder.path() / "old.e57");
+  const auto answer = assess(d);
+  EXPECT_EQ(row(answer, "scan")["verdict"], "warn");
+  EXPECT_EQ(row(answer, "coverage")["verdict"], "good");
 }
 
 TEST_F(Assess, WithoutAnyScanSaysWhatToDo) {
@@ -263,6 +274,24 @@ TEST(QualityLimits, ScaleTheMillimetresWithTheProfileAndJudgeAtTheirBounds) {
   EXPECT_EQ(verdictOf(less, 60), Verdict::good);
   EXPECT_EQ(verdictOf(less, 75), Verdict::warn);
   EXPECT_EQ(verdictOf(less, 75.1), Verdict::bad);
+}
+
+TEST(QualityLimits, AreThoseOfTheirPage) {
+  std::ifstream stream(SOURCE_DIR "/docs/explanation/quality.md");
+  const std::string page{std::istreambuf_iterator<char>(stream), {}};
+  const auto by20 = qualityLimits(QualityProfile::loa20), by30 = qualityLimits(QualityProfile::loa30),
+             by40 = qualityLimits(QualityProfile::loa40);
+  for (std::size_t k = 0; k < by30.size(); ++k) {
+    const auto from = page.find("| `" + by30[k].id + "` |");
+    ASSERT_NE(from, std::string::npos) << by30[k].id;
+    const auto line = page.substr(from, page.find('\n', from) - from);
+    const auto cell = [&](const QualityLimit& limit) {
+      std::ostringstream text;
+      text << limit.good << ", " << limit.bad << (limit.unit.empty() ? "" : " ") << limit.unit << " | ";
+      return text.str();
+    };
+    EXPECT_THAT(line, HasSubstr("| " + cell(by20[k]) + cell(by30[k]) + cell(by40[k])));
+  }
 }
 
 }  // namespace
