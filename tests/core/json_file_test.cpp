@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/json_file.h"
-#include "tests/core/own_seconds.h"
-
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+
+#include "tests/core/own_seconds.h"
 
 namespace standpoint {
 namespace {

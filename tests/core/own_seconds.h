@@ -13,8 +13,8 @@
 
 namespace standpoint::test {
 
-// Processor time of this process, for bounds that hostile input must not break: other processes do not count, and under a
-// sanitizer a tenth of it does.
+// Processor time of this process, for bounds that hostile input must not break: other processes do not count, and
+// under a sanitizer a tenth of it does.
 inline double ownSeconds() {
 #ifdef STANDPOINT_WATCHED
   constexpr double kShare = 0.1;

@@ -10,8 +10,6 @@
 namespace standpoint::test {
 namespace {
 
-
-
 // One of each construct, so that a mutation can hit anything.
 std::string smallModel() {
   return ifcText(boxSolid(100, "4.", "0.3", "3.") +
