@@ -29,7 +29,7 @@ class WalkGround {
   void cancel();
   // For this document and body; null until it is there.
   std::shared_ptr<const WalkedGround> of(const Document& document, const Body& body) const;
-  bool preparing() const { return task_ && !task_->done(); }
+  bool preparing() const { return task_ && !task_->done() && !task_->progress().cancelled(); }
   double fraction() const { return task_ ? task_->progress().fraction() : 0; }
   void wait() {
     if (task_) task_->wait();
