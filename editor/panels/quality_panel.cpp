@@ -160,7 +160,7 @@ void draw(const Model& model, QualityState& state, Actions& actions) {
   const auto* last = model.session.lastOf("assess");
   const auto* answer = last == nullptr ? nullptr : answerAs<AssessAnswer>(last->answer);
   if (answer == nullptr) {
-    ui::dimWrapped("Holds the scans against the model and against limits, and shows where they are worst.");
+    ui::dimWrapped("Compares the scans with the model and with limits, and shows the worst place of each figure.");
     return;
   }
   if (last->revision != model.session.revision()) ui::wrapped("The project has changed since. Assess the scans again.");
