@@ -13,8 +13,8 @@ namespace standpoint {
   ROW(drawOutlinerPanel, "outliner", "Outliner", ICON_LIST, L, L, L, N)         \
   ROW(drawScanPanel, "scan", "Scan", ICON_PLAY, N, N, R, N)                     \
   ROW(drawPlanPanel, "plan", "Plan", ICON_EYE, N, N, R, N)                      \
-  ROW(drawQualityPanel, "quality", "Quality", ICON_CHECK_CIRCLE, N, N, R, R)    \
   ROW(drawInstrumentPanel, "instrument", "Instrument", ICON_TABLET, N, N, N, R) \
+  ROW(drawQualityPanel, "quality", "Quality", ICON_CHECK_CIRCLE, N, N, R, R)    \
   ROW(drawMaterialCardPanel, "material", "Material", ICON_PAINT, N, R, N, N)    \
   ROW(drawVerifyPanel, "verify", "Measured", ICON_CHECK_CIRCLE, N, R, N, N)     \
   ROW(drawInspectorPanel, "inspector", "Inspector", ICON_INFO, R, R, R, N)      \
