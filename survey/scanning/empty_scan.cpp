@@ -12,16 +12,16 @@ namespace standpoint {
 
 std::string whyNothing(const RayScene& scene, const Pose& local_from_scanner, const Instrument& instrument,
                        const ScanSettings& settings) {
-  constexpr int kColumns = 180, kRows = 90;
+  constexpr int kTriedColumns = 180, kTriedRows = 90;
   constexpr double kFar_m = 1e6;
   int met = 0, too_near = 0, too_far = 0;
   double nearest = kFar_m;
-  for (int j = 0; j < kColumns; ++j)
-    for (int i = 0; i < kRows; ++i) {
+  for (int j = 0; j < kTriedColumns; ++j)
+    for (int i = 0; i < kTriedRows; ++i) {
       const double azimuth =
-          settings.azimuth_from_rad + (settings.azimuth_to_rad - settings.azimuth_from_rad) * (j + 0.5) / kColumns;
-      const double elevation =
-          settings.elevation_from_rad + (settings.elevation_to_rad - settings.elevation_from_rad) * (i + 0.5) / kRows;
+          settings.azimuth_from_rad + (settings.azimuth_to_rad - settings.azimuth_from_rad) * (j + 0.5) / kTriedColumns;
+      const double elevation = settings.elevation_from_rad +
+                               (settings.elevation_to_rad - settings.elevation_from_rad) * (i + 0.5) / kTriedRows;
       const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth), -std::cos(elevation) * std::sin(azimuth),
                                       std::sin(elevation));
       const auto hit = scene.intersect(local_from_scanner.translation, local_from_scanner.rotation * direction, kFar_m);
