@@ -61,6 +61,8 @@ function(standpoint_library name)
   standpoint_warnings(standpoint_${name})
 endfunction()
 
+set(STANDPOINT_TEST_SECONDS 120 CACHE STRING "After how long a test is ended as failed")
+
 # standpoint_test(FOLDER SOURCES... [LIBS libs...]): one test program per folder, each TEST a ctest of its own name.
 function(standpoint_test folder)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
@@ -70,5 +72,5 @@ function(standpoint_test folder)
   target_link_libraries(test_${folder} PRIVATE ${ARG_LIBS} GTest::gmock GTest::gtest_main)
   target_compile_definitions(test_${folder} PRIVATE SOURCE_DIR="${PROJECT_SOURCE_DIR}" BINARY_DIR="${CMAKE_BINARY_DIR}")
   standpoint_warnings(test_${folder})
-  gtest_discover_tests(test_${folder} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 120)
+  gtest_discover_tests(test_${folder} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT ${STANDPOINT_TEST_SECONDS})
 endfunction()

@@ -14,9 +14,17 @@
 
 namespace standpoint::fuzz {
 
-// The bytes as a file in memory, one for each process, since readers take paths.
+// The bytes as a file in memory, in a folder of the process that is gone when it ends, since readers take paths.
 inline std::filesystem::path fileOf(const std::uint8_t* data, std::size_t size, const char* extension) {
-  const std::filesystem::path path = "/dev/shm/standpoint-fuzz-" + std::to_string(getpid()) + extension;
+  static const struct Folder {
+    std::filesystem::path path = "/dev/shm/standpoint-fuzz-" + std::to_string(getpid());
+    Folder() { std::filesystem::create_directory(path); }
+    ~Folder() {
+      std::error_code ignored;
+      std::filesystem::remove_all(path, ignored);
+    }
+  } folder;
+  const auto path = folder.path / ("case" + std::string(extension));
   std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   return path;
 }
