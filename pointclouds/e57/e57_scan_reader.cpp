@@ -24,7 +24,8 @@ Result<void> measureGrid(PagedReader& file, const Element& points, ScanPlan& pla
         least[side] = std::min(least[side], v), most[side] = std::max(most[side], v);
   }
   constexpr double kLargestSide = 1 << 30;
-  if (!(most[0] - least[0] < kLargestSide && most[1] - least[1] < kLargestSide)) return {};  // no grid
+  for (int side = 0; side < 2; ++side)
+    if (const double span = most[side] - least[side]; !(span >= 0 && span < kLargestSide)) return {};  // no grid
   plan.first_row = least[0];
   plan.first_column = least[1];
   plan.header.rows = static_cast<std::uint32_t>(most[0] - least[0]) + 1;

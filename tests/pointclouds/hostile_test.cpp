@@ -225,6 +225,19 @@ TEST(HostileE57, ThatClaimsTooMuchIsRefusedAtOnce) {
   }
 }
 
+TEST(HostileE57, WithoutPointsAndWithoutIndexBoundsHasNoGrid) {
+  const TemporaryFolder folder;
+  smallFile(folder / "s.e57");
+  edit(folder / "s.e57", "recordCount=\"108\"", "recordCount=\"000\"");
+  edit(folder / "s.e57", "rowMaximum", "rowMaximun");
+  KeptScans kept;
+  const auto read = readAll(folder / "s.e57", kept);
+  ASSERT_TRUE(read.has_value()) << describe(read.error());
+  ASSERT_FALSE(kept.scans.empty());
+  EXPECT_EQ(kept.scans[0].header.rows, 0u);
+  EXPECT_EQ(kept.scans[0].header.columns, 0u);
+}
+
 TEST(HostilePtx, WithAGridLargerThanTheFileIsRefusedAtOnce) {
   const TemporaryFolder folder;
   testing::putBytes(
