@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
+#include <optional>
 
 #include "core/edge_balance.h"
 #include "core/georeference.h"
@@ -104,33 +105,61 @@ bool keepsAxes(const Eigen::Matrix3d& linear) {
   return true;
 }
 
-}  // namespace
-
-Bounds bounds(const Mesh& mesh, const Eigen::Affine3d& world_from_mesh) {
-  Bounds result;
+std::vector<std::uint8_t> usedPositions(const Mesh& mesh) {
   std::vector<std::uint8_t> used(mesh.positions.size(), 0);  // not vector<bool>: bits are slow to set
   for (const auto& t : mesh.triangles)
     for (const auto index : t) used[index] = 1;
-  if (mesh.triangles.empty() || !keepsAxes(world_from_mesh.linear())) {
-    for (std::size_t i = 0; i < used.size(); ++i)
-      if (used[i]) result.extend(world_from_mesh * mesh.positions[i].cast<double>());
-    return result;
-  }
-  Eigen::Vector3f low = mesh.positions[mesh.triangles[0][0]], high = low;
+  return used;
+}
+
+// Along the mesh's own axes.
+struct OwnBox {
+  bool empty = true;
+  Eigen::Vector3f low = Eigen::Vector3f::Zero(), high = Eigen::Vector3f::Zero();
+};
+
+OwnBox ownBox(const Mesh& mesh) {
+  if (mesh.triangles.empty()) return {};
+  OwnBox box{false, mesh.positions[mesh.triangles[0][0]], mesh.positions[mesh.triangles[0][0]]};
+  const Eigen::Vector3f some = box.low;
+  const auto used = usedPositions(mesh);
   for (std::size_t i = 0; i < used.size(); ++i) {
-    const Eigen::Vector3f& p = used[i] != 0 ? mesh.positions[i] : low;
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
+    const Eigen::Vector3f& p = used[i] != 0 ? mesh.positions[i] : some;
+    box.low = box.low.cwiseMin(p);
+    box.high = box.high.cwiseMax(p);
   }
-  result.extend(world_from_mesh * low.cast<double>());
-  result.extend(world_from_mesh * high.cast<double>());
+  return box;
+}
+
+Bounds placedBox(const OwnBox& box, const Eigen::Affine3d& world_from_mesh) {
+  Bounds result;
+  if (box.empty) return result;
+  result.extend(world_from_mesh * box.low.cast<double>());
+  result.extend(world_from_mesh * box.high.cast<double>());
+  return result;
+}
+
+}  // namespace
+
+Bounds bounds(const Mesh& mesh, const Eigen::Affine3d& world_from_mesh) {
+  if (keepsAxes(world_from_mesh.linear())) return placedBox(ownBox(mesh), world_from_mesh);
+  Bounds result;
+  const auto used = usedPositions(mesh);
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (used[i] != 0) result.extend(world_from_mesh * mesh.positions[i].cast<double>());
   return result;
 }
 
 std::vector<Bounds> productBounds(const Environment& environment) {
   std::vector<Bounds> result(environment.products.size());
-  for (const auto& instance : environment.instances)
-    result[instance.product].extend(bounds(*environment.meshes[instance.mesh], instance.world_from_mesh));
+  std::vector<std::optional<OwnBox>> own(environment.meshes.size());  // once for a mesh that stands in many places
+  for (const auto& instance : environment.instances) {
+    const Mesh& mesh = *environment.meshes[instance.mesh];
+    const bool keeps_axes = keepsAxes(instance.world_from_mesh.linear());
+    if (keeps_axes && !own[instance.mesh]) own[instance.mesh] = ownBox(mesh);
+    result[instance.product].extend(keeps_axes ? placedBox(*own[instance.mesh], instance.world_from_mesh)
+                                               : bounds(mesh, instance.world_from_mesh));
+  }
   return result;
 }
 

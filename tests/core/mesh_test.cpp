@@ -103,5 +103,23 @@ TEST(Bounds, AreThoseOfEveryUsedCornerHoweverTheMeshStands) {
   EXPECT_TRUE(bounds(Mesh(), Eigen::Affine3d::Identity()).empty());
 }
 
+TEST(Bounds, OfProductsThatShareAMeshAreThoseOfEachPlace) {
+  Environment e;
+  e.surfaces.resize(1);
+  e.products.resize(3);
+  e.meshes = {std::make_shared<const Mesh>(cube(1)), std::make_shared<const Mesh>()};
+  const Eigen::Affine3d far(Eigen::Translation3d(10, 0, 0));
+  const Eigen::Affine3d turned(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()));
+  e.instances = {{0, 0, Eigen::Affine3d::Identity()}, {0, 0, far}, {0, 1, turned}, {0, 1, far}, {1, 2, far}};
+  const auto boxes = productBounds(e);
+  Bounds second = bounds(*e.meshes[0], turned);
+  second.extend(bounds(*e.meshes[0], far));
+  EXPECT_EQ(boxes[0].min, Eigen::Vector3d(0, 0, 0));
+  EXPECT_EQ(boxes[0].max, Eigen::Vector3d(11, 1, 1));
+  EXPECT_EQ(boxes[1].min, second.min);
+  EXPECT_EQ(boxes[1].max, second.max);
+  EXPECT_TRUE(boxes[2].empty());
+}
+
 }  // namespace
 }  // namespace standpoint
