@@ -145,8 +145,10 @@ void printIssues(const Report& report, bool all, const Streams& streams) {
     for (const auto& issue : report.issues) print(issue, "");
     return;
   }
-  for (const auto& [first, count] : alikeIssues(report))
-    print(first, count == 1 ? "" : fmt::format(" (the first of {} alike; list them with --all-issues)", count));
+  for (const auto& alike : alikeIssues(report)) {
+    const auto more = fmt::format(" (the first of {} alike; list them with --all-issues)", alike.count());
+    print(report.issues[alike.first], alike.others.empty() ? "" : more);
+  }
 }
 
 void printText(const Outcome& outcome, bool all_issues, const Streams& streams) {

@@ -39,19 +39,19 @@ std::string causeOf(const Issue& issue) {
 }  // namespace
 
 std::vector<AlikeIssues> alikeIssues(const Report& report) {
-  std::map<std::string, std::size_t> count_of_cause;
+  std::map<std::string, std::vector<std::size_t>> of_cause;
   std::vector<std::string> causes;
   for (const Issue& issue : report.issues) {
     causes.push_back(causeOf(issue));
-    ++count_of_cause[causes.back()];
+    of_cause[causes.back()].push_back(causes.size() - 1);
   }
   std::vector<AlikeIssues> result;
   for (std::size_t i = 0; i < causes.size(); ++i) {
-    std::size_t& count = count_of_cause[causes[i]];
-    if (count == 0) continue;  // its first has been told
-    const bool many = count > kMostAlike;
-    result.push_back({report.issues[i], many ? count : 1});
-    if (many) count = 0;
+    const auto& alike = of_cause[causes[i]];
+    if (alike.size() <= kMostAlike)
+      result.push_back({i, {}});
+    else if (alike.front() == i)
+      result.push_back({i, {alike.begin() + 1, alike.end()}});
   }
   return result;
 }

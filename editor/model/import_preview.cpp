@@ -2,6 +2,7 @@
 #include "editor/model/import_preview.h"
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <map>
 #include <thread>
@@ -35,6 +36,7 @@ json importOptions(const std::vector<std::filesystem::path>& files, const Import
   if (!overrides.unit.empty()) options["unit"] = overrides.unit;
   if (!overrides.up.empty()) options["up"] = overrides.up;
   if (!overrides.crs.empty()) options["crs"] = overrides.crs;
+  if (overrides.types) options["types"] = true;
   return options;
 }
 
@@ -95,8 +97,17 @@ void ImportPreview::show(std::vector<std::filesystem::path> files, Outcome outco
   close();
   files_ = std::move(files);
   facts_ = factsOf(outcome.document, outcome.report);
+  issues_ = entriesOf(outcome.report);
   outcome_ = std::move(outcome);
   stage_ = Stage::ready;
+}
+
+bool ImportPreview::hasIfc() const {
+  return std::any_of(files_.begin(), files_.end(), [](const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    for (auto& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension.starts_with(".ifc");
+  });
 }
 
 std::string ImportPreview::fileNames() const {
@@ -153,6 +164,7 @@ bool ImportPreview::poll() {
   error_ = {};
   outcome_with_ = read_with_;
   facts_ = factsOf(result->document, result->report);
+  issues_ = entriesOf(result->report);
   outcome_ = *std::move(result);
   stage_ = Stage::ready;
   if (!has_first_) size_at_first_m_ = facts_.size_m;

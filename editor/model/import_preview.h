@@ -22,6 +22,7 @@ struct ImportOverrides {
   std::string unit, up;        // "mm", "z"
   std::string shift = "auto";  // auto, none, E,N,H
   std::string crs;             // EPSG:n
+  bool types = false;          // IFC: types that no product shows become products
   bool operator==(const ImportOverrides&) const = default;
 };
 nlohmann::json importOptions(const std::vector<std::filesystem::path>& files, const ImportOverrides& overrides);
@@ -70,10 +71,12 @@ class ImportPreview {
   bool reading() const { return task_ != nullptr; }  // also when an earlier result is still shown
   bool changed() const { return !(overrides == read_with_); }
   const std::vector<std::filesystem::path>& files() const { return files_; }
+  bool hasIfc() const;
   std::string fileNames() const;
   Task<Outcome>* task() const { return task_.get(); }
   const Outcome* outcome() const { return outcome_ ? &*outcome_ : nullptr; }
   const ImportFacts& facts() const { return facts_; }
+  const std::vector<LogEntry>& issues() const { return issues_; }
   // Of the last reading, with an empty message when it went well. When only other overrides failed, what was read
   // before stays, and with it the overrides of then.
   const Error& error() const { return error_; }
@@ -93,6 +96,7 @@ class ImportPreview {
   std::optional<Outcome> outcome_;
   ImportOverrides read_with_, outcome_with_;
   ImportFacts facts_;
+  std::vector<LogEntry> issues_;
   Error error_;
   std::optional<Eigen::Vector3d> first_size_m_;
   Eigen::Vector3d size_at_first_m_ = Eigen::Vector3d::Zero();

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <ctime>
 
+#include "core/alike_issues.h"
+
 namespace standpoint {
 
 namespace {
@@ -19,6 +21,7 @@ bool containsText(const std::string& text, const std::string& part) {
 }  // namespace
 
 bool passes(const LogEntry& entry, const LogFilter& filter) {
+  if (entry.follows && !filter.each && filter.text.empty()) return false;
   switch (entry.level) {
     case LogLevel::note:
     case LogLevel::done:
@@ -42,6 +45,19 @@ LogLevel levelOf(Severity severity) {
     case Severity::loss: return LogLevel::loss;
   }
   return LogLevel::note;
+}
+
+std::vector<LogEntry> entriesOf(const Report& report) {
+  const std::string now = timeOfDay();
+  std::vector<LogEntry> entries;
+  for (const Issue& issue : report.issues)
+    entries.push_back({levelOf(issue.severity), now, issue.source, issue.message, false});
+  for (const auto& alike : alikeIssues(report)) {
+    for (const auto other : alike.others) entries[other].follows = true;
+    if (!alike.others.empty())
+      entries[alike.first].message += " (the first of " + std::to_string(alike.count()) + " alike)";
+  }
+  return entries;
 }
 
 std::optional<std::uint32_t> productOf(const Environment& environment, const std::string& source) {

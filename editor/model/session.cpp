@@ -300,7 +300,7 @@ void Session::cancelAll() {
 
 bool Session::adopt(Outcome outcome) {
   if (!whyNotAdopt().empty()) return false;
-  for (const auto& issue : outcome.report.issues) say(levelOf(issue.severity), issue.source, issue.message);
+  say(outcome.report);
   say(LogLevel::done, "", outcome.description);
   history_.push(std::move(outcome.document), outcome.description);
   ++revision_;
@@ -345,7 +345,7 @@ void Session::succeed(VerbTask& task, Outcome outcome) {
   if (task.shows_answer && !changes) answers_.push_back({text, outcome.text, outcome.answer});
   finished_.push_front(
       {task.title(), task.verb().name, true, false, text, timeOfDay(), task.seconds(), std::move(outcome.typed)});
-  for (const auto& issue : outcome.report.issues) say(levelOf(issue.severity), issue.source, issue.message);
+  say(outcome.report);
   say(LogLevel::done, "", text);
   const auto* project = answerAs<ProjectAnswer>(finished_.front().answer);
   if (verb_name == "save-project") {
@@ -419,6 +419,10 @@ const FinishedTask* Session::lastOf(std::string_view name) const {
     return t.ok && t.verb == name && t.revision >= project_since_;
   });
   return found == finished_.end() ? nullptr : &*found;
+}
+
+void Session::say(const Report& report) {
+  for (auto& entry : entriesOf(report)) log_.push_back(std::move(entry));
 }
 
 void Session::say(LogLevel level, std::string source, std::string message) {

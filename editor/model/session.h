@@ -131,6 +131,7 @@ class Session {
   }
   const std::vector<LogEntry>& log() const { return log_; }
   void clearLog() { log_.clear(); }
+  void say(const Report& report);
   void say(LogLevel level, std::string source, std::string message);
   std::deque<ShownAnswer>& answers() { return answers_; }  // not yet read by the user, oldest first
   std::deque<ShownError>& errors() { return errors_; }     // not yet read by the user, oldest first

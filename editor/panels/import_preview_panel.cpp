@@ -70,6 +70,11 @@ void drawPlace(const Model& model, Actions& actions) {
   ui::tooltip(fmt::format(
       "Subtracted from all coordinates on import and restored on export. Currently {:.0f}, {:.0f}, {:.0f} m",
       georeference.shift_m.x(), georeference.shift_m.y(), georeference.shift_m.z()));
+  if (preview.hasIfc()) {
+    ui::propertyLabel("Types");
+    changed |= ImGui::Checkbox("Import as products###preview-types", &chosen.types);
+    ui::tooltip("Types that no product shows, with their shapes, as products at the origin");
+  }
   ui::propertyLabel("CRS");
   changed |= textField("###preview-crs", georeference.crs.empty() ? "not specified; EPSG:n" : georeference.crs.c_str(),
                        chosen.crs);
@@ -116,15 +121,15 @@ void drawClasses(const Model& model, float height) {
   ImGui::EndTable();
 }
 
-void drawIssue(const Model& model, Actions& actions, const Issue& issue, int i) {
+void drawIssue(const Model& model, Actions& actions, const LogEntry& issue, int i) {
   const auto product = productOf(*model.shown(), issue.source);
   ImGui::PushID(i);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  const ImU32 shade = issue.severity == Severity::loss      ? tone::kBad
-                      : issue.severity == Severity::warning ? tone::kWarning
-                                                            : tone::kDim;
-  ImGui::TextColored(colour(shade), "%s", issue.severity == Severity::note ? ICON_INFO : ICON_WARNING);
+  const ImU32 shade = issue.level == LogLevel::loss      ? tone::kBad
+                      : issue.level == LogLevel::warning ? tone::kWarning
+                                                         : tone::kDim;
+  ImGui::TextColored(colour(shade), "%s", issue.level == LogLevel::note ? ICON_INFO : ICON_WARNING);
   ImGui::TableNextColumn();
   const ImVec2 at = ImGui::GetCursorPos();
   if (product && ImGui::Selectable("###issue", model.preview_selection.contains(*product),
@@ -147,17 +152,17 @@ void drawIssues(const Model& model, ImportPreviewState& state, Actions& actions)
   ui::filterButton(model, "preview", ICON_BAN, "losses", facts.losses, tone::kBad, filter.losses);
   ui::filterButton(model, "preview", ICON_WARNING, "warnings", facts.warnings, tone::kWarning, filter.warnings);
   ui::filterButton(model, "preview", ICON_INFO, "notes", facts.notes, tone::kDim, filter.notes);
+  const auto& entries = model.preview.issues();
+  if (std::any_of(entries.begin(), entries.end(), [](const LogEntry& e) { return e.follows; }))
+    ui::listEach("preview", filter.each);
   ImGui::NewLine();
-  const auto& issues = model.preview.outcome()->report.issues;
-  if (issues.empty()) {
+  if (entries.empty()) {
     ImGui::TextColored(colour(tone::kGood), "%s  No issues", ICON_CHECK);
     return;
   }
   std::vector<int> shown;
-  for (int i = 0; i < static_cast<int>(issues.size()); ++i) {
-    const auto& issue = issues[static_cast<std::size_t>(i)];
-    if (passes({levelOf(issue.severity), "", issue.source, issue.message}, filter)) shown.push_back(i);
-  }
+  for (int i = 0; i < static_cast<int>(entries.size()); ++i)
+    if (passes(entries[static_cast<std::size_t>(i)], filter)) shown.push_back(i);
   const float height = std::max(3 * ImGui::GetTextLineHeightWithSpacing(), ImGui::GetContentRegionAvail().y);
   if (!ImGui::BeginTable("preview-issues", 2,
                          ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoPadOuterX, {0, height}))
@@ -169,7 +174,7 @@ void drawIssues(const Model& model, ImportPreviewState& state, Actions& actions)
   while (clipper.Step())
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
       const int issue = shown[static_cast<std::size_t>(i)];
-      drawIssue(model, actions, issues[static_cast<std::size_t>(issue)], issue);
+      drawIssue(model, actions, entries[static_cast<std::size_t>(issue)], issue);
     }
   ImGui::EndTable();
 }

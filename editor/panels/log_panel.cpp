@@ -39,7 +39,9 @@ Look lookOf(LogLevel level) {
 void drawHead(const Model& model, LogState& state, Actions& actions) {
   auto& filter = state.filter;
   std::size_t notes = 0, warnings = 0, losses = 0;
+  bool any_follows = false;
   for (const auto& e : model.session.log()) {
+    any_follows |= e.follows;
     notes += e.level == LogLevel::note || e.level == LogLevel::done ? 1 : 0;
     warnings += e.level == LogLevel::warning ? 1 : 0;
     losses += e.level == LogLevel::loss || e.level == LogLevel::error ? 1 : 0;
@@ -47,6 +49,7 @@ void drawHead(const Model& model, LogState& state, Actions& actions) {
   ui::filterButton(model, "log", ICON_BAN, "Losses and errors", losses, tone::kBad, filter.losses);
   ui::filterButton(model, "log", ICON_WARNING, "warnings", warnings, tone::kWarning, filter.warnings);
   ui::filterButton(model, "log", ICON_INFO, "notes", notes, tone::kDim, filter.notes);
+  if (any_follows) ui::listEach("log", filter.each);
   const float clear = ImGui::GetFrameHeight() + model.px(8);
   const float room = ImGui::GetContentRegionMax().x - ImGui::GetCursorPosX() - clear;
   const float search = std::clamp(room, model.px(60), model.px(230));

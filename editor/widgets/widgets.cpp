@@ -27,6 +27,12 @@ void filterButton(const Style& style, const char* list, const char* icon, const 
   ImGui::SameLine(0, style.px(4));
 }
 
+void listEach(const char* list, bool& each) {
+  ImGui::Checkbox(fmt::format("List all###{}-each", list).c_str(), &each);
+  ui::tooltip("List each issue, also those alike");
+  ImGui::SameLine(0, ImGui::GetStyle().ItemSpacing.x);
+}
+
 void tooltip(const std::string& text) {
   if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1.0F);  // also inside a disabled block

@@ -27,6 +27,8 @@ bool iconButton(const char* label, const char* tooltip, const std::string& why =
 // Shows or hides rows of one kind, and says how many there are. `list` tells apart those of several lists.
 void filterButton(const Style& style, const char* list, const char* icon, const char* name, std::size_t count,
                   ImU32 shade, bool& shown);
+// Whether a list shows each issue, also those alike.
+void listEach(const char* list, bool& each);
 void tooltip(const std::string& text);  // of the last item, also when it is disabled
 
 void heading(const Style& style, const char* text);

@@ -116,6 +116,14 @@ TEST_F(Preview, ShowsWhatAnotherUnitDoesToTheSize) {
   EXPECT_EQ(editor.preview.facts().doubt, "");
 }
 
+TEST_F(Preview, OffersTheTypesOfAnIfcFileAndPassesThemOn) {
+  open();
+  gui.frames(1);
+  EXPECT_EQ(gui.find("###preview-types") != nullptr, editor.preview.hasIfc());
+  EXPECT_FALSE(importOptions({"a.ifc"}, {}).contains("types"));
+  EXPECT_EQ(importOptions({"a.ifc"}, {.types = true})["types"], true);
+}
+
 TEST_F(Preview, KeepsWhatWasReadWhenAnotherChoiceCannotBe) {
   open();
   const auto candidate = editor.preview.outcome()->document.imported;

@@ -146,5 +146,21 @@ TEST(Log, FiltersBySeverityAndText) {
   EXPECT_FALSE(passes(warning, {true, true, true, "glass"}));
 }
 
+TEST(Log, ListsTheFirstOfManyAlikeAndEachWhenAsked) {
+  Report report;
+  report.warn("line 1", "missing header");
+  for (int i = 0; i < 30; ++i)
+    report.lose("#" + std::to_string(i), "IfcBolt 'M " + std::to_string(i) + "' has no body");
+  const auto entries = entriesOf(report);
+  ASSERT_EQ(entries.size(), 31U);
+  const auto listed = [&](const LogFilter& filter) {
+    return std::count_if(entries.begin(), entries.end(), [&](const LogEntry& e) { return passes(e, filter); });
+  };
+  EXPECT_EQ(listed({}), 2);
+  EXPECT_EQ(entries[1].message, "IfcBolt 'M 0' has no body (the first of 30 alike)");
+  EXPECT_EQ(listed({.each = true}), 31);
+  EXPECT_EQ(listed({.text = "M 17"}), 1) << "what is looked for is found";
+}
+
 }  // namespace
 }  // namespace standpoint
