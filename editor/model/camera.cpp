@@ -29,6 +29,10 @@ Eigen::Vector3d Camera::up() const { return right().cross(forward()); }
 
 double Camera::heightAtTarget_m() const { return 2 * distance_m * std::tan(view_angle_rad / 2); }
 
+Eigen::Vector3d Camera::eyeOf(const Eigen::Vector3d& point) const {
+  return orthographic ? Eigen::Vector3d(point - forward() * (point - eye()).dot(forward())) : eye();
+}
+
 double Camera::metresPerPixel(double depth_m, double height_px) const {
   const double depth = orthographic ? distance_m : depth_m;
   return 2 * depth * std::tan(view_angle_rad / 2) / std::max(height_px, 1.0);

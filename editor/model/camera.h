@@ -24,6 +24,8 @@ struct Camera {
   Eigen::Vector3d right() const;
   Eigen::Vector3d up() const;
   Eigen::Vector3d eye() const { return target - forward() * distance_m; }
+  // From where a point is looked at: the eye, or for a parallel projection a place straight before the point.
+  Eigen::Vector3d eyeOf(const Eigen::Vector3d& point) const;
   // Metres that one pixel covers at `depth_m` along the view.
   double metresPerPixel(double depth_m, double height_px) const;
   double heightAtTarget_m() const;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "editor/labels/room_labels.h"
 #include "editor/model/budget_preview.h"
 #include "editor/model/camera.h"
 #include "editor/model/catalogue.h"
@@ -59,6 +60,7 @@ struct ViewportState {
   TeleportAim teleport;
   bool coverage_made = false;  // the map of coverage shows scans that were made, not the stations as planned
   bool edges = true, grid = true, walkable = false, shapes = false, labels = true, shaded_points = false;
+  bool room_names = true, labels_through_walls = false;
   Tool tool = Tool::select;
   std::optional<RayHit> hover;  // under the pointer
   Eigen::Vector3d pivot = Eigen::Vector3d::Zero();
@@ -110,6 +112,7 @@ struct Model : Style {
   OutlinerView outliner;
   ViewportState view;
   Picker picker;
+  RoomLabels room_labels;
   PlacementView placement;  // of what is picked
   Walk walk;                // while the tool is Tool::walk
   WalkGround walk_ground;

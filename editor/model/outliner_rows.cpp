@@ -6,6 +6,9 @@
 #include <map>
 #include <sstream>
 
+#include "editor/labels/alphabetical.h"
+#include "editor/labels/room_labels.h"
+
 namespace standpoint {
 
 namespace {
@@ -44,6 +47,7 @@ std::string readableClass(const std::string& ifc_class) {
 }
 
 std::string productLabel(const Product& product) {
+  if (product.ifc_class == "IfcSpace") return readableName(product);
   if (!product.name.empty()) return product.name;
   return readableClass(product.ifc_class) + " " + product.id;
 }
@@ -94,11 +98,11 @@ void Outliner::addProducts(const Environment& environment) {
   for (std::uint32_t p = 0; p < environment.products.size(); ++p)
     groups[{containerOf(environment, p), environment.products[p].ifc_class}].push_back(p);
   for (auto& [key, members] : groups) {
-    std::stable_sort(members.begin(), members.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return productLabel(environment.products[a]) < productLabel(environment.products[b]);
-    });
-    const auto group = add(Kind::group, members.front(), key.first, readableClass(key.second));
-    for (const auto p : members)
+    std::vector<std::pair<std::string, std::uint32_t>> sorted;
+    for (const auto p : members) sorted.emplace_back(alphabeticalKey(productLabel(environment.products[p])), p);
+    std::sort(sorted.begin(), sorted.end());
+    const auto group = add(Kind::group, sorted.front().second, key.first, readableClass(key.second));
+    for (const auto& [name, p] : sorted)
       node_of_product_[p] = static_cast<std::int32_t>(
           add(Kind::product, p, static_cast<std::int32_t>(group), productLabel(environment.products[p])));
   }

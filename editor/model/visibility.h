@@ -38,6 +38,9 @@ class Visibility {
   bool alone_ = false;
 };
 
+// A storey is looked into from here above its floor: above tables and sills, below lintels.
+constexpr double kCutAboveFloor_m = 1.2;
+
 struct StoreyLevel {
   std::int32_t node = -1;  // index into Environment::spatial
   double elevation_m = 0;  // local frame

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "editor/labels/room_labels.h"
 #include "editor/model/model.h"
 #include "optimizer/walk/landing.h"
 
@@ -149,14 +150,6 @@ std::string walkPlaceName(const Model& model) {
   const auto& node = model.environment()->spatial[static_cast<std::size_t>(storey->node)];
   if (node.name.empty()) return name;
   return name.empty() ? node.name : name + " · " + node.name;
-}
-
-std::string readableName(const Product& product) {
-  const auto property = std::find_if(product.properties.begin(), product.properties.end(),
-                                     [](const Property& p) { return p.set == "Attributes" && p.name == "LongName"; });
-  const std::string longer = property == product.properties.end() ? "" : property->value;
-  if (longer.empty() || longer == product.name) return product.name.empty() ? product.id : product.name;
-  return product.name.empty() ? longer : product.name + " " + longer;
 }
 
 }  // namespace standpoint

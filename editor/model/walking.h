@@ -46,8 +46,6 @@ void startWalking(Model& model);
 void teleport(Model& model, const RayHit& hit);
 void jumpToRoom(Model& model, std::uint32_t product);
 void jumpToStation(Model& model, std::size_t station);
-// A room's number and long name, as far as it has them.
-std::string readableName(const Product& product);
 // "" or why nobody can be put where that is.
 std::string whyNoLanding(const Landing& landing, const Model& model);
 

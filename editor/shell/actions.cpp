@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include "core/data_folder.h"
+#include "editor/model/floor_plan.h"
 #include "editor/model/interface_scale.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
@@ -167,6 +168,12 @@ const std::array kActions = {
     Action{"view-right", "Right view", "", {'3'}, [](Editor& e) { lookFrom(e, StandardView::right); }, whyNoModel},
     Action{"view-left", "Left view", "", {'3', true}, [](Editor& e) { lookFrom(e, StandardView::left); }, whyNoModel},
     Action{"view-top", "Top view", "", {'7'}, [](Editor& e) { lookFrom(e, StandardView::top); }, whyNoModel},
+    Action{"view-plan",
+           "Floor plan (again: next storey)",
+           ICON_MAP,
+           {'9'},
+           [](Editor& e) { lookAtNextPlan(e); },
+           whyNoModel},
     Action{"view-corner",
            "Isometric view",
            ICON_HOME,
@@ -230,6 +237,13 @@ const std::array kActions = {
            [](Editor& e) { e.view.shaded_points = !e.view.shaded_points; },
            nullptr},
     Action{"labels", "Labels", "", {}, [](Editor& e) { e.view.labels = !e.view.labels; }, nullptr},
+    Action{"room-names", "Room names", "", {}, [](Editor& e) { e.view.room_names = !e.view.room_names; }, nullptr},
+    Action{"labels-through-walls",
+           "Labels through walls",
+           "",
+           {},
+           [](Editor& e) { e.view.labels_through_walls = !e.view.labels_through_walls; },
+           nullptr},
     Action{"walkable",
            "Walkable area",
            ICON_WALK,

@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include "editor/shell/editor.h"
+#include "editor/shell/label_board.h"
 #include "editor/shell/overlay.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
@@ -25,7 +26,12 @@ ImU32 faded(ImU32 packed, float alpha) {
 
 class Pen {
  public:
-  Pen(const Editor& editor, ImVec2 origin) : editor_(editor), origin_(origin), list_(*ImGui::GetWindowDrawList()) {}
+  Pen(const Editor& editor, ImVec2 origin)
+      : labels(origin, {static_cast<float>(editor.view.size.x()), static_cast<float>(editor.view.size.y())},
+               editor.scale),
+        editor_(editor),
+        origin_(origin),
+        list_(*ImGui::GetWindowDrawList()) {}
 
   std::optional<ImVec2> at(const Eigen::Vector3d& p) const {
     const auto pixel = project(editor_.view.camera, p, editor_.view.size);
@@ -36,17 +42,13 @@ class Pen {
     const auto from = at(a), to = at(b);
     if (from && to) list_.AddLine(*from, *to, tone, width * editor_.scale);
   }
-  void label(ImVec2 p, const std::string& text, ImU32 tone) const {
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    const float pad = 4 * editor_.scale;
-    const ImVec2 corner(p.x - size.x / 2 - pad, p.y - size.y - 14 * editor_.scale);
-    list_.AddRectFilled(corner, {corner.x + size.x + 2 * pad, corner.y + size.y + pad}, tone::kOverlay, pad);
-    list_.AddText({corner.x + pad, corner.y + pad / 2}, tone, text.c_str());
-  }
+  void label(ImVec2 p, const std::string& text, ImU32 tone) { labels.over(p, {text}, tone); }
   void circle(ImVec2 p, float radius, ImU32 fill, ImU32 rim) const {
     list_.AddCircleFilled(p, radius * editor_.scale, fill);
     list_.AddCircle(p, radius * editor_.scale, rim, 0, 1.5F * editor_.scale);
   }
+
+  LabelBoard labels;
 
  private:
   const Editor& editor_;
@@ -66,7 +68,7 @@ void drawTripod(const Pen& pen, const Eigen::Vector3d& centre, double height_m, 
   pen.line(head, centre, tone, width + 1);
 }
 
-void drawStations(Editor& editor, const Pen& pen, const ViewState& state) {
+void drawStations(Editor& editor, Pen& pen, const ViewState& state) {
   const auto& job = editor.session.document().job;
   if (!job) return;
   for (std::size_t i = 0; i < job->stations.size(); ++i) {
@@ -74,33 +76,57 @@ void drawStations(Editor& editor, const Pen& pen, const ViewState& state) {
     const Eigen::Vector3d centre = station.true_pose.translation;
     const auto place = pen.at(centre);
     if (!place) continue;
-    const bool seen = editor.picker.sees(editor.view.camera.eye(), centre, state);
+    const bool seen = editor.picker.sees(editor.view.camera.eyeOf(centre), centre, state);
     const bool chosen = editor.survey.station == static_cast<int>(i);
     const float strength = seen ? 1.0F : 0.45F;
     const ImU32 tone = faded(chosen ? tone::kAccent : tone::kStation, strength);
     drawTripod(pen, centre, station.instrument_height_m, tone, seen ? 2.0F : 1.2F);
     pen.circle(*place, chosen ? 6 : 5, faded(IM_COL32(20, 22, 26, 255), strength), tone);
     if (!station.scans.empty()) pen.circle(*place, 2, tone, tone);
-    if (editor.view.labels) pen.label(*place, station.name, faded(tone::kText, strength));
+    if (editor.view.labels && (seen || chosen || editor.view.labels_through_walls))
+      pen.label(*place, station.name, faded(tone::kText, strength));
   }
 }
 
-void drawTargets(Editor& editor, const Pen& pen, const ViewState& state) {
+void drawTargets(Editor& editor, Pen& pen, const ViewState& state) {
   const auto& job = editor.session.document().job;
   if (!job) return;
   for (std::size_t i = 0; i < job->targets.size(); ++i) {
     const auto& target = job->targets[i];
     const auto place = pen.at(target.centre);
     if (!place) continue;
-    const bool seen = editor.picker.sees(editor.view.camera.eye(), target.centre, state);
+    const bool seen = editor.picker.sees(editor.view.camera.eyeOf(target.centre), target.centre, state);
     const bool chosen = editor.survey.target == static_cast<int>(i);
     const ImU32 tone = faded(chosen ? tone::kAccent : tone::kGood, seen ? 1.0F : 0.45F);
     pen.circle(*place, 5, faded(IM_COL32(245, 245, 245, 255), seen ? 0.9F : 0.35F), tone);
-    if (editor.view.labels) pen.label(*place, target.name, faded(tone::kText, seen ? 1.0F : 0.45F));
+    if (editor.view.labels && (seen || chosen || editor.view.labels_through_walls))
+      pen.label(*place, target.name, faded(tone::kText, seen ? 1.0F : 0.45F));
   }
 }
 
-void drawMeasure(Editor& editor, const Pen& pen) {
+// Where one looks down into rooms, by a cut or because nothing lies over them; not where their names would be larger
+// than they are.
+void drawRoomNames(Editor& editor, Pen& pen, const ViewState& state) {
+  constexpr double kLeastElevation_rad = 0.35, kLargestShare = 1.2;
+  const auto& camera = editor.view.camera;
+  if (!editor.view.room_names || editor.view.tool == Tool::walk || camera.elevation_rad < kLeastElevation_rad ||
+      editor.cloud())
+    return;
+  for (const auto& room : editor.room_labels.of(editor.session.document().imported)) {
+    const auto place = pen.at(room.anchor);
+    if (!place || (state.cut_height_m && room.anchor.z() > *state.cut_height_m)) continue;
+    const double depth_m = (room.anchor - camera.eye()).dot(camera.forward());
+    const double width_px = std::sqrt(room.floor_area_m2) / camera.metresPerPixel(depth_m, editor.view.size.y());
+    std::vector<std::string> texts;
+    for (const auto& text : {room.number.empty() ? room.name : room.name + "\n" + room.number, room.name, room.number})
+      if (!text.empty() && ImGui::CalcTextSize(text.c_str()).x < kLargestShare * width_px) texts.push_back(text);
+    if (texts.empty()) continue;
+    if (editor.view.labels_through_walls || editor.picker.sees(camera.eyeOf(room.anchor), room.anchor, state))
+      pen.labels.around(*place, std::move(texts), tone::kText);
+  }
+}
+
+void drawMeasure(Editor& editor, Pen& pen) {
   const auto& view = editor.view;
   if (view.tool != Tool::measure || !view.measured_from) return;
   const auto from = pen.at(*view.measured_from);
@@ -117,7 +143,7 @@ void drawMeasure(Editor& editor, const Pen& pen) {
 }
 
 // Where a handheld scanner shall be carried.
-void drawWay(const Editor& editor, const Pen& pen) {
+void drawWay(const Editor& editor, Pen& pen) {
   std::optional<Eigen::Vector3d> before;
   for (const auto& place : editor.way) {
     const Eigen::Vector3d here = place - editor.shift_m();
@@ -128,7 +154,7 @@ void drawWay(const Editor& editor, const Pen& pen) {
 }
 
 // A tripod under the pointer, red and with the reason where it cannot stand.
-void drawWouldStand(Editor& editor, const Pen& pen, double height_m) {
+void drawWouldStand(Editor& editor, Pen& pen, double height_m) {
   const RayHit& hit = *editor.view.hover;
   const auto& refusal = editor.placement.whyNotOn(hit, height_m);
   const ImU32 tone = faded(refusal ? tone::kBad : tone::kStation, 0.8F);
@@ -141,7 +167,7 @@ void drawWouldStand(Editor& editor, const Pen& pen, double height_m) {
 }
 
 // A target as the click would put it up, and how many points each station's scan would lay on it.
-void tellTargetHere(Editor& editor, const Pen& pen) {
+void tellTargetHere(Editor& editor, Pen& pen) {
   const auto& hit = *editor.view.hover;
   const auto* kinds = editor.target_list.kinds();
   if (kinds == nullptr) return;
@@ -165,7 +191,7 @@ void tellTargetHere(Editor& editor, const Pen& pen) {
   ImGui::SetTooltip("%s", text.c_str());
 }
 
-void drawPreview(Editor& editor, const Pen& pen) {
+void drawPreview(Editor& editor, Pen& pen) {
   const auto& view = editor.view;
   if (!view.hover) return;
   if (view.tool == Tool::placeStation) {
@@ -180,17 +206,19 @@ void drawPreview(Editor& editor, const Pen& pen) {
 }  // namespace
 
 void drawMarkers(Editor& editor, ImVec2 origin) {
-  const Pen pen(editor, origin);
+  Pen pen(editor, origin);
   const ViewState state = editor.viewState();
   auto& list = *ImGui::GetWindowDrawList();
   list.PushClipRect(
       origin,
       {origin.x + static_cast<float>(editor.view.size.x()), origin.y + static_cast<float>(editor.view.size.y())}, true);
-  drawStations(editor, pen, state);
-  drawTargets(editor, pen, state);
   drawMeasure(editor, pen);
   drawWay(editor, pen);
   drawPreview(editor, pen);
+  drawStations(editor, pen, state);
+  drawTargets(editor, pen, state);
+  drawRoomNames(editor, pen, state);
+  pen.labels.draw(list);
   list.PopClipRect();
 }
 

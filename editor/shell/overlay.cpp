@@ -109,9 +109,6 @@ std::string storeyName(const Editor& editor, const StoreyLevel& level) {
   return node.name.empty() ? "Storey" : node.name;
 }
 
-// A storey is looked into from 1.2 m above its floor: above tables and sills, below lintels.
-constexpr double kCutAboveFloor_m = 1.2;
-
 void cutChip(Editor& editor) {
   auto& cut = editor.visibility.cut_height_m;
   const double shift = editor.shift_m().z();

@@ -7,6 +7,8 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "editor/labels/alphabetical.h"
+#include "editor/labels/room_labels.h"
 #include "editor/panels/panels.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
@@ -59,6 +61,15 @@ std::vector<Entry> entries(Editor& editor) {
   return all;
 }
 
+void sortAsPeopleDo(std::vector<Entry>& entries) {
+  std::vector<std::pair<std::string, std::size_t>> keys;
+  for (std::size_t i = 0; i < entries.size(); ++i) keys.emplace_back(alphabeticalKey(entries[i].title), i);
+  std::sort(keys.begin(), keys.end());
+  std::vector<Entry> sorted;
+  for (const auto& [key, i] : keys) sorted.push_back(std::move(entries[i]));
+  entries = std::move(sorted);
+}
+
 // "@" jumps to rooms, "#" to stations.
 std::vector<Entry> places(Editor& editor, char kind) {
   std::vector<Entry> all;
@@ -70,6 +81,7 @@ std::vector<Entry> places(Editor& editor, char kind) {
         all.push_back({fmt::format("room-{}", p), ICON_WALK, readableName(product), product.storey, "",
                        [&editor, p] { jumpToRoom(editor, p); }});
     }
+  sortAsPeopleDo(all);
   if (kind == '#' && document.job)
     for (std::size_t i = 0; i < document.job->stations.size(); ++i)
       all.push_back({fmt::format("station-{}", i), ICON_STATION, document.job->stations[i].name, "Station", "",

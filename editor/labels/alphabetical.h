@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace standpoint {
+
+// Bytes that compare as people sort the names (UTF-8): "Room 2" before "Room 10", "ä" beside "a", capitals beside small
+// letters. The root collation of Unicode (UTS #10, CLDR), numbers by value. Names that it holds for equal keep an
+// order by their own bytes.
+std::string alphabeticalKey(std::string_view name);
+
+}  // namespace standpoint

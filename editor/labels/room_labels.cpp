@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/labels/room_labels.h"
+
+#include <algorithm>
+
+#include "optimizer/walk/spaces.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr double kAboveFloor_m = 1.0;  // under the cut of a plan, over most furniture
+
+std::string longName(const Product& product) {
+  const auto property = std::find_if(product.properties.begin(), product.properties.end(),
+                                     [](const Property& p) { return p.set == "Attributes" && p.name == "LongName"; });
+  return property == product.properties.end() ? "" : property->value;
+}
+
+// Of a grid over the floor plan, a place whose nearest one outside of the room is about the farthest.
+Eigen::Vector3d middleOf(const SpaceBody& space) {
+  constexpr int kSteps = 12;
+  const Eigen::Vector3d span = space.box.max - space.box.min;
+  const double z = space.box.min.z() + std::min(kAboveFloor_m, span.z() / 2);
+  const auto place = [&](int column, int row) {
+    return Eigen::Vector3d(space.box.min.x() + span.x() * (column + 0.5) / kSteps,
+                           space.box.min.y() + span.y() * (row + 0.5) / kSteps, z);
+  };
+  std::vector<Eigen::Vector3d> inside, outside;
+  for (int row = -1; row <= kSteps; ++row)  // with a frame of places that are outside of it for sure
+    for (int column = -1; column <= kSteps; ++column)
+      (space.contains(place(column, row)) ? inside : outside).push_back(place(column, row));
+  std::vector<double> clear;  // from the nearest place outside, squared
+  for (const auto& p : inside) {
+    clear.push_back(1e300);
+    for (const auto& q : outside) clear.back() = std::min(clear.back(), (p - q).squaredNorm());
+  }
+  constexpr double kNearlyAsClear = 0.8;  // then the middle counts: along a corridor all places are alike
+  const double least = inside.empty() ? 0 : kNearlyAsClear * *std::max_element(clear.begin(), clear.end());
+  const Eigen::Vector3d middle(space.box.min.x() + span.x() / 2, space.box.min.y() + span.y() / 2, z);
+  Eigen::Vector3d best = middle;
+  double nearest = 1e300;
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    if (const double off = (inside[i] - middle).squaredNorm(); clear[i] >= least && off < nearest)
+      nearest = off, best = inside[i];
+  return best;
+}
+
+}  // namespace
+
+std::string readableName(const Product& product) {
+  const std::string longer = longName(product);
+  if (longer.empty() || longer == product.name) return product.name.empty() ? product.id : product.name;
+  return product.name.empty() ? longer : product.name + " " + longer;
+}
+
+std::vector<RoomLabel> roomLabels(const Environment& environment) {
+  std::vector<RoomLabel> labels;
+  for (const auto& space : spaceBodies(environment)) {
+    const auto& product = environment.products[space.product];
+    const std::string longer = longName(product);
+    const Eigen::Vector3d span = space.box.max - space.box.min;
+    const bool both = !longer.empty() && longer != product.name;
+    const std::string& name = both ? longer : product.name;
+    if (name.empty()) continue;
+    labels.push_back({space.product, both ? product.name : "", name, middleOf(space), span.x() * span.y()});
+  }
+  std::stable_sort(labels.begin(), labels.end(),
+                   [](const RoomLabel& a, const RoomLabel& b) { return a.floor_area_m2 > b.floor_area_m2; });
+  return labels;
+}
+
+const std::vector<RoomLabel>& RoomLabels::of(const std::shared_ptr<const Environment>& environment) const {
+  if (environment_ != environment) {
+    environment_ = environment;
+    labels_ = environment ? roomLabels(*environment) : std::vector<RoomLabel>();
+  }
+  return labels_;
+}
+
+}  // namespace standpoint

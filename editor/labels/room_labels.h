@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/environment.h"
+
+namespace standpoint {
+
+// An IfcSpace as the plan names it.
+struct RoomLabel {
+  std::uint32_t product = 0;
+  std::string number;        // IfcSpace.Name, which is a number more often than not; may be empty
+  std::string name;          // IfcSpace.LongName, else Name
+  Eigen::Vector3d anchor;    // within the room, as far from its walls as can be, a metre above its floor; local frame
+  double floor_area_m2 = 0;  // of its bounding box
+};
+
+// Of all spaces that have geometry and are not excluded, the largest first.
+std::vector<RoomLabel> roomLabels(const Environment& environment);
+
+// The name in the words of the model: IfcSpace's number and long name, any other product's name, else its id.
+std::string readableName(const Product& product);
+
+// Those of one environment, made when first asked for.
+class RoomLabels {
+ public:
+  const std::vector<RoomLabel>& of(const std::shared_ptr<const Environment>& environment) const;
+
+ private:
+  mutable std::shared_ptr<const Environment> environment_;
+  mutable std::vector<RoomLabel> labels_;
+};
+
+}  // namespace standpoint

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/shell/label_board.h"
+
+#include "editor/widgets/theme.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr float kLabelMargin = 4, kAboveMarker = 10;
+
+// Each line in the middle.
+void drawLines(ImDrawList& list, const std::string& text, ImVec2 at, float width, ImU32 tone) {
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const char *from = text.data() + begin, *to = text.data() + end;
+    list.AddText({at.x + (width - ImGui::CalcTextSize(from, to).x) / 2, at.y}, tone, from, to);
+    at.y += ImGui::GetTextLineHeight();
+    begin = end + 1;
+  }
+}
+
+}  // namespace
+
+void LabelBoard::add(ImVec2 p, std::vector<std::string> texts, ImU32 tone, bool centred) {
+  WantedLabel label{{p.x - origin_.x, p.y - origin_.y - (centred ? 0 : kAboveMarker * scale_)}, centred, {}};
+  for (auto& words : texts) {
+    const ImVec2 size = ImGui::CalcTextSize(words.c_str());
+    label.texts.push_back({std::move(words), {size.x + 2 * kLabelMargin * scale_, size.y + kLabelMargin * scale_}});
+  }
+  wanted_.push_back(std::move(label));
+  tones_.push_back(tone);
+}
+
+void LabelBoard::draw(ImDrawList& list) const {
+  const auto places = layOut(wanted_, {size_.x, size_.y});
+  for (std::size_t i = 0; i < wanted_.size(); ++i) {
+    if (!places[i]) continue;
+    const auto& text = wanted_[i].texts[places[i]->text];
+    const ImVec2 corner(origin_.x + static_cast<float>(places[i]->corner_px.x()),
+                        origin_.y + static_cast<float>(places[i]->corner_px.y()));
+    const ImVec2 size(static_cast<float>(text.size_px.x()), static_cast<float>(text.size_px.y()));
+    list.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, tone::kOverlay, kLabelMargin * scale_);
+    drawLines(list, text.words, {corner.x, corner.y + kLabelMargin * scale_ / 2}, size.x, tones_[i]);
+  }
+}
+
+}  // namespace standpoint

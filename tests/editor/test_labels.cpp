@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "demo_document.h"
+#include "demo_verbs.h"
+#include "editor/labels/alphabetical.h"
+#include "editor/labels/label_layout.h"
+#include "editor/labels/room_labels.h"
+#include "editor/model/floor_plan.h"
+#include "item_probe.h"
+
+namespace standpoint {
+namespace {
+
+using ::testing::ElementsAre;
+
+std::vector<std::string> sortedNames(std::vector<std::string> names) {
+  std::sort(names.begin(), names.end(),
+            [](const auto& a, const auto& b) { return alphabeticalKey(a) < alphabeticalKey(b); });
+  return names;
+}
+
+TEST(Alphabetical, CountsNumbersAndPutsUmlautsAndCapitalsBesideTheirLetters) {
+  EXPECT_THAT(sortedNames({"Room 10", "room 2", "Room 1", "Zimmer", "Ärztezimmer", "Bad", "1.10", "1.9"}),
+              ElementsAre("1.9", "1.10", "Ärztezimmer", "Bad", "Room 1", "room 2", "Room 10", "Zimmer"));
+}
+
+TEST(Alphabetical, TakesBrokenTextAndLongNames) {
+  EXPECT_NE(alphabeticalKey("\xff\xfe"), alphabeticalKey("\xff"));
+  EXPECT_LT(alphabeticalKey(std::string(5000, 'a')), alphabeticalKey(std::string(5000, 'a') + "b"));
+  EXPECT_LT(alphabeticalKey(""), alphabeticalKey("0"));
+}
+
+WantedLabel wanted(double x, double y, std::vector<Eigen::Vector2d> sizes) {
+  WantedLabel label{{x, y}, true, {}};
+  for (const auto& size : sizes) label.texts.push_back({"", size});
+  return label;
+}
+
+TEST(LabelLayout, GivesTheRightOfWayToWhoComesFirst) {
+  const auto placed =
+      layOut({wanted(50, 50, {{40, 20}}), wanted(60, 55, {{40, 20}}), wanted(50, 80, {{40, 20}})}, {200, 200});
+  ASSERT_TRUE(placed[0]);
+  EXPECT_EQ(placed[0]->corner_px, Eigen::Vector2d(30, 40));
+  EXPECT_FALSE(placed[1]);
+  EXPECT_TRUE(placed[2]);
+}
+
+TEST(LabelLayout, TakesAShorterTextWhereTheFullOneDoesNotFit) {
+  const auto placed = layOut({wanted(50, 50, {{40, 20}}), wanted(90, 50, {{60, 20}, {30, 20}})}, {200, 200});
+  ASSERT_TRUE(placed[1]);
+  EXPECT_EQ(placed[1]->text, 1U);
+}
+
+TEST(LabelLayout, LeavesThePictureToNobody) {
+  const auto placed =
+      layOut({wanted(5, 50, {{40, 20}}), wanted(195, 199, {{4, 20}}), wanted(-500, 0, {{1, 1}})}, {200, 200});
+  EXPECT_FALSE(placed[0] || placed[1] || placed[2]);
+}
+
+Product space(const std::string& name, const std::string& long_name) {
+  Product product;
+  product.ifc_class = "IfcSpace";
+  product.id = "#7";
+  product.name = name;
+  if (!long_name.empty()) product.properties.push_back({"Attributes", "LongName", long_name});
+  return product;
+}
+
+TEST(RoomLabels, HaveNumberAndLongNameAsFarAsTheModelHasThem) {
+  EXPECT_EQ(readableName(space("4", "Schlafzimmer")), "4 Schlafzimmer");
+  EXPECT_EQ(readableName(space("Bad", "Bad")), "Bad");
+  EXPECT_EQ(readableName(space("", "Küche")), "Küche");
+  EXPECT_EQ(readableName(space("", "")), "#7");
+}
+
+// An L of two arms, 10 m long and 2 m wide: the middle of its box is outside of it.
+Environment angledRoom() {
+  Environment e;
+  e.surfaces.resize(1);
+  e.products.push_back(space("1.12", "Corridor"));
+  Mesh mesh;
+  const auto box = [&](Eigen::Vector3f low, Eigen::Vector3f high) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (int i = 0; i < 8; ++i)
+      mesh.positions.emplace_back(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z());
+    for (const auto& t : std::initializer_list<Triangle>{{0, 2, 3},
+                                                         {0, 3, 1},
+                                                         {4, 5, 7},
+                                                         {4, 7, 6},
+                                                         {0, 1, 5},
+                                                         {0, 5, 4},
+                                                         {2, 6, 7},
+                                                         {2, 7, 3},
+                                                         {0, 4, 6},
+                                                         {0, 6, 2},
+                                                         {1, 3, 7},
+                                                         {1, 7, 5}})
+      mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  };
+  box({0, 0, 0}, {10, 2, 3});
+  box({0, 2, 0}, {2, 10, 3});
+  mesh.surface_of_triangle.assign(mesh.triangles.size(), 0);
+  e.meshes.push_back(std::make_shared<const Mesh>(mesh));
+  e.instances = {{0, 0, Eigen::Affine3d::Identity()}};
+  return e;
+}
+
+TEST(RoomLabels, StandWithinTheRoomAwayFromItsWalls) {
+  const auto labels = roomLabels(angledRoom());
+  ASSERT_EQ(labels.size(), 1U);
+  EXPECT_EQ(labels[0].number, "1.12");
+  EXPECT_EQ(labels[0].name, "Corridor");
+  const auto& p = labels[0].anchor;
+  EXPECT_TRUE(p.x() < 2 || p.y() < 2) << p.transpose();
+  EXPECT_GT(std::min(p.x(), p.y()), 0.4);
+  EXPECT_NEAR(p.z(), 1, 1e-9);
+}
+
+class Plan : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(editor.session.start("demo", nlohmann::json::object()));
+    gui.settle();
+    gui.frames(2);
+  }
+  Editor editor{verbsWithDemo(), [] {}};
+  GuiDriver gui{editor};
+};
+
+TEST_F(Plan, LooksStraightDownAtTheGroundFloorAndThenAtTheNextStorey) {
+  gui.key('9');
+  ASSERT_TRUE(editor.visibility.cut_height_m);
+  const double ground = *editor.visibility.cut_height_m;
+  EXPECT_NEAR(ground, kCutAboveFloor_m, 0.3);
+  EXPECT_TRUE(editor.view.camera.orthographic);
+  EXPECT_NEAR(editor.view.camera.forward().z(), -1, 1e-3);
+  gui.key('9');
+  EXPECT_GT(*editor.visibility.cut_height_m, ground + 2);
+  gui.key('9');
+  EXPECT_EQ(*editor.visibility.cut_height_m, ground) << "after the top storey the lowest";
+}
+
+TEST(Camera, OfAParallelViewLooksAtEachPointFromStraightBeforeIt) {
+  Camera camera;
+  look(camera, StandardView::top);
+  const Eigen::Vector3d p(30, -4, 1);
+  EXPECT_EQ(camera.eyeOf(p), camera.eye());
+  camera.orthographic = true;
+  EXPECT_NEAR((p - camera.eyeOf(p)).normalized().dot(camera.forward()), 1, 1e-12);
+  EXPECT_NEAR((p - camera.eyeOf(p)).norm(), (p - camera.eye()).dot(camera.forward()), 1e-9);
+}
+
+}  // namespace
+}  // namespace standpoint
