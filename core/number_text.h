@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -29,5 +30,7 @@ std::string rangeText(const NumberKind& kind);
 
 // The shortest text that reads as this number again, without a unit: "0.1", "25", "1e-07".
 std::string exactText(double number);
+
+std::string groupedDigits(std::uint64_t number);  // "12 345 678"
 
 }  // namespace standpoint

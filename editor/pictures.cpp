@@ -64,10 +64,10 @@ void cutIntoStorey(Editor& editor) {
   editor.view.frame_wanted = true;
 }
 
-void overview(Editor& editor) { editor.workspace = Workspace::model; }
+void overview(Editor& editor) { editor.workspace = Workspace::environment; }
 
 void inspect(Editor& editor) {
-  editor.workspace = Workspace::model;
+  editor.workspace = Workspace::environment;
   if (const auto product = richestProduct(editor); product >= 0)
     editor.select(static_cast<std::uint32_t>(product), true);
 }
@@ -107,7 +107,7 @@ void instrument(Editor& editor) {
 }
 
 void palette(Editor& editor) {
-  editor.workspace = Workspace::model;
+  editor.workspace = Workspace::environment;
   editor.view.side = ModelSide::lighter;
   editor.view.colour = ColourMode::model;
   invoke(editor, "palette");
@@ -115,7 +115,7 @@ void palette(Editor& editor) {
 
 // The original beside what is left of a quarter of its triangles, each coloured by its distance from the other.
 void deviation(Editor& editor) {
-  editor.workspace = Workspace::model;
+  editor.workspace = Workspace::optimise;
   editor.wanted_tab[1] = "optimise";
   if (!editor.session.document().simplified) {
     editor.session.start(SimplificationRequest{

@@ -17,6 +17,7 @@
 #include "editor/model/catalogue.h"
 #include "editor/model/cloud.h"
 #include "editor/model/expected_view.h"
+#include "editor/model/guide.h"
 #include "editor/model/import_preview.h"
 #include "editor/model/live_cloud.h"
 #include "editor/model/outliner_rows.h"
@@ -113,6 +114,7 @@ struct Model : Style {
   ViewportState view;
   Picker picker;
   RoomLabels room_labels;
+  Guide guide;
   PlacementView placement;  // of what is picked
   Walk walk;                // while the tool is Tool::walk
   WalkGround walk_ground;

@@ -31,6 +31,19 @@ void read(const json& object, const char* key, T& value, T low, T high) {
 
 }  // namespace
 
+const char* nameOf(Workspace workspace) {
+  switch (workspace) {
+    case Workspace::environment: return "environment";
+    case Workspace::optimise: return "optimise";
+    case Workspace::materials: return "materials";
+    case Workspace::georeference: return "georeference";
+    case Workspace::survey: return "survey";
+    case Workspace::instrument: return "instrument";
+    case Workspace::inspect: return "inspect";
+  }
+  return "";
+}
+
 void Settings::remember(const std::filesystem::path& path) {
   const auto text = std::filesystem::absolute(path).lexically_normal().string();
   recent.erase(std::remove(recent.begin(), recent.end(), text), recent.end());
@@ -39,8 +52,11 @@ void Settings::remember(const std::filesystem::path& path) {
 }
 
 json toJson(const Settings& settings) {
-  json areas = json::array();
-  for (const auto& a : settings.areas) areas.push_back({{"left", a.left}, {"right", a.right}, {"bottom", a.bottom}});
+  json areas = json::object();
+  for (std::size_t i = 0; i < settings.areas.size(); ++i) {
+    const auto& a = settings.areas[i];
+    areas[nameOf(static_cast<Workspace>(i))] = {{"left", a.left}, {"right", a.right}, {"bottom", a.bottom}};
+  }
   return {{"recent", settings.recent},
           {"areas", std::move(areas)},
           {"last_folder", settings.last_folder},
@@ -54,11 +70,13 @@ Settings settingsFrom(const json& object) {
   if (const auto recent = object.find("recent"); recent != object.end() && recent->is_array())
     for (const auto& r : *recent)
       if (r.is_string() && result.recent.size() < kRecent) result.recent.push_back(r.get<std::string>());
-  if (const auto areas = object.find("areas"); areas != object.end() && areas->is_array())
-    for (std::size_t i = 0; i < std::min(areas->size(), result.areas.size()); ++i) {
-      read((*areas)[i], "left", result.areas[i].left, 160.0F, 900.0F);
-      read((*areas)[i], "right", result.areas[i].right, 200.0F, 1200.0F);
-      read((*areas)[i], "bottom", result.areas[i].bottom, 80.0F, 700.0F);
+  if (const auto areas = object.find("areas"); areas != object.end() && areas->is_object())
+    for (std::size_t i = 0; i < result.areas.size(); ++i) {
+      const auto area = areas->find(nameOf(static_cast<Workspace>(i)));
+      if (area == areas->end()) continue;
+      read(*area, "left", result.areas[i].left, 160.0F, 900.0F);
+      read(*area, "right", result.areas[i].right, 200.0F, 1200.0F);
+      read(*area, "bottom", result.areas[i].bottom, 80.0F, 700.0F);
     }
   if (const auto folder = object.find("last_folder"); folder != object.end() && folder->is_string())
     result.last_folder = folder->get<std::string>();

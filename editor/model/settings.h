@@ -12,8 +12,10 @@
 
 namespace standpoint {
 
-enum class Workspace { model, materials, survey, instrument };
-constexpr int kWorkspaces = 4;
+// In the order of the work.
+enum class Workspace { environment, optimise, materials, georeference, survey, instrument, inspect };
+constexpr int kWorkspaces = 7;
+const char* nameOf(Workspace workspace);  // "environment"
 
 // Widths and heights of the areas in points (pixels at scale 1).
 struct AreaSizes {
@@ -24,8 +26,13 @@ struct AreaSizes {
 // What the editor remembers from one start to the next.
 struct Settings {
   std::vector<std::string> recent;  // projects and models, newest first
-  std::array<AreaSizes, kWorkspaces> areas = {AreaSizes{}, AreaSizes{350, 320, 170}, AreaSizes{330, 340, 170},
-                                              AreaSizes{260, 620, 130}};
+  std::array<AreaSizes, kWorkspaces> areas = {AreaSizes{},
+                                              AreaSizes{},
+                                              AreaSizes{350, 320, 170},
+                                              AreaSizes{},
+                                              AreaSizes{330, 340, 170},
+                                              AreaSizes{260, 620, 130},
+                                              AreaSizes{330, 360, 170}};
   std::string last_folder;  // of the file dialog
   double user_scale = 1;    // on top of the monitor's
   bool recovery = true;     // keep a copy of unsaved work after every change

@@ -73,6 +73,7 @@ class Actions {
 
   // The shell's own. A file is chosen frames later, when these actions are no longer there.
   using WhenChosen = std::function<void(Actions& later, const std::filesystem::path& chosen)>;
+  virtual void open(Workspace workspace, const char* panel) = 0;
   virtual void run(const char* command) = 0;       // of those that menus and keys have
   virtual void menuItem(const char* command) = 0;  // in an open menu
   virtual void button(const char* command, const char* text, float width) = 0;

@@ -19,7 +19,7 @@ struct Editor : Model {
 
   DialogStates dialogs;
   PanelStates panels;
-  Workspace workspace = Workspace::model;
+  Workspace workspace = Workspace::environment;
   std::array<std::string, 3> wanted_tab;   // by Area: the panel to bring to the front in the next frame
   std::pair<RayHit, std::string> painted;  // where a material was dropped, and its id: a menu asks how far it goes
 

@@ -8,6 +8,7 @@
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/import_preview.h"
+#include "editor/shell/shell.h"
 
 namespace standpoint {
 
@@ -82,6 +83,7 @@ void PanelActions::setOverrides(const ImportOverrides& overrides, bool read_agai
 }
 void PanelActions::selectInPreview(std::uint32_t product) { editor_.preview_selection.set(product); }
 
+void PanelActions::open(Workspace workspace, const char* panel) { openPanel(editor_, workspace, panel); }
 void PanelActions::run(const char* command) { invoke(editor_, command); }
 void PanelActions::menuItem(const char* command) { actionMenuItem(editor_, command); }
 void PanelActions::button(const char* command, const char* text, float width) {

@@ -55,6 +55,7 @@ class PanelActions final : public Actions {
   void setOverrides(const ImportOverrides& overrides, bool read_again) override;
   void selectInPreview(std::uint32_t product) override;
 
+  void open(Workspace workspace, const char* panel) override;
   void run(const char* command) override;
   void menuItem(const char* command) override;
   void button(const char* command, const char* text, float width) override;

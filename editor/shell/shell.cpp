@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -17,8 +16,8 @@
 #include "editor/shell/escape.h"
 #include "editor/shell/import_preview.h"
 #include "editor/shell/panel_actions.h"
+#include "editor/shell/status_bar.h"
 #include "editor/widgets/icons.h"
-#include "editor/widgets/job_progress.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 
@@ -32,10 +31,13 @@ struct WorkspaceTab {
   const char* title;
 };
 constexpr std::array kWorkspaceTabs = {
-    WorkspaceTab{Workspace::model, "workspace-model", "Model"},
+    WorkspaceTab{Workspace::environment, "workspace-environment", "Environment"},
+    WorkspaceTab{Workspace::optimise, "workspace-optimise", "Optimise"},
     WorkspaceTab{Workspace::materials, "workspace-materials", "Materials"},
+    WorkspaceTab{Workspace::georeference, "workspace-georeference", "Georeference"},
     WorkspaceTab{Workspace::survey, "workspace-survey", "Survey"},
     WorkspaceTab{Workspace::instrument, "workspace-instrument", "Instrument"},
+    WorkspaceTab{Workspace::inspect, "workspace-inspect", "Inspect"},
 };
 
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
@@ -133,10 +135,13 @@ void viewMenu(Editor& editor) {
                  "colour-spacing",
                  "colour-incidence",
                  "",
-                 "workspace-model",
+                 "workspace-environment",
+                 "workspace-optimise",
                  "workspace-materials",
+                 "workspace-georeference",
                  "workspace-survey",
                  "workspace-instrument",
+                 "workspace-inspect",
                  "",
                  "interface-larger",
                  "interface-smaller",
@@ -195,7 +200,20 @@ bool roomForTitles(const Editor& editor, float width) {
   return needed <= width;
 }
 
+// How far the work of a workspace is done, at the corner of its button: a tick or an exclamation mark, so that colour
+// is not all.
+void markStep(const Editor& editor, const GuideStep& step) {
+  ui::tooltip(step.status.empty() ? std::string(step.title) : fmt::format("{}: {}", step.title, step.status));
+  const bool attention = step.state == GuideStep::State::attention;
+  if (!editor.environment() || (!attention && step.state != GuideStep::State::done)) return;
+  const ImVec2 corner = ImGui::GetItemRectMin();
+  const float size = ImGui::GetFontSize() * 0.62F;
+  ImGui::GetWindowDrawList()->AddText(ImGui::GetFont(), size, {corner.x + editor.px(2), corner.y + editor.px(1)},
+                                      attention ? tone::kWarning : tone::kGood, attention ? ICON_WARNING : ICON_CHECK);
+}
+
 void drawWorkspaceTabs(Editor& editor, bool titles) {
+  const auto& steps = editor.guide.of(editor);
   for (const auto& tab : kWorkspaceTabs) {
     const bool chosen = editor.workspace == tab.workspace;
     ImGui::PushStyleColor(ImGuiCol_Button, chosen ? ImVec4(0.25F, 0.56F, 0.97F, 0.26F) : ImVec4(0, 0, 0, 0));
@@ -204,7 +222,7 @@ void drawWorkspaceTabs(Editor& editor, bool titles) {
                                           titles ? tab.title : "", tab.action);
     if (ImGui::Button(label.c_str())) editor.workspace = tab.workspace;
     ImGui::PopStyleColor(2);
-    if (!titles) ui::tooltip(tab.title);
+    markStep(editor, steps[static_cast<std::size_t>(tab.workspace)]);
     ImGui::SameLine(0, editor.px(2));
   }
 }
@@ -334,66 +352,6 @@ void drawArea(Editor& editor, const char* id, const Box& box, Area area) {
   ImGui::End();
 }
 
-std::string hoverText(const Editor& editor) {
-  const auto& hover = editor.view.hover;
-  if (!hover || !editor.environment() || hover->product >= editor.environment()->products.size()) return {};
-  const auto& product = editor.environment()->products[hover->product];
-  const Eigen::Vector3d p = hover->position + editor.shift_m();
-  return fmt::format("{}   {}   {:.3f}  {:.3f}  {:.3f} m", readableClass(product.ifc_class), productLabel(product),
-                     p.x(), p.y(), p.z());
-}
-
-// A task, else the scan or the underlay that is being read to be shown.
-void drawRunningTask(Editor& editor) {
-  const auto& running = editor.session.running();
-  VerbTask* shown = nullptr;
-  for (const auto& task : running)
-    if (std::strcmp(task->verb().name, "save-recovery") != 0) shown = task.get();
-  const bool scan = shown == nullptr && editor.readingCloud();
-  Progress* const followed = shown != nullptr ? &shown->progress()
-                             : scan           ? editor.cloudLoader().progress()
-                                              : editor.underlays.progress();
-  if (followed == nullptr) return;
-  auto& progress = *followed;
-  const std::string title = shown != nullptr ? shown->title()
-                            : scan           ? "Reading the scan"
-                                             : "Showing " + editor.underlays.reading();
-  const std::string how_far = ui::jobText(progress, shown != nullptr ? shown->seconds()
-                                                    : scan           ? editor.cloudLoader().seconds()
-                                                                     : 0);
-  const std::string text = how_far.empty() ? title : title + "   " + how_far;
-  const float bar = editor.px(160), cancel = editor.px(64);
-  const float width = ImGui::CalcTextSize(text.c_str()).x + bar + cancel + editor.px(30);
-  ImGui::SameLine(std::max(0.0F, ImGui::GetWindowWidth() - width - editor.px(10)));
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::SameLine();
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  ImGui::SetCursorScreenPos({at.x, at.y + (ImGui::GetFrameHeight() - editor.px(6)) / 2});
-  ui::jobBar(editor, progress, bar);
-  ImGui::SetCursorScreenPos({at.x + bar + editor.px(10), at.y});
-  ui::cancelButton(editor, "Cancel###cancel-task", progress, 64);
-}
-
-void drawStatusBar(Editor& editor, const Box& box) {
-  beginFixed("###status", box, {editor.px(10), editor.px(2)}, IM_COL32(26, 29, 34, 255));
-  ImGui::AlignTextToFramePadding();
-  const auto hover = hoverText(editor);
-  if (!hover.empty()) {
-    ImGui::TextUnformatted(hover.c_str());
-  } else if (const auto& environment = editor.environment()) {
-    std::string text = fmt::format("{} products   {} triangles", groupedDigits(environment->products.size()),
-                                   groupedDigits(editor.triangles()));
-    if (!editor.selection.empty()) text += fmt::format("   {} selected", editor.selection.products().size());
-    if (editor.visibility.anyHidden()) text += fmt::format("   {} hidden", editor.visibility.hiddenCount());
-    ui::dimText(text);
-  } else {
-    ui::dimText("No model");
-  }
-  drawRunningTask(editor);
-  ImGui::End();
-}
-
 // While a model is previewed, there is it and the question, and nothing else.
 void drawPreviewLayout(Editor& editor, const Box& all) {
   const float panel = std::min(editor.px(400), all.w * 0.5F), gap = editor.px(3);
@@ -423,6 +381,13 @@ void drawPreviewShell(Editor& editor) {
 
 }  // namespace
 
+void openPanel(Editor& editor, Workspace workspace, std::string_view panel) {
+  editor.workspace = workspace;
+  for (const auto& known : panels())
+    if (const Area area = known.area[static_cast<std::size_t>(workspace)]; known.id == panel && area != Area::none)
+      editor.wanted_tab[static_cast<std::size_t>(area)] = known.id;
+}
+
 void drawShell(Editor& editor) {
   editor.update();
   closeTopmost(editor);  // which may close the preview, and then there is nothing of it to draw
@@ -445,7 +410,10 @@ void drawShell(Editor& editor) {
   drawViewport(editor);
   ImGui::End();
   drawSplitters(editor, l);  // last: windows that keep their place lie behind those made before them
-  drawStatusBar(editor, {0, display.y - status, display.x, status});
+  beginFixed("###status", {0, display.y - status, display.x, status}, {editor.px(10), editor.px(2)},
+             IM_COL32(26, 29, 34, 255));
+  drawStatusBar(editor);
+  ImGui::End();
   drawFileDialog(editor);
   drawVerbDialog(editor);
   drawPalette(editor);

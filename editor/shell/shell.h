@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string_view>
+
+#include "editor/model/settings.h"
+
 namespace standpoint {
 
 struct Editor;
@@ -10,5 +14,8 @@ void drawShell(Editor& editor);
 
 // The picture of the scene with what lies over it, in the current window.
 void drawViewport(Editor& editor);
+
+// Goes to a workspace and brings a panel of it to the front.
+void openPanel(Editor& editor, Workspace workspace, std::string_view panel);
 
 }  // namespace standpoint

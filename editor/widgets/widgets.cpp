@@ -226,16 +226,6 @@ void fitted(const std::string& text, float width) {
 
 }  // namespace ui
 
-std::string groupedDigits(std::uint64_t number) {
-  const std::string digits = std::to_string(number);
-  std::string text;
-  for (std::size_t i = 0; i < digits.size(); ++i) {
-    if (i > 0 && (digits.size() - i) % 3 == 0) text += ' ';
-    text += digits[i];
-  }
-  return text;
-}
-
 std::string metres(double value, int decimals) { return fmt::format("{:.{}f} m", value, decimals); }
 
 std::string coordinates(const Eigen::Vector3d& v) { return fmt::format("{:.3f}  {:.3f}  {:.3f}", v.x(), v.y(), v.z()); }

@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 #include "core/environment.h"
+#include "core/number_text.h"
 
 namespace standpoint {
 
@@ -56,7 +57,6 @@ void fitted(const std::string& text, float width);
 
 }  // namespace ui
 
-std::string groupedDigits(std::uint64_t number);     // 12 345 678
 std::string metres(double value, int decimals = 3);  // "1.250 m"
 std::string coordinates(const Eigen::Vector3d& v);   // "1.250  2.000  0.000"
 std::string durationText(double seconds);            // "1:07 min"

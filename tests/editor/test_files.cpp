@@ -81,7 +81,8 @@ TEST(Scale, NeverOutgrowsTheWindow) {
 
 TEST_F(Folder, StartsWithDefaultsWhenTheSettingsAreBroken) {
   for (const char* text :
-       {"", "{", "[1,2]", "{\"areas\": [{\"left\": \"wide\"}], \"user_scale\": 1e99, \"recent\": [7]}"}) {
+       {"", "{", "[1,2]",
+        "{\"areas\": {\"optimise\": {\"left\": \"wide\"}, \"survey\": 3}, \"user_scale\": 1e99, \"recent\": [7]}"}) {
     write("editor.json", text);
     const auto settings = readSettings(root / "editor.json");
     EXPECT_EQ(settings.areas, Settings().areas) << text;

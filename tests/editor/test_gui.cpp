@@ -318,7 +318,7 @@ TEST_F(Gui, ShowsTheOriginalBesideTheLighterModelWithTheirDistances) {
 
 TEST_F(Gui, FollowsTheBudgetsSliderAtOnceAndForgetsItWhenOptimised) {
   open();
-  editor.workspace = Workspace::model;
+  editor.workspace = Workspace::optimise;
   editor.wanted_tab[1] = "optimise";
   editor.panels.of<OptimiseState>().live = true;
   editor.panels.of<OptimiseState>().max_deviation_mm = 500;

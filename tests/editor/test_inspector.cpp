@@ -18,7 +18,7 @@ class Inspector : public ::testing::Test {
     ASSERT_TRUE(editor.session.start("demo", nlohmann::json::object()));
     gui.settle();
     editor.session.wait();
-    editor.workspace = Workspace::model;
+    editor.workspace = Workspace::environment;
     editor.wanted_tab[1] = "inspector";
     gui.frames(3);
   }

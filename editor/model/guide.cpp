@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/model/guide.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "editor/model/model.h"
+#include "core/number_text.h"
+#include "project/materials/material_findings.h"
+#include "project/survey/assess_verb.h"
+
+namespace standpoint {
+
+namespace {
+
+using State = GuideStep::State;
+
+// More than this is worth a budget: what a notebook draws and walks in without effort.
+constexpr std::uint64_t kLightModel_triangles = 100'000;
+
+GuideStep environmentStep(const Model& model) {
+  GuideStep step{Workspace::environment, "Environment", State::open, "No model", "Import a model", "inspector"};
+  const auto& document = model.session.document();
+  if (!document.imported) return step;
+  step.state = State::done;
+  step.advice = "";
+  step.status = fmt::format("{} products, {} triangles", groupedDigits(document.imported->products.size()),
+                            groupedDigits(triangleCount(*document.imported)));
+  const auto losses = document.import_report
+                          ? std::count_if(document.import_report->issues.begin(), document.import_report->issues.end(),
+                                          [](const Issue& i) { return i.severity == Severity::loss; })
+                          : 0;
+  if (losses > 0) {
+    step.state = State::attention;
+    step.status += fmt::format("; {} lost on import", losses);
+    step.advice = "Read the log";
+  }
+  return step;
+}
+
+GuideStep optimiseStep(const Model& model) {
+  GuideStep step{Workspace::optimise, "Optimise", State::optional, "", "Choose a budget", "optimise"};
+  const auto& document = model.session.document();
+  if (!document.imported) return step;
+  const auto triangles = sceneTriangleCount(*document.imported);
+  if (document.simplified) {
+    step.state = State::done;
+    step.status =
+        fmt::format("{} of {} triangles", groupedDigits(sceneTriangleCount(*document.simplified->environment)),
+                    groupedDigits(triangles));
+    step.advice = "";
+  } else if (triangles > kLightModel_triangles) {
+    step.state = State::attention;
+    step.status = fmt::format("{} triangles, no budget", groupedDigits(triangles));
+  } else {
+    step.status = "The model is light already";
+  }
+  return step;
+}
+
+GuideStep materialStep(const Model& model) {
+  GuideStep step{Workspace::materials, "Materials", State::open, "Not assigned", "Assign materials", "material"};
+  const auto& document = model.session.document();
+  if (!document.materials) return step;
+  const auto findings = materialFindings(document);
+  const auto open = std::count_if(findings.begin(), findings.end(), [](const MaterialFinding& f) {
+    return f.because.empty() && f.severity == "warning";
+  });
+  step.state = open > 0 ? State::attention : State::done;
+  step.status = open > 0 ? fmt::format("{} open warnings", open) : "Assigned";
+  step.advice = open > 0 ? "Review open findings" : "";
+  return step;
+}
+
+GuideStep georeferenceStep(const Model& model) {
+  GuideStep step{Workspace::georeference, "Georeference",        State::optional,
+                 "Local coordinates",     "Place it on the map", "georeference"};
+  const auto& georeference = model.session.document().georeference;
+  if (!georeference || georeference->crs.empty()) return step;
+  step.state = State::done;
+  step.status = georeference->crs;
+  step.advice = "";
+  return step;
+}
+
+GuideStep surveyStep(const Model& model) {
+  GuideStep step{Workspace::survey, "Survey", State::open, "No stations", "Add a station", "scan"};
+  const auto& job = model.session.document().job;
+  if (!job || job->stations.empty()) return step;
+  const auto unscanned =
+      std::count_if(job->stations.begin(), job->stations.end(), [](const Station& s) { return s.scans.empty(); });
+  step.status = fmt::format("{} {}", job->stations.size(), job->stations.size() == 1 ? "station" : "stations");
+  step.state = unscanned > 0 ? State::open : State::done;
+  step.advice = unscanned > 0 ? "Scan" : "";
+  if (unscanned > 0) step.status += fmt::format(", {} not scanned", unscanned);
+  return step;
+}
+
+GuideStep instrumentStep(const Model&) {
+  return {Workspace::instrument,  "Instrument",         State::optional,
+          "Rehearse on a device", "Choose an exercise", "instrument"};
+}
+
+GuideStep inspectStep(const Model& model) {
+  GuideStep step{Workspace::inspect, "Inspect", State::open, "Not assessed", "Assess the survey", "quality"};
+  const auto* last = model.session.lastOf("assess");
+  const auto* answer = last == nullptr ? nullptr : answerAs<AssessAnswer>(last->answer);
+  if (answer == nullptr) return step;
+  if (last->revision != model.session.revision()) {
+    step.status = "Assessment is out of date";
+    return step;
+  }
+  const bool good = answer->bad == 0 && answer->warn == 0;
+  step.state = good ? State::done : State::attention;
+  step.status = verdictText(*answer);
+  step.advice = good ? "" : "Look at the worst places";
+  return step;
+}
+
+}  // namespace
+
+std::array<GuideStep, kWorkspaces> guideSteps(const Model& model) {
+  return {environmentStep(model), optimiseStep(model),   materialStep(model), georeferenceStep(model),
+          surveyStep(model),      instrumentStep(model), inspectStep(model)};
+}
+
+const Guide::Steps& Guide::of(const Model& model) const {
+  const auto* assessed = model.session.lastOf("assess");
+  const std::string now =
+      fmt::format("{} {}", model.session.revision(), assessed == nullptr ? "" : assessed->time + assessed->text);
+  if (now != made_for_) {
+    made_for_ = now;
+    steps_ = guideSteps(model);
+  }
+  return steps_;
+}
+
+std::optional<std::size_t> nextStep(const std::array<GuideStep, kWorkspaces>& steps) {
+  for (const auto state : {State::open, State::attention})
+    for (std::size_t i = 0; i < steps.size(); ++i)
+      if (steps[i].state == state) return i;
+  return std::nullopt;
+}
+
+}  // namespace standpoint

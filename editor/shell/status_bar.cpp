@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/shell/status_bar.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "editor/shell/editor.h"
+#include "editor/shell/shell.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/job_progress.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+std::string hoverText(const Editor& editor) {
+  const auto& hover = editor.view.hover;
+  if (!hover || !editor.environment() || hover->product >= editor.environment()->products.size()) return {};
+  const auto& product = editor.environment()->products[hover->product];
+  const Eigen::Vector3d p = hover->position + editor.shift_m();
+  return fmt::format("{}   {}   {:.3f}  {:.3f}  {:.3f} m", readableClass(product.ifc_class), productLabel(product),
+                     p.x(), p.y(), p.z());
+}
+
+// A task, else the scan or the underlay that is being read to be shown.
+bool drawRunningTask(Editor& editor) {
+  const auto& running = editor.session.running();
+  VerbTask* shown = nullptr;
+  for (const auto& task : running)
+    if (std::strcmp(task->verb().name, "save-recovery") != 0) shown = task.get();
+  const bool scan = shown == nullptr && editor.readingCloud();
+  Progress* const followed = shown != nullptr ? &shown->progress()
+                             : scan           ? editor.cloudLoader().progress()
+                                              : editor.underlays.progress();
+  if (followed == nullptr) return false;
+  auto& progress = *followed;
+  const std::string title = shown != nullptr ? shown->title()
+                            : scan           ? "Reading the scan"
+                                             : "Showing " + editor.underlays.reading();
+  const std::string how_far = ui::jobText(progress, shown != nullptr ? shown->seconds()
+                                                    : scan           ? editor.cloudLoader().seconds()
+                                                                     : 0);
+  const std::string text = how_far.empty() ? title : title + "   " + how_far;
+  const float bar = editor.px(160), cancel = editor.px(64);
+  const float width = ImGui::CalcTextSize(text.c_str()).x + bar + cancel + editor.px(30);
+  ImGui::SameLine(std::max(0.0F, ImGui::GetWindowWidth() - width - editor.px(10)));
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::SameLine();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::SetCursorScreenPos({at.x, at.y + (ImGui::GetFrameHeight() - editor.px(6)) / 2});
+  ui::jobBar(editor, progress, bar);
+  ImGui::SetCursorScreenPos({at.x + bar + editor.px(10), at.y});
+  ui::cancelButton(editor, "Cancel###cancel-task", progress, 64);
+  return true;
+}
+
+// At the right of the status bar; a click leads there.
+void drawNextStep(Editor& editor) {
+  const auto& steps = editor.guide.of(editor);
+  const auto next = nextStep(steps);
+  if (!editor.environment() || !next || *steps[*next].advice == 0) return;
+  const std::string text = fmt::format("Next: {}  {}", steps[*next].advice, ICON_CHEVRON_RIGHT);
+  const float width = ImGui::CalcTextSize(text.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x;
+  ImGui::SameLine(std::max(0.0F, ImGui::GetWindowWidth() - width - editor.px(10)));
+  ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0, 0, 0, 0));
+  ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.62F, 0.79F, 1, 1));
+  if (ImGui::Button((text + "###next-step").c_str())) openPanel(editor, steps[*next].workspace, steps[*next].tab);
+  ImGui::PopStyleColor(2);
+  ui::tooltip(fmt::format("{}: {}", steps[*next].title, steps[*next].status));
+}
+
+}  // namespace
+
+void drawStatusBar(Editor& editor) {
+  ImGui::AlignTextToFramePadding();
+  const auto hover = hoverText(editor);
+  if (!hover.empty()) {
+    ImGui::TextUnformatted(hover.c_str());
+  } else if (const auto& environment = editor.environment()) {
+    std::string text = fmt::format("{} products   {} triangles", groupedDigits(environment->products.size()),
+                                   groupedDigits(editor.triangles()));
+    if (!editor.selection.empty()) text += fmt::format("   {} selected", editor.selection.products().size());
+    if (editor.visibility.anyHidden()) text += fmt::format("   {} hidden", editor.visibility.hiddenCount());
+    ui::dimText(text);
+  } else {
+    ui::dimText("No model");
+  }
+  if (!drawRunningTask(editor)) drawNextStep(editor);
+}
+
+}  // namespace standpoint
