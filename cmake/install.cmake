@@ -8,6 +8,7 @@ set(data_folders
   pointclouds/classes
   scanners/instruments scanners/stands scanners/targets)
 set(data_files materials/schema.json)
+set(sample_pictures samples/pictures/house.ifc.png samples/pictures/street.ifc.png)
 set(built_data ${CMAKE_BINARY_DIR}/share/standpoint)
 
 function(standpoint_link from to)
@@ -21,6 +22,7 @@ foreach(data ${data_folders} ${data_files})
   standpoint_link(${PROJECT_SOURCE_DIR}/${data} ${built_data}/${data})
 endforeach()
 standpoint_link(${CMAKE_BINARY_DIR}/samples ${built_data}/samples)
+standpoint_link(${PROJECT_SOURCE_DIR}/samples/pictures ${built_data}/sample-pictures)
 
 set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
@@ -37,6 +39,7 @@ foreach(file ${data_files})
 endforeach()
 install(FILES ${CMAKE_BINARY_DIR}/samples/house.ifc ${CMAKE_BINARY_DIR}/samples/street.ifc
   DESTINATION ${data}/samples)
+install(FILES ${sample_pictures} DESTINATION ${data}/sample-pictures)
 
 # Manual pages and completion from the table of verbs.
 set(manual ${CMAKE_BINARY_DIR}/manual)

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "editor/model/model.h"
 #include "core/number_text.h"
+#include "editor/model/model.h"
 #include "project/materials/material_findings.h"
 #include "project/survey/assess_verb.h"
 

@@ -18,6 +18,15 @@ bool containsText(const std::string& text, const std::string& part) {
   return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
 }
 
+std::string now(const char* format) {
+  const std::time_t seconds = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&seconds, &local);
+  char text[32];
+  std::strftime(text, sizeof text, format, &local);
+  return text;
+}
+
 }  // namespace
 
 bool passes(const LogEntry& entry, const LogFilter& filter) {
@@ -48,10 +57,10 @@ LogLevel levelOf(Severity severity) {
 }
 
 std::vector<LogEntry> entriesOf(const Report& report) {
-  const std::string now = timeOfDay();
+  const std::string time = timeOfDay();
   std::vector<LogEntry> entries;
   for (const Issue& issue : report.issues)
-    entries.push_back({levelOf(issue.severity), now, issue.source, issue.message, false});
+    entries.push_back({levelOf(issue.severity), time, issue.source, issue.message, false});
   for (const auto& alike : alikeIssues(report)) {
     for (const auto other : alike.others) entries[other].follows = true;
     if (!alike.others.empty())
@@ -69,13 +78,8 @@ std::optional<std::uint32_t> productOf(const Environment& environment, const std
   return std::nullopt;
 }
 
-std::string timeOfDay() {
-  const std::time_t now = std::time(nullptr);
-  std::tm local{};
-  localtime_r(&now, &local);
-  char text[16];
-  std::strftime(text, sizeof text, "%H:%M:%S", &local);
-  return text;
-}
+std::string timeOfDay() { return now("%H:%M:%S"); }
+
+std::string dateAndTime() { return now("%Y-%m-%d %H.%M.%S"); }
 
 }  // namespace standpoint

@@ -34,5 +34,6 @@ std::vector<LogEntry> entriesOf(const Report& report);
 // The product that a source names by its id ("#1234", also inside "house.ifc #1234").
 std::optional<std::uint32_t> productOf(const Environment& environment, const std::string& source);
 std::string timeOfDay();
+std::string dateAndTime();  // "2026-11-24 10.41.03", which a file may be called
 
 }  // namespace standpoint

@@ -30,6 +30,7 @@
 #include "editor/model/settings.h"
 #include "editor/model/style.h"
 #include "editor/model/target_list.h"
+#include "editor/model/tour.h"
 #include "editor/model/underlay_view.h"
 #include "editor/model/view_state.h"
 #include "editor/model/visibility.h"
@@ -115,6 +116,7 @@ struct Model : Style {
   Picker picker;
   RoomLabels room_labels;
   Guide guide;
+  Tour tour;
   PlacementView placement;  // of what is picked
   Walk walk;                // while the tool is Tool::walk
   WalkGround walk_ground;

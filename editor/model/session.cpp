@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "editor/model/settings.h"
 #include "project/fields.h"
 #include "project/model/import_verb.h"
 #include "project/storage/project_files.h"
@@ -385,13 +386,23 @@ void Session::forgetRecovered() {
   recovered_from_.clear();
 }
 
+std::filesystem::path Session::ownFolder() const {
+  if (!folder_.empty()) return folder_;
+  std::string own = name() + " " + begun_;
+  std::replace(own.begin(), own.end(), '/', '_');
+  return unsavedRoot() / own;
+}
+
 void Session::stayIn(const std::filesystem::path& folder, std::string on_disk) {
   folder_ = folder;
   on_disk_ = std::move(on_disk);
   changed_on_disk_ = false;
 }
 
-void Session::leaveFolder() { stayIn({}, {}); }
+void Session::leaveFolder() {
+  stayIn({}, {});
+  begun_ = dateAndTime();
+}
 
 void Session::fail(const VerbTask& task, const Error& error) {
   const bool cancelled = error.kind == ErrorKind::cancelled;

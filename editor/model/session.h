@@ -140,6 +140,8 @@ class Session {
   bool changedOnDisk();
   void keepOverDisk();  // the next save replaces what the other program wrote
   const std::filesystem::path& folder() const { return folder_; }  // empty until saved or opened
+  // folder(), or while there is none a place that is this project's own: scanning needs no saving.
+  std::filesystem::path ownFolder() const;
   std::string name() const;
   bool modified() const { return history_.modified(); }
   // Rises with every change of the document, for what is derived from it.
@@ -161,7 +163,8 @@ class Session {
   std::function<void()> wake_;
   History history_;
   std::filesystem::path folder_;
-  std::string on_disk_;  // what the project on disk was when it was last read or written here
+  std::string begun_ = dateAndTime();  // the project
+  std::string on_disk_;                // what the project on disk was when it was last read or written here
   bool changed_on_disk_ = false;
   std::chrono::steady_clock::time_point looked_;
   std::vector<std::unique_ptr<VerbTask>> running_;

@@ -90,6 +90,8 @@ Settings settingsFrom(const json& object) {
 
 std::filesystem::path settingsFile() { return baseFolder("XDG_CONFIG_HOME", ".config") / "standpoint" / "editor.json"; }
 
+std::filesystem::path unsavedRoot() { return baseFolder("XDG_DATA_HOME", ".local/share") / "standpoint" / "unsaved"; }
+
 std::filesystem::path recoveryRoot() {
   return baseFolder("XDG_STATE_HOME", ".local/state") / "standpoint" / "recovery";
 }

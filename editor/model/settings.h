@@ -46,6 +46,7 @@ nlohmann::json toJson(const Settings& settings);
 Settings settingsFrom(const nlohmann::json& object);
 
 std::filesystem::path settingsFile();  // XDG_CONFIG_HOME/standpoint/editor.json
+std::filesystem::path unsavedRoot();   // XDG_DATA_HOME/standpoint/unsaved: what was scanned before a project was saved
 std::filesystem::path recoveryRoot();  // XDG_STATE_HOME/standpoint/recovery
 Settings readSettings(const std::filesystem::path& file);
 Result<void> writeSettings(const Settings& settings, const std::filesystem::path& file);

@@ -19,7 +19,8 @@ constexpr double kStoreySill = 0.4;  // m under a storey's level that still belo
 constexpr double kBodyMiddle_m = 0.9;
 
 ViewHistory::View viewNow(const Model& model) {
-  return {model.view.camera, model.walk.active() ? std::optional(model.walk.feet()) : std::nullopt};
+  return {model.view.camera, model.walk.active() ? std::optional(model.walk.feet()) : std::nullopt,
+          model.visibility.cut_height_m};
 }
 
 void walkFrom(Model& model, WalkPlace place) {
@@ -35,6 +36,7 @@ bool begin(Model& model, const std::shared_ptr<const WalkedGround>& ground, cons
   if (!model.walk.start(ground, model.walker, place, model.view.camera)) return false;
   model.views.push(before);
   model.view.tool = Tool::walk;
+  model.visibility.cut_height_m.reset();  // rooms have walls and ceilings for whoever stands in them
   return true;
 }
 
@@ -117,6 +119,7 @@ void goBackInViews(Model& model) {
   else
     stopWalking(model);
   model.view.camera = view->camera;
+  model.visibility.cut_height_m = view->cut_height_m;
 }
 
 void followWalking(Model& model) {

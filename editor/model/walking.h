@@ -25,6 +25,7 @@ class ViewHistory {
   struct View {
     Camera camera;
     std::optional<Eigen::Vector3d> feet;  // of whoever walked there
+    std::optional<double> cut_height_m;
   };
   void push(const View& view);
   std::optional<View> back();

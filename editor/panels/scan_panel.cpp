@@ -90,10 +90,7 @@ std::vector<const CloudFormat*> writableFormats() {
   return result;
 }
 
-std::filesystem::path standardFolder(const Model& model) {
-  if (!model.session.folder().empty()) return model.session.folder() / "scans";
-  return {};
-}
+std::filesystem::path standardFolder(const Model& model) { return model.session.ownFolder() / "scans"; }
 
 void drawOutput(const Model& model, ScanState& state, Actions& actions,
                 const std::vector<const CloudFormat*>& formats) {
@@ -109,8 +106,9 @@ void drawOutput(const Model& model, ScanState& state, Actions& actions,
   }
   ui::propertyLabel("Folder");
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x);
-  ImGui::InputTextWithHint("###folder", standardFolder(model).empty() ? "Choose a folder" : "Project scans",
-                           &state.folder);
+  const bool unsaved = model.session.folder().empty();
+  ImGui::InputTextWithHint("###folder", unsaved ? "Scans of unsaved projects" : "Project scans", &state.folder);
+  if (state.folder.empty()) ui::tooltip(standardFolder(model).string());
   ImGui::SameLine();
   if (ui::iconButton(ICON_FOLDER_OPEN "###choose-folder", "Choose…"))
     actions.askForFile(FileDialogState::Purpose::saveFolder, "Scan folder", "Choose", {".none"}, "scans",
@@ -184,11 +182,9 @@ void drawForecast(const Model& model, const ScanState& state, const ScanChoice& 
 }
 
 // Why there cannot be a scan now, beyond what the verb itself asks for.
-std::string whyNotScan(const Model& model, const ScanChoice& asked, const ScanSettings& settings,
-                       const std::filesystem::path& folder) {
+std::string whyNotScan(const Model& model, const ScanChoice& asked, const ScanSettings& settings) {
   if (auto why = model.session.whyNot("scan"); !why.empty()) return why;
-  if (model.session.document().job->stations.empty()) return "Add a station first: press T and click the floor";
-  if (folder.empty()) return "Choose a folder, or save the project to use its scan folder";
+  if (model.session.document().job->stations.empty()) return "Add a station first: press Shift+T and click the floor";
   return whyNotConditions(asked, settings);
 }
 
@@ -244,8 +240,7 @@ void drawForm(const Model& model, ScanState& state, ScanChoice& asked, Actions& 
   const std::filesystem::path folder =
       state.folder.empty() ? standardFolder(model) : std::filesystem::path(state.folder);
   const CloudFormat* format = formats.empty() ? nullptr : formats[static_cast<std::size_t>(state.format)];
-  if (ui::primaryButton(ICON_PLAY "  Scan###run-scan", whyNotScan(model, asked, *settings, folder),
-                        {-FLT_MIN, model.px(28)}))
+  if (ui::primaryButton(ICON_PLAY "  Scan###run-scan", whyNotScan(model, asked, *settings), {-FLT_MIN, model.px(28)}))
     start(model, state, asked, actions, folder, format);
   if (!model.session.document().materials) {
     ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);

@@ -13,6 +13,7 @@
 #include "editor/shell/editor.h"
 #include "editor/shell/escape.h"
 #include "editor/shell/import_preview.h"
+#include "editor/shell/tour_card.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keyboard.h"
 #include "editor/widgets/widgets.h"
@@ -40,7 +41,6 @@ void openProject(Editor& e) {
   whenSaved(e, [&e] { askForProject(e); });
 }
 void importModel(Editor& e) { askForModel(e); }
-void openSample(Editor& e) { openPath(e, (samplesFolder() / "house.ifc").string()); }
 void save(Editor& e) {
   if (e.session.folder().empty())
     askWhereToSave(e);
@@ -152,7 +152,8 @@ const std::array kActions = {
     Action{"new", "New project", ICON_FILE_NEW, {'N', true}, newProject, whyOpenNot},
     Action{"open", "Open project…", ICON_FOLDER_OPEN, {'O', true}, openProject, whyOpenNot},
     Action{"import", "Import model…", ICON_IMPORT, {'I', true}, importModel, whyImportNot},
-    Action{"sample", "Open sample house", ICON_BUILDING, {}, openSample, whyImportNot},
+    Action{"sample", "Open sample house", ICON_BUILDING, {}, [](Editor& e) { openSample(e, "house.ifc"); }, whyImportNot},
+    Action{"first-steps", "First steps in the sample house", ICON_FLAG, {}, beginTour, whyImportNot},
     Action{"update", "Update from a changed model…", "", {}, askForChangedModel, whyUpdateNot},
     Action{"save", "Save", ICON_SAVE, {'S', true}, save, whySaveNot},
     Action{"save-as", "Save as…", "", {'S', true, true}, askWhereToSave, whySaveNot},
@@ -551,6 +552,12 @@ void whenSaved(Editor& editor, std::function<void()> then) {
   }
   editor.dialogs.unsaved = true;
   editor.dialogs.after_unsaved = std::move(then);
+}
+
+void openSample(Editor& editor, const std::string& file) {
+  whenSaved(editor, [&editor, file] {
+    editor.session.start("import", {{"files", {(samplesFolder() / file).string()}}}, "Open sample " + file);
+  });
 }
 
 void openPath(Editor& editor, const std::string& path) { openFiles(editor, {path}); }

@@ -41,6 +41,8 @@ void openVerbForm(Editor& editor, const char* verb);
 // Asks about unsaved changes first, when there are any.
 void whenSaved(Editor& editor, std::function<void()> then);
 // A file or folder by what it is: a project is opened, a model previewed, a cloud laid under the model.
+// One that comes with the program, without a preview.
+void openSample(Editor& editor, const std::string& file);
 void openPath(Editor& editor, const std::string& path);
 
 }  // namespace standpoint

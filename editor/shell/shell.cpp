@@ -16,6 +16,7 @@
 #include "editor/shell/escape.h"
 #include "editor/shell/import_preview.h"
 #include "editor/shell/panel_actions.h"
+#include "editor/shell/start_page.h"
 #include "editor/shell/status_bar.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
@@ -173,7 +174,7 @@ void drawMenuBar(Editor& editor) {
     ImGui::EndMenu();
   }
   if (ImGui::BeginMenu("Help")) {
-    items(editor, {"shortcuts", "palette", "", "about"});
+    items(editor, {"first-steps", "shortcuts", "palette", "", "about"});
     ImGui::EndMenu();
   }
   const std::string title = editor.session.name() + (editor.session.modified() ? "  •" : "");
@@ -379,6 +380,17 @@ void drawPreviewShell(Editor& editor) {
   drawMessages(editor);
 }
 
+void drawWorkspace(Editor& editor, const Box& all) {
+  const Layout l = layOut(editor, all);
+  drawArea(editor, "###left", l.left, Area::left);
+  drawArea(editor, "###right", l.right, Area::right);
+  drawArea(editor, "###bottom", l.bottom, Area::bottom);
+  beginFixed("###viewport", l.middle, {0, 0}, IM_COL32(35, 39, 46, 255));
+  drawViewport(editor);
+  ImGui::End();
+  drawSplitters(editor, l);  // last: windows that keep their place lie behind those made before them
+}
+
 }  // namespace
 
 void openPanel(Editor& editor, Workspace workspace, std::string_view panel) {
@@ -402,14 +414,14 @@ void drawShell(Editor& editor) {
   const float menu = ImGui::GetFrameHeight(), tools = ImGui::GetFrameHeight() + editor.px(12),
               status = ImGui::GetFrameHeight() + editor.px(4);
   drawToolbar(editor, {0, menu, display.x, tools});
-  const Layout l = layOut(editor, {0, menu + tools, display.x, display.y - menu - tools - status});
-  drawArea(editor, "###left", l.left, Area::left);
-  drawArea(editor, "###right", l.right, Area::right);
-  drawArea(editor, "###bottom", l.bottom, Area::bottom);
-  beginFixed("###viewport", l.middle, {0, 0}, IM_COL32(35, 39, 46, 255));
-  drawViewport(editor);
-  ImGui::End();
-  drawSplitters(editor, l);  // last: windows that keep their place lie behind those made before them
+  const Box all = {0, menu + tools, display.x, display.y - menu - tools - status};
+  if (wantsStartPage(editor)) {
+    beginFixed("###start", all, {0, 0}, IM_COL32(31, 35, 41, 255));
+    drawStartPage(editor, {all.w, all.h});
+    ImGui::End();
+  } else {
+    drawWorkspace(editor, all);
+  }
   beginFixed("###status", {0, display.y - status, display.x, status}, {editor.px(10), editor.px(2)},
              IM_COL32(26, 29, 34, 255));
   drawStatusBar(editor);

@@ -14,6 +14,7 @@
 #include "editor/shell/shell.h"
 #include "editor/shell/station_drag.h"
 #include "editor/shell/teleport.h"
+#include "editor/shell/tour_card.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keyboard.h"
 #include "editor/widgets/theme.h"
@@ -189,37 +190,6 @@ void handleMouse(Editor& editor, ImVec2 origin, bool hovered) {
   }
 }
 
-void drawWelcome(Editor& editor, ImVec2 origin, ImVec2 size) {
-  const float width = std::min(editor.px(420), size.x * 0.9F);
-  ImGui::SetCursorScreenPos({origin.x + (size.x - width) / 2, origin.y + size.y * 0.26F});
-  ImGui::BeginChild("welcome", {width, editor.px(330)}, false, ImGuiWindowFlags_NoBackground);
-  ui::emptyState(editor, ICON_CUBE, "No model yet",
-                 "Import or drop an IFC, glTF, OBJ, PLY or STL file, or open a project folder.");
-  const float button = std::min(editor.px(150), (width - editor.px(8)) / 2);
-  ImGui::SetCursorPosX((width - 2 * button - editor.px(8)) / 2);
-  if (ui::primaryButton(ICON_IMPORT "  Import model…###welcome-import", editor.session.whyNot("import"),
-                        {button, editor.px(30)}))
-    invoke(editor, "import");
-  ImGui::SameLine();
-  if (ui::button(ICON_FOLDER_OPEN "  Open project…###welcome-open", editor.session.whyNot("open-project"),
-                 {button, editor.px(30)}))
-    invoke(editor, "open");
-  ui::gap(editor, 8);
-  ImGui::SetCursorPosX((width - button) / 2);
-  if (ui::button(ICON_BUILDING "  Open sample house###welcome-sample", editor.session.whyNot("import"),
-                 {button, editor.px(30)}))
-    invoke(editor, "sample");
-  ui::gap(editor, 8);
-  const auto recent = editor.settings.recent;
-  for (std::size_t i = 0; i < std::min<std::size_t>(recent.size(), 5); ++i) {
-    const std::filesystem::path path = recent[i];
-    if (ImGui::Selectable(fmt::format("{}  {}###recent{}", ICON_HISTORY, path.filename().string(), i).c_str()))
-      openPath(editor, recent[i]);
-    ui::tooltip(recent[i]);
-  }
-  ImGui::EndChild();
-}
-
 void drawScene(SceneView* scene, const ViewState& state, ImVec2 origin, ImVec2 size, bool fine) {
   const float pixels = ImGui::GetIO().DisplayFramebufferScale.x > 0 ? ImGui::GetIO().DisplayFramebufferScale.x : 1;
   const std::uint64_t texture = scene == nullptr ? 0
@@ -274,7 +244,7 @@ void drawViewport(Editor& editor) {
   if (!previewed) drawCoverage(editor, origin, size);
   if (!editor.shown()) {
     if (previewed) return;
-    drawWelcome(editor, origin, size);
+    ui::emptyState(editor, ICON_CUBE, "No model yet", "Choose an exercise, or import a model (Ctrl+I).");
     return;
   }
   ImGui::SetCursorScreenPos(origin);
@@ -297,6 +267,7 @@ void drawViewport(Editor& editor) {
   drawMarkers(editor, both ? right : origin);
   drawOverlay(editor, origin, whole);
   drawTeleport(editor, both ? right : origin);
+  drawTour(editor, origin, whole);
   contextMenu(editor);
   drawMaterialMenu(editor);
 }

@@ -203,7 +203,7 @@ class VtkSceneView : public SceneView {
     setUpLayers();
   }
   ~VtkSceneView() override {
-    if (pixels_texture_ != 0) glDeleteTextures(1, &pixels_texture_);
+    for (const auto& p : pixels_) glDeleteTextures(1, &p.texture);
     window_->Finalize();
   }
   VtkSceneView(const VtkSceneView&) = delete;
@@ -235,20 +235,25 @@ class VtkSceneView : public SceneView {
 
   std::uint64_t texture(const std::shared_ptr<const PixelPicture>& picture) override {
     if (picture == nullptr || picture->rgba.empty()) return 0;
-    if (picture == pixels_) return pixels_texture_;
-    pixels_ = picture;
-    if (pixels_texture_ == 0) glGenTextures(1, &pixels_texture_);
-    smooth(pixels_texture_);
+    auto shown = std::find_if(pixels_.begin(), pixels_.end(), [&](const auto& p) { return p.of.lock() == picture; });
+    if (shown != pixels_.end()) return shown->texture;
+    shown = std::find_if(pixels_.begin(), pixels_.end(), [](const auto& p) { return p.of.expired(); });
+    if (shown == pixels_.end()) {
+      shown = pixels_.emplace(pixels_.end());
+      glGenTextures(1, &shown->texture);
+    }
+    shown->of = picture;
+    smooth(shown->texture);
     GLint bound = 0;
     glGetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
-    glBindTexture(GL_TEXTURE_2D, pixels_texture_);
+    glBindTexture(GL_TEXTURE_2D, shown->texture);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, picture->width, picture->height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
                  picture->rgba.data());
     glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(bound));
-    return pixels_texture_;
+    return shown->texture;
   }
 
  private:
@@ -553,8 +558,11 @@ class VtkSceneView : public SceneView {
   std::vector<std::unique_ptr<UnderlayLayer>> underlays_;
   Bounds bounds_, reach_;  // of the environment; of all that is shown
   std::optional<ViewState> drawn_;
-  std::shared_ptr<const PixelPicture> pixels_;  // what pixels_texture_ shows
-  GLuint pixels_texture_ = 0;
+  struct PixelTexture {
+    std::weak_ptr<const PixelPicture> of;  // gone: the texture is free for another
+    GLuint texture = 0;
+  };
+  std::vector<PixelTexture> pixels_;
   bool fine_ = false;
   int width_ = 0, height_ = 0;  // of the picture as it is shown
 };

@@ -113,6 +113,17 @@ TEST_F(ScanPanel, SwitchesEffectsOneByOneAndAllTogether) {
   EXPECT_EQ(asked().effects, Effects::none());
 }
 
+TEST_F(ScanPanel, NeedsNoSavedProjectToScanIn) {
+  ASSERT_TRUE(editor.session.folder().empty());
+  gui.frames(2);
+  EXPECT_FALSE(gui.find("###run-scan")->disabled);
+  const auto own = editor.session.ownFolder();
+  EXPECT_EQ(own.parent_path(), unsavedRoot());
+  EXPECT_EQ(editor.session.ownFolder(), own) << "and it stays there";
+  editor.session.clear();
+  EXPECT_NE(editor.session.ownFolder().filename().string().substr(0, 5), own.filename().string().substr(0, 5));
+}
+
 TEST_F(ScanPanel, RefusesWeatherThatCannotBe) {
   editor.panels.of<ScanState>().folder = testing::TempDir();
   gui.frames(2);

@@ -57,6 +57,14 @@ TEST_F(Walking, BeginsOnTheFloorAtEyeHeightAndEndsWithEscape) {
   EXPECT_NEAR((editor.view.camera.eye() - eye).norm(), 0, 1e-6) << "it stays where one walked to";
 }
 
+TEST_F(Walking, TakesTheCutAwayAndThePreviousViewBringsItBack) {
+  editor.visibility.cut_height_m = 1.2;
+  walk();
+  EXPECT_FALSE(editor.visibility.cut_height_m);
+  goBackInViews(editor);
+  EXPECT_EQ(editor.visibility.cut_height_m, 1.2);
+}
+
 TEST_F(Walking, NeedsNoPreparationAndIsNoChangeOfTheDocument) {
   const auto revision = editor.session.revision();
   const bool modified = editor.session.modified();
