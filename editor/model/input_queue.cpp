@@ -12,13 +12,16 @@ using EventKind = InputEvent::Kind;
 // Keys that make no character and need not come first: Shift, Alt, AltGr.
 bool onlyModifies(int code) { return code == 340 || code == 344 || code == 342 || code == 346; }
 
+bool modifies(int code) { return code >= 340 && code <= 347; }  // Shift, Ctrl, Alt, Super, left and right
+
 // Ctrl, Backspace, arrows, Enter: what comes after them is another edit.
 bool editsBeforeCharacters(const InputEvent& e) {
   return e.kind == EventKind::key && e.down && e.code >= 256 && !onlyModifies(e.code);
 }
 
 // A click belongs to the place where the pointer was, so nothing moves after a button within a frame. Dear ImGui takes
-// the characters of a frame before its keys: a character waits for such a key before it, and no key for a character.
+// the characters of a frame before its keys: a character waits for such a key before it, and no key for a character. A
+// key goes down with the modifiers of its moment, so these change in the next frame.
 bool mustWait(const InputEvent& event, const std::vector<InputEvent>& taken) {
   const auto has = [&](EventKind kind) {
     return std::any_of(taken.begin(), taken.end(), [&](const InputEvent& e) { return e.kind == kind; });
@@ -32,7 +35,8 @@ bool mustWait(const InputEvent& event, const std::vector<InputEvent>& taken) {
       return has(EventKind::button) || std::any_of(taken.begin(), taken.end(), editsBeforeCharacters);
     case EventKind::key:
       return has(EventKind::button) || std::any_of(taken.begin(), taken.end(), [&](const InputEvent& e) {
-               return e.kind == EventKind::key && e.code == event.code;
+               if (e.kind != EventKind::key) return false;
+               return e.code == event.code || (modifies(event.code) && e.down && !modifies(e.code));
              });
   }
   return false;

@@ -46,6 +46,20 @@ TEST(InputQueue, CoalescesMovesButKeepsTheOneBeforeAClick) {
   EXPECT_EQ(queue.takeFrame().at(0).x, 500);
 }
 
+TEST(InputQueue, AKeyIsSeenWithTheModifierOfItsMoment) {
+  constexpr int kShift = 340;
+  InputQueue queue;
+  queue.push(keyEvent(kShift, true));
+  queue.takeFrame();
+  queue.push(keyEvent('T', true));
+  queue.push(keyEvent(kShift, false));  // before the key itself goes up, and before the next frame
+  queue.push(keyEvent('T', false));
+  const auto first = queue.takeFrame();
+  ASSERT_EQ(first.size(), 1U);
+  EXPECT_EQ(first[0].code, 'T');
+  EXPECT_EQ(queue.takeFrame().size(), 2U);
+}
+
 TEST(InputQueue, LetsDifferentKeysPassTogether) {
   InputQueue queue;
   queue.push(keyEvent(341, true));  // left control
