@@ -173,6 +173,7 @@ TEST(HostileLas, IsRefusedAtOnceWithTheReason) {
       {"has 375 bytes, this one 12", [](std::string& b) { put<std::uint16_t>(b, 94, 12); }},
       {"scale or offset of y", [](std::string& b) { put<double>(b, 139, 0); }},
       {"scale or offset of x", [](std::string& b) { put<double>(b, 131, NAN); }},
+      {"scale or offset of x", [](std::string& b) { put<double>(b, 131, 1e300); }},
       {"scale or offset of z", [](std::string& b) { put<double>(b, 171, INFINITY); }},
       {"truncated inside its header", [](std::string& b) { b.resize(200); }}};
   const TemporaryFolder folder;
