@@ -19,7 +19,7 @@ using Rgba = std::array<std::uint8_t, 4>;
 constexpr std::array<std::array<double, 3>, 5> kIntensityStops = {
     {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}}};
 constexpr std::array<std::array<double, 3>, 5> kNoiseStops = {
-    {{222, 235, 247}, {158, 202, 225}, {253, 208, 120}, {240, 120, 70}, {150, 20, 60}}};
+    {{225, 238, 250}, {110, 170, 215}, {253, 208, 120}, {240, 120, 70}, {150, 20, 60}}};
 
 Rgba shaded(const Rgba& colour, float fraction) {
   const auto of = [&](std::uint8_t c) { return static_cast<std::uint8_t>(static_cast<float>(c) * fraction + 0.5F); };
@@ -45,14 +45,15 @@ const char* fateName(ReturnFate fate) {
   return "";
 }
 
+// After Okabe and Ito, who chose colours that all people tell apart.
 Rgba fateColour(ReturnFate fate) {
   switch (fate) {
-    case ReturnFate::returned: return {126, 178, 120, 255};
-    case ReturnFate::too_weak: return {214, 64, 56, 255};
-    case ReturnFate::seen_through: return {98, 160, 214, 255};
+    case ReturnFate::returned: return {0, 158, 115, 255};
+    case ReturnFate::too_weak: return {213, 94, 0, 255};
+    case ReturnFate::seen_through: return {86, 180, 233, 255};
     case ReturnFate::hidden: return {112, 117, 126, 255};
-    case ReturnFate::too_near: return {190, 110, 200, 255};
-    case ReturnFate::too_far: return {232, 150, 62, 255};
+    case ReturnFate::too_near: return {222, 150, 190, 255};
+    case ReturnFate::too_far: return {240, 228, 66, 255};
   }
   return {};
 }

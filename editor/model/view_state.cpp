@@ -31,10 +31,12 @@ Colour materialColour(const PhysicalMaterial* material) {
 
 Colour confidenceColour(double confidence) {
   if (confidence < 0) return materialColour(nullptr);
-  // Stops at 0, kWeakConfidence and 1.
-  if (confidence < kWeakConfidence) return {0.84F, static_cast<float>(0.33 + 0.4 * confidence), 0.25F, 1};
-  const auto fraction = static_cast<float>(std::min(1.0, (confidence - kWeakConfidence) / (1 - kWeakConfidence)));
-  return {std::lerp(0.90F, 0.42F, fraction), std::lerp(0.72F, 0.70F, fraction), std::lerp(0.30F, 0.46F, fraction), 1};
+  const bool weak = confidence < kWeakConfidence;
+  const auto fraction = static_cast<float>(
+      weak ? confidence / kWeakConfidence : std::min(1.0, (confidence - kWeakConfidence) / (1 - kWeakConfidence)));
+  if (weak)
+    return {std::lerp(0.38F, 0.69F, fraction), std::lerp(0.16F, 0.33F, fraction), std::lerp(0.09F, 0.12F, fraction), 1};
+  return {std::lerp(0.88F, 0.84F, fraction), std::lerp(0.59F, 0.92F, fraction), std::lerp(0.24F, 0.89F, fraction), 1};
 }
 
 }  // namespace standpoint
