@@ -133,7 +133,9 @@ int makeDevicePictures(const Arguments& arguments) {
 int openWindow(const Arguments& arguments) {
   Editor editor(allVerbs(), wakeWindow);
   attachInstrument(editor);
-  editor.settings = readSettings(settingsFile());
+  auto stored = readSettings(settingsFile());
+  editor.settings = std::move(stored.settings);
+  if (!stored.problem.empty()) editor.say(std::move(stored.problem));
   editor.dialogs.recovery = findRecoveryCopies(recoveryRoot());
   openAll(editor, arguments.paths);
   const auto shown = runWindow(editor, arguments.width, arguments.height);

@@ -9,6 +9,7 @@
 #include "core/part_file.h"
 #include "editor/instrument/desk.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 #include "emulated-ui/device/format.h"
 #include "emulated-ui/rehearsal/marks.h"
@@ -100,7 +101,8 @@ void record(InstrumentDesk& desk, Editor& editor) {
   }
 }
 
-constexpr ImU32 kHeld = IM_COL32(110, 190, 120, 255), kBroken = IM_COL32(230, 110, 100, 255);
+constexpr Tone kHeld{IM_COL32(110, 190, 120, 255), tone::kGood.light},
+    kBroken{IM_COL32(230, 110, 100, 255), tone::kBad.light};
 
 // A mark, and the text beside it: its further lines begin where the first does.
 void marked(const char* mark, const std::string& text, ImU32 colour) {

@@ -19,6 +19,7 @@ double longestWait(const FramePacer::Reasons& r) {
   atMost(r.walker_moves, kWalkerMoves_s);
   atMost(r.text_edited, kCursorBlinks_s);
   atMost(r.job_runs, kBarMoves_s);
+  atMost(r.refining, 0);
   atMost(r.until_fine_s >= 0, std::max(0.01, r.until_fine_s));
   return wait;
 }

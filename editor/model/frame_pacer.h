@@ -15,6 +15,10 @@ class EventSource {
   virtual void waitAtMost(double seconds) = 0;
 };
 
+// How long after the last input a picture is made fine, if that takes so long: at once, so that it is sharp within
+// 100 ms, unless that would hold up whoever goes on moving after a moment.
+inline double stillFor_s(double fine_picture_s) { return fine_picture_s <= 0.055 ? 0.04 : 0.25; }
+
 // When the next picture is drawn. Nothing is drawn while nothing happens.
 class FramePacer {
  public:
@@ -25,6 +29,7 @@ class FramePacer {
     bool walker_moves = false;  // slows down, falls or rises by itself
     bool text_edited = false;   // its cursor blinks
     bool job_runs = false;      // its bar moves
+    bool refining = false;      // the picture gets better by being drawn again
     double until_fine_s = -1;   // until the picture may be made fine; less than 0: it is
   };
 

@@ -86,7 +86,13 @@ void Model::followLiveScan() {
   if (scan == finished.end() || !scan->ok || cloud_->colours.empty()) cloud_.reset();  // back to the model
 }
 
+void Model::say(std::string text) {
+  constexpr std::chrono::seconds kShown(10);
+  notice = {std::move(text), std::chrono::steady_clock::now() + kShown};
+}
+
 void Model::update() {
+  graphics.choose(settings.graphics);
   session.poll();
   followLiveScan();
   if (auto read = cloud_loader_.take()) {
@@ -189,6 +195,7 @@ void Model::adoptDocument() {
   picker.follow(document.environment(), wake);
   if (document.imported == imported_) return;
   const auto before = std::exchange(imported_, document.imported);
+  graphics.showAnother();
   walk_ground.cancel();
   wanted_walk = nullptr;
   // A changed model in place of the one before keeps what is hidden, chosen and looked at.
@@ -212,6 +219,7 @@ ViewState Model::viewState() const {
   ViewState state;
   state.environment = document.environment();
   state.camera = view.camera;
+  state.graphics = graphicsLook();
   state.colour = view.colour;
   state.wavelength_nm = view.wavelength_nm;
   state.edges = view.edges;
@@ -317,8 +325,8 @@ Bounds Model::boundsOfVisible(bool with_terrain) const {
   const bool in_preview = preview.outcome() != nullptr;
   for (std::uint32_t p = 0; p < each.size(); ++p) {
     const auto& product = shown()->products[p];
-    const bool terrain = product.ifc_class == "IfcSite" || product.ifc_class == "IfcGeographicElement";
-    if ((in_preview || !visibility.hidden(p)) && product.inScene() && !each[p].empty() && (with_terrain || !terrain))
+    if ((in_preview || !visibility.hidden(p)) && product.inScene() && !each[p].empty() &&
+        (with_terrain || !isTerrain(product)))
       all.extend(each[p]);
   }
   if (in_preview) return all;

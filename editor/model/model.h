@@ -17,6 +17,7 @@
 #include "editor/model/catalogue.h"
 #include "editor/model/cloud.h"
 #include "editor/model/expected_view.h"
+#include "editor/model/graphics.h"
 #include "editor/model/guide.h"
 #include "editor/model/import_preview.h"
 #include "editor/model/live_cloud.h"
@@ -125,6 +126,7 @@ struct Model : Style {
   ImportPreview preview;
   Selection preview_selection;  // products of what the preview shows
   UnderlayView underlays;
+  GraphicsPace graphics;
   BudgetPreview budget_preview;
   std::optional<SimplificationRequest> previewed;  // what a panel asks for
   DeviationView deviation;
@@ -142,6 +144,14 @@ struct Model : Style {
   ScanChoice scan_choice{.instrument = "leica-rtc360"};  // what the next scan is set to
   SeenLimits seen;
   Body walker{0.25, 1.70};  // who walks through the model, and for whom its surface is computed
+
+  // What the status bar says for a while, though nobody has asked.
+  struct Notice {
+    std::string text;
+    std::chrono::steady_clock::time_point until;
+  };
+  Notice notice;
+  void say(std::string text);
 
   std::function<void()> wake;
 
@@ -162,6 +172,7 @@ struct Model : Style {
 
   // To be called once a frame before drawing: results of tasks, and what follows from another document.
   void update();
+  GraphicsLook graphicsLook() const { return {graphics.level(), settings.theme}; }
   ViewState viewState() const;      // of the lighter model where there is one
   ViewState originalState() const;  // of the model as it was imported
   // What the probe's instrument gets from the model and its materials; null until picking is ready.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
+#include <string_view>
 
 #include "core/part_file.h"
 #include "editor/model/interface_scale.h"
@@ -22,12 +24,39 @@ std::filesystem::path baseFolder(const char* variable, const char* fallback) {
   return std::filesystem::temp_directory_path();
 }
 
-template <class T>
-void read(const json& object, const char* key, T& value, T low, T high) {
-  const auto found = object.find(key);
-  if (found == object.end() || !found->is_number()) return;
-  value = std::clamp(found->get<T>(), low, high);
-}
+// Reads what is there, and notes the keys of what makes no sense.
+class Reader {
+ public:
+  Reader(const json& object, std::vector<std::string>& wrong) : object_(object), wrong_(wrong) {}
+
+  const json* find(const char* key, json::value_t type) const {
+    const auto found = object_.find(key);
+    if (found == object_.end()) return nullptr;
+    if (found->type() == type) return &*found;
+    wrong_.emplace_back(key);
+    return nullptr;
+  }
+  template <class T>
+  void number(const char* key, T& value, T low, T high) const {
+    const auto found = object_.find(key);
+    if (found == object_.end()) return;
+    if (!found->is_number() || found->get<T>() < low || found->get<T>() > high) wrong_.emplace_back(key);
+    if (found->is_number()) value = std::clamp(found->get<T>(), low, high);
+  }
+  template <class T>
+  void choice(const char* key, T& value, std::optional<T> (*parse)(std::string_view)) const {
+    const auto* found = find(key, json::value_t::string);
+    if (found == nullptr) return;
+    if (const auto chosen = parse(found->get_ref<const std::string&>()))
+      value = *chosen;
+    else
+      wrong_.emplace_back(key);
+  }
+
+ private:
+  const json& object_;
+  std::vector<std::string>& wrong_;
+};
 
 }  // namespace
 
@@ -57,34 +86,39 @@ json toJson(const Settings& settings) {
     const auto& a = settings.areas[i];
     areas[nameOf(static_cast<Workspace>(i))] = {{"left", a.left}, {"right", a.right}, {"bottom", a.bottom}};
   }
-  return {{"recent", settings.recent},
-          {"areas", std::move(areas)},
-          {"last_folder", settings.last_folder},
-          {"user_scale", settings.user_scale},
-          {"recovery", settings.recovery}};
+  return {{"recent", settings.recent},           {"areas", std::move(areas)},
+          {"last_folder", settings.last_folder}, {"user_scale", settings.user_scale},
+          {"recovery", settings.recovery},       {"graphics", graphicsKey(settings.graphics)},
+          {"theme", themeKey(settings.theme)}};
 }
 
-Settings settingsFrom(const json& object) {
+Settings settingsFrom(const json& object, std::vector<std::string>& wrong) {
   Settings result;
-  if (!object.is_object()) return result;
-  if (const auto recent = object.find("recent"); recent != object.end() && recent->is_array())
+  if (!object.is_object()) {
+    wrong.emplace_back("");
+    return result;
+  }
+  const Reader reader(object, wrong);
+  if (const auto* recent = reader.find("recent", json::value_t::array))
     for (const auto& r : *recent)
       if (r.is_string() && result.recent.size() < kRecent) result.recent.push_back(r.get<std::string>());
-  if (const auto areas = object.find("areas"); areas != object.end() && areas->is_object())
+  if (const auto* areas = reader.find("areas", json::value_t::object))
     for (std::size_t i = 0; i < result.areas.size(); ++i) {
-      const auto area = areas->find(nameOf(static_cast<Workspace>(i)));
-      if (area == areas->end()) continue;
-      read(*area, "left", result.areas[i].left, 160.0F, 900.0F);
-      read(*area, "right", result.areas[i].right, 200.0F, 1200.0F);
-      read(*area, "bottom", result.areas[i].bottom, 80.0F, 700.0F);
+      const auto found = areas->find(nameOf(static_cast<Workspace>(i)));
+      if (found == areas->end() || !found->is_object()) continue;
+      const Reader area(*found, wrong);
+      area.number("left", result.areas[i].left, 160.0F, 900.0F);
+      area.number("right", result.areas[i].right, 200.0F, 1200.0F);
+      area.number("bottom", result.areas[i].bottom, 80.0F, 700.0F);
     }
-  if (const auto folder = object.find("last_folder"); folder != object.end() && folder->is_string())
+  if (const auto* folder = reader.find("last_folder", json::value_t::string))
     result.last_folder = folder->get<std::string>();
-  read(object, "user_scale", result.user_scale, kUserScales.front(), kUserScales.back());
+  reader.number("user_scale", result.user_scale, kUserScales.front(), kUserScales.back());
   // Before, a copy was kept every so many minutes, or never.
   if (object.value("recovery_minutes", json()) == 0) result.recovery = false;
-  if (const auto recovery = object.find("recovery"); recovery != object.end() && recovery->is_boolean())
-    result.recovery = recovery->get<bool>();
+  if (const auto* recovery = reader.find("recovery", json::value_t::boolean)) result.recovery = recovery->get<bool>();
+  reader.choice("graphics", result.graphics, graphicsChoice);
+  reader.choice("theme", result.theme, themeOf);
   return result;
 }
 
@@ -96,10 +130,20 @@ std::filesystem::path recoveryRoot() {
   return baseFolder("XDG_STATE_HOME", ".local/state") / "standpoint" / "recovery";
 }
 
-Settings readSettings(const std::filesystem::path& file) {
+StoredSettings readSettings(const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in) return {};
-  return settingsFrom(json::parse(in, nullptr, false));
+  std::vector<std::string> wrong;
+  StoredSettings stored{settingsFrom(json::parse(in, nullptr, false), wrong), {}};
+  if (wrong.empty()) return stored;
+  if (wrong.front().empty()) {
+    stored.problem = "Preferences cannot be read, defaults are used: " + file.string();
+    return stored;
+  }
+  std::string keys;
+  for (const auto& key : wrong) keys += (keys.empty() ? "" : ", ") + key;
+  stored.problem = "Preferences without a valid value, changed to what is valid: " + keys;
+  return stored;
 }
 
 Result<void> writeSettings(const Settings& settings, const std::filesystem::path& file) {

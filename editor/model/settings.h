@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/result.h"
+#include "editor/model/graphics.h"
 
 namespace standpoint {
 
@@ -36,6 +37,8 @@ struct Settings {
   std::string last_folder;  // of the file dialog
   double user_scale = 1;    // on top of the monitor's
   bool recovery = true;     // keep a copy of unsaved work after every change
+  GraphicsChoice graphics = GraphicsChoice::automatic;
+  Theme theme = Theme::dark;
   bool operator==(const Settings&) const = default;
 
   void remember(const std::filesystem::path& path);
@@ -43,12 +46,17 @@ struct Settings {
 
 nlohmann::json toJson(const Settings& settings);
 // What is missing or makes no sense keeps its default: a settings file must never keep the editor from starting.
-Settings settingsFrom(const nlohmann::json& object);
+// `wrong` gets the keys of what makes no sense.
+Settings settingsFrom(const nlohmann::json& object, std::vector<std::string>& wrong);
 
 std::filesystem::path settingsFile();  // XDG_CONFIG_HOME/standpoint/editor.json
 std::filesystem::path unsavedRoot();   // XDG_DATA_HOME/standpoint/unsaved: what was scanned before a project was saved
 std::filesystem::path recoveryRoot();  // XDG_STATE_HOME/standpoint/recovery
-Settings readSettings(const std::filesystem::path& file);
+struct StoredSettings {
+  Settings settings;
+  std::string problem;  // what was not usable, for the user; "" mostly
+};
+StoredSettings readSettings(const std::filesystem::path& file);
 Result<void> writeSettings(const Settings& settings, const std::filesystem::path& file);
 
 }  // namespace standpoint

@@ -18,6 +18,10 @@ float channel(double hue, double lightness, double chroma, double offset) {
 
 }  // namespace
 
+bool isTerrain(const Product& product) {
+  return product.ifc_class == "IfcSite" || product.ifc_class == "IfcGeographicElement";
+}
+
 Colour materialColour(const PhysicalMaterial* material) {
   if (material == nullptr) return {0.93F, 0.26F, 0.60F, 1};  // nothing else in the picture is pink
   const Colour own = visibleColour(*material);

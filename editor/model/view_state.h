@@ -11,6 +11,7 @@
 #include "editor/model/camera.h"
 #include "editor/model/cloud.h"
 #include "editor/model/deviation_view.h"
+#include "editor/model/graphics.h"
 #include "editor/model/underlay_view.h"
 #include "editor/model/visibility.h"
 #include "optimizer/optimizer.h"
@@ -63,8 +64,11 @@ struct ViewState {
   std::shared_ptr<const Cloud> cloud;  // a scan instead of the model; null: none
   std::vector<ShownUnderlay> underlays;
   Camera camera;
+  GraphicsLook graphics;
   bool operator==(const ViewState&) const = default;
 };
+
+bool isTerrain(const Product& product);  // the ground around what is built
 
 // Where the picture of a scene comes from. The panels know only this; editor/viewport has the one that draws.
 class SceneView {
@@ -75,12 +79,20 @@ class SceneView {
   virtual std::uint64_t texture(const ViewState& state, int width_px, int height_px, bool fine) = 0;
   // A texture of these pixels, with v from 0 to 1; taken over once for each picture.
   virtual std::uint64_t texture(const std::shared_ptr<const PixelPicture>& picture) = 0;
+  // The picture gets better when it is asked for again, though nothing has changed.
+  virtual bool refining() const { return false; }
+  virtual GraphicsMeans means() { return {}; }
+  // Pictures drawn so far in which nothing but the camera was another one.
+  virtual std::uint64_t movedPictures() const { return 0; }
+  // How long such a picture takes at the level of `state`; drawn for that.
+  virtual double cost_s(const ViewState& /*state*/, int /*width_px*/, int /*height_px*/) { return 0; }
 };
 
 // The colour that stands for a physical material: about what it looks like by its reflectance in the visible, with a
 // tint of its own to tell it from others that look the same. nullptr = nothing assigned.
 Colour materialColour(const PhysicalMaterial* material);
-// From red, a guess, to green; below 0: nothing is assigned.
+// From dark brown, a guess, over orange to pale green, with a step at kWeakConfidence: lighter is surer, so that it is
+// read without telling red from green. Below 0: nothing is assigned.
 Colour confidenceColour(double confidence);
 
 }  // namespace standpoint

@@ -139,7 +139,7 @@ void drawIssue(const Model& model, Actions& actions, const LogEntry& issue, int 
   }
   ImGui::SetCursorPos(at);
   const std::string text = issue.source.empty() ? issue.message : issue.source + "  " + issue.message;
-  if (product) ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.50F, 0.73F, 1, 1));
+  if (product) ImGui::PushStyleColor(ImGuiCol_Text, tone::kLink);
   ui::fitted(text, ImGui::GetContentRegionAvail().x);
   if (product) ImGui::PopStyleColor();
   ImGui::PopID();

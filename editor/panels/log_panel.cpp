@@ -73,7 +73,7 @@ void drawEntry(const Model& model, Actions& actions, const LogEntry& entry, int 
   if (!entry.source.empty()) {
     const auto product = model.environment() ? productOf(*model.environment(), entry.source) : std::nullopt;
     if (product) {
-      ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.50F, 0.73F, 1, 1));
+      ImGui::PushStyleColor(ImGuiCol_Text, tone::kLink);
       if (ImGui::Selectable(entry.source.c_str())) {
         actions.reveal(*product);
         actions.frameSelection();

@@ -32,7 +32,7 @@ class Plot {
     const float margin = ImGui::CalcTextSize("1000 %").x + model.px(6);
     size_ = {ImGui::GetContentRegionAvail().x - margin - model.px(4), model.px(height_pt)};
     low_ = {corner.x + margin, corner.y + model.px(4)};
-    list_.AddRectFilled(low_, {low_.x + size_.x, low_.y + size_.y}, IM_COL32(22, 25, 30, 255));
+    list_.AddRectFilled(low_, {low_.x + size_.x, low_.y + size_.y}, tone::kPlot);
     ImGui::Dummy({margin + size_.x, size_.y + ImGui::GetTextLineHeight() + model.px(10)});
   }
   ImVec2 at(double x, double y) const {
@@ -86,7 +86,7 @@ void drawSpectrum(const Model& model, Actions& actions, const PhysicalMaterial& 
   for (const double wavelength : {532.0, 905.0, 1550.0})
     plot.column(x(wavelength), fmt::format("{:.0f}", wavelength), tone::kLine);
   plot.column(x(model.view.wavelength_nm), "", tone::kAccent);
-  if (!m.transmittance.empty()) plot.line(curve(plot, m.transmittance), IM_COL32(98, 160, 214, 255));
+  if (!m.transmittance.empty()) plot.line(curve(plot, m.transmittance), tone::kCurve);
   if (!m.reflectance.empty()) plot.line(curve(plot, m.reflectance), tone::kStation);
   if (plot.hovered()) {
     const double wavelength = kFirst_nm + plot.pointer() * (kLast_nm - kFirst_nm);

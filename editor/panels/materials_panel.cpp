@@ -37,8 +37,8 @@ void drawCoverage(const Model& model, const MaterialReport& report) {
   ui::meter(model, report.coverage, tone);
   double weak = 0;
   for (const auto& row : report.by_class) weak += row.weak_m2;
-  ui::dimText(fmt::format("{:.0f} m² total, {:.0f} m² unassigned, {:.0f} m² low confidence", report.area_m2,
-                          report.area_m2 * (1 - report.coverage), weak));
+  ui::dimWrapped(fmt::format("{:.0f} m² total, {:.0f} m² unassigned, {:.0f} m² low confidence", report.area_m2,
+                             report.area_m2 * (1 - report.coverage), weak));
 }
 
 void drawMaterialButtons(const Model& model, Actions& actions) {

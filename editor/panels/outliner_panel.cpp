@@ -59,7 +59,7 @@ void drawEye(const Model& model, Actions& actions, const std::vector<std::uint32
   const bool any_shown =
       std::any_of(below.begin(), below.end(), [&](std::uint32_t p) { return !model.visibility.hidden(p); });
   ImGui::SameLine(x);
-  ImGui::PushStyleColor(ImGuiCol_Text, any_shown ? ImVec4(0.52F, 0.55F, 0.61F, 1) : colour(tone::kWarning));
+  ImGui::PushStyleColor(ImGuiCol_Text, any_shown ? tone::kIcon : tone::kWarning);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(model.px(3), 0));
   if (ui::iconButton(any_shown ? ICON_EYE "###eye" : ICON_EYE_OFF "###eye", any_shown ? "Hide" : "Show"))
     actions.show(below, !any_shown);
@@ -104,7 +104,7 @@ void drawRow(const Model& model, OutlinerState& state, Actions& actions, const s
   ImGui::SameLine(left + indent + model.px(17));
   const bool hidden = product && model.visibility.hidden(node.index);
   const bool excluded = product && model.environment()->products[node.index].excluded;
-  ImGui::PushStyleColor(ImGuiCol_Text, product ? ImVec4(0.45F, 0.62F, 0.85F, 1) : ImVec4(0.62F, 0.66F, 0.73F, 1));
+  ImGui::PushStyleColor(ImGuiCol_Text, product ? tone::kPartIcon : tone::kGroupIcon);
   ImGui::TextUnformatted(excluded ? ICON_BAN : iconOf(model, node));
   ImGui::PopStyleColor();
   ImGui::SameLine(left + indent + model.px(39));
@@ -130,7 +130,7 @@ void drawRow(const Model& model, OutlinerState& state, Actions& actions, const s
 
 void drawUnderlayEye(const Model& model, Actions& actions, const Underlay& underlay, float x) {
   ImGui::SameLine(x);
-  ImGui::PushStyleColor(ImGuiCol_Text, underlay.visible ? ImVec4(0.52F, 0.55F, 0.61F, 1) : colour(tone::kWarning));
+  ImGui::PushStyleColor(ImGuiCol_Text, underlay.visible ? tone::kIcon : tone::kWarning);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(model.px(3), 0));
   if (ui::iconButton(underlay.visible ? ICON_EYE "###eye" : ICON_EYE_OFF "###eye", underlay.visible ? "Hide" : "Show",
                      model.session.whyNot("underlay")))
@@ -172,7 +172,7 @@ void drawUnderlays(const Model& model, Actions& actions) {
     underlayMenu(model, actions, u);
     ui::tooltip(fmt::format("{}\n{} points\nDouble-click to frame", u.file, groupedDigits(u.points)));
     ImGui::SameLine(left + model.px(17));
-    ImGui::TextColored(ImVec4(0.45F, 0.62F, 0.85F, 1), "%s", ICON_UNDERLAY);
+    ImGui::TextColored(colour(tone::kPartIcon), "%s", ICON_UNDERLAY);
     ImGui::SameLine(left + model.px(39));
     const std::string points = groupedDigits(u.points);
     const float width = ImGui::CalcTextSize(points.c_str()).x + model.px(8);

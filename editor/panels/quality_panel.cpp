@@ -20,7 +20,7 @@ struct QualityState {
 };
 
 struct Sign {
-  ImU32 tone;
+  Tone tone;
   const char* icon;
   const char* word;
 };

@@ -137,6 +137,15 @@ std::string whyNoSmaller(const Editor& e) {
   return e.settings.user_scale <= kUserScales.front() ? "Already at minimum size" : "";
 }
 
+template <GraphicsChoice choice>
+void chooseGraphics(Editor& e) {
+  e.settings.graphics = choice;
+}
+template <Theme theme>
+void chooseTheme(Editor& e) {
+  e.settings.theme = theme;
+}
+
 std::string whySaveNot(const Editor& e) { return e.session.whyNotSave(); }
 std::string whyUndoNot(const Editor& e) { return e.session.whyNotUndo(); }
 std::string whyRedoNot(const Editor& e) { return e.session.whyNotRedo(); }
@@ -446,6 +455,12 @@ const std::array kActions = {
            {'0', true},
            [](Editor& e) { e.settings.user_scale = 1; },
            nullptr},
+    Action{"graphics-automatic", "Graphics: Automatic", "", {}, chooseGraphics<GraphicsChoice::automatic>, nullptr},
+    Action{"graphics-low", "Graphics: Low", "", {}, chooseGraphics<GraphicsChoice::low>, nullptr},
+    Action{"graphics-medium", "Graphics: Medium", "", {}, chooseGraphics<GraphicsChoice::medium>, nullptr},
+    Action{"graphics-high", "Graphics: High", "", {}, chooseGraphics<GraphicsChoice::high>, nullptr},
+    Action{"theme-dark", "Dark theme", "", {}, chooseTheme<Theme::dark>, nullptr},
+    Action{"theme-light", "Light theme", "", {}, chooseTheme<Theme::light>, nullptr},
     Action{"palette", "Command palette", ICON_COMMAND, {'P', true}, openPalette, nullptr},
     Action{"shortcuts",
            "Keyboard and mouse",

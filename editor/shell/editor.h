@@ -30,6 +30,7 @@ struct Editor : Model {
   std::vector<Eigen::Vector3d> way;                    // to be drawn, in the file's frame
   std::function<void(const std::string&)> on_title;
   bool fine_picture = false;  // the view stands still: smooth edges
+  bool costs_wanted = false;  // of the levels of graphics: somebody reads them
   bool quit = false;          // confirmed
 
   Eigen::Vector2f overlay_size = {0, 0};  // of the controls over the viewport, as drawn last

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -96,16 +97,40 @@ void drawScale(Editor& editor, const Legend& legend, ExpectedQuantity quantity, 
   list.AddText({legend.at.x, legend.at.y - ImGui::GetTextLineHeight() - editor.px(2)}, tone::kText, title);
 }
 
-void drawFates(Editor& editor, ImVec2 at, bool with_returned) {
-  auto& list = *ImGui::GetWindowDrawList();
-  const float swatch = editor.px(10);
+// The swatches with their names, in as many rows as a width needs.
+struct FateRows {
+  struct Entry {
+    ReturnFate fate;
+    ImVec2 at;  // from the upper left
+  };
+  std::vector<Entry> entries;
+  float width = 0, height = 0;
+};
+
+FateRows fateRows(const Editor& editor, float most_width, bool with_returned) {
+  FateRows rows;
+  ImVec2 at(0, 0);
   for (const auto fate : {ReturnFate::returned, ReturnFate::too_weak, ReturnFate::seen_through, ReturnFate::hidden,
                           ReturnFate::too_near, ReturnFate::too_far}) {
     if (fate == ReturnFate::returned && !with_returned) continue;
+    const float width = editor.px(15) + ImGui::CalcTextSize(fateName(fate)).x;
+    if (at.x > 0 && at.x + width > most_width) at = {0, at.y + ImGui::GetTextLineHeight() + editor.px(3)};
+    rows.entries.push_back({fate, at});
+    rows.width = std::max(rows.width, at.x + width);
+    at.x += width + editor.px(14);
+  }
+  rows.height = at.y + ImGui::GetTextLineHeight();
+  return rows;
+}
+
+void drawFates(const Editor& editor, ImVec2 corner, const FateRows& rows) {
+  auto& list = *ImGui::GetWindowDrawList();
+  const float swatch = editor.px(10);
+  for (const auto& [fate, from] : rows.entries) {
+    const ImVec2 at(corner.x + from.x, corner.y + from.y);
     list.AddRectFilled({at.x, at.y + editor.px(2)}, {at.x + swatch, at.y + editor.px(2) + swatch},
                        packed(fateColour(fate)));
     list.AddText({at.x + swatch + editor.px(5), at.y}, tone::kText, fateName(fate));
-    at.x += swatch + editor.px(19) + ImGui::CalcTextSize(fateName(fate)).x;
   }
 }
 
@@ -199,14 +224,16 @@ void drawExpectedLegend(Editor& editor, ImVec2 origin, ImVec2 size) {
   drawProbe(editor, origin);
   const bool fates_only = *quantity == ExpectedQuantity::fate;
   const float line = ImGui::GetTextLineHeight(), x = origin.x + editor.px(10);
-  const float top = origin.y + size.y - line - editor.px(12) - (fates_only ? 0 : 2 * line + editor.px(18));
-  ImGui::GetWindowDrawList()->AddRectFilled({x - editor.px(6), top},
-                                            {x + editor.px(fates_only ? 530 : 430), origin.y + size.y - editor.px(4)},
+  const auto rows = fateRows(editor, size.x - editor.px(20), fates_only);
+  const float bottom = origin.y + size.y - editor.px(8) - rows.height;
+  const float top = bottom - editor.px(4) - (fates_only ? 0 : 2 * line + editor.px(18));
+  const float wide =
+      std::min(std::max(rows.width + editor.px(6), editor.px(fates_only ? 530 : 430)), size.x - editor.px(14));
+  ImGui::GetWindowDrawList()->AddRectFilled({x - editor.px(6), top}, {x + wide, origin.y + size.y - editor.px(4)},
                                             tone::kOverlay, editor.px(4));
-  drawFates(editor, {x, origin.y + size.y - line - editor.px(8)}, fates_only);
+  drawFates(editor, {x, bottom}, rows);
   if (!fates_only)
-    drawScale(editor, {{x, origin.y + size.y - 2 * line - editor.px(26)}, editor.px(220)}, *quantity,
-              expectation->law().instrument());
+    drawScale(editor, {{x, bottom - line - editor.px(18)}, editor.px(220)}, *quantity, expectation->law().instrument());
   if (ImGui::IsItemHovered()) drawReading(editor, *expectation);
 }
 
@@ -229,7 +256,11 @@ void expectedChips(Editor& editor) {
   ImGui::SameLine();
   if (ImGui::GetCursorScreenPos().x + editor.px(128) > editor.overlay_end) ImGui::NewLine();
   const auto& job = editor.session.document().job;
-  if (!job || job->stations.empty()) return ImGui::TextUnformatted("Drag the white dot to move the scanner");
+  if (!job || job->stations.empty()) {
+    constexpr const char* kHint = "Drag the white dot to move the scanner";
+    if (ImGui::GetCursorScreenPos().x + ImGui::CalcTextSize(kHint).x > editor.overlay_end) ImGui::NewLine();
+    return ImGui::TextUnformatted(kHint);
+  }
   ImGui::SetNextItemWidth(editor.px(128));
   const auto standing = std::find_if(job->stations.begin(), job->stations.end(),
                                      [&](const Station& s) { return probe.position == s.true_pose.translation; });

@@ -10,6 +10,7 @@
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
+#include "editor/shell/graphics_choice.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/modal.h"
 #include "editor/widgets/theme.h"
@@ -191,10 +192,20 @@ void drawPreferences(Editor& editor) {
           editor.settings.user_scale = size;
       ImGui::EndCombo();
     }
+    ui::propertyLabel("Theme");
+    for (const auto& [theme, name] : {std::pair{Theme::dark, "Dark"}, {Theme::light, "Light"}}) {
+      if (ImGui::RadioButton(fmt::format("{}###theme-{}", name, themeKey(theme)).c_str(),
+                             editor.settings.theme == theme))
+        editor.settings.theme = theme;
+      ImGui::SameLine(0, editor.px(16));
+    }
     ui::propertyLabel("Recovery copy after every change");
     ImGui::Checkbox("###recovery", &editor.settings.recovery);
     ui::endProperties();
   }
+  ui::heading(editor, "Graphics");
+  drawGraphicsChoices(editor, 436);
+  ui::gap(editor, 6);
   if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || ui::modalCancelled())
     editor.dialogs.preferences = false;
   ImGui::EndPopup();

@@ -143,6 +143,16 @@ void cutChip(Editor& editor) {
     cut = height - shift;
 }
 
+void drawTogglePlate(const Editor& editor) {
+  if (editor.graphicsLook() == GraphicsLook()) return;
+  float width = 4 * editor.px(2);
+  for (const char* icon : {ICON_CUBE, ICON_GRID, ICON_WALK, ICON_CUBES, ICON_EYE})
+    width += ImGui::CalcTextSize(icon).x + 2 * ImGui::GetStyle().FramePadding.x;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + width, at.y + ImGui::GetFrameHeight()}, tone::kOverlay,
+                                            editor.px(4));
+}
+
 void toggle(Editor& editor, const char* icon, const char* id, bool lit) {
   const auto& action = *findAction(id);
   if (ui::iconButton(fmt::format("{}###view_{}", icon, id).c_str(), action.title, whyNot(action, editor), lit))
@@ -281,6 +291,7 @@ void drawReflectanceLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
   auto& list = *ImGui::GetWindowDrawList();
   const float width = editor.px(160), height = editor.px(8), x = origin.x + editor.px(kMargin),
               y = origin.y + size.y - editor.px(38);
+  drawPlate(editor, {x, y}, {width, height + editor.px(2) + ImGui::GetTextLineHeight()});
   list.AddRectFilledMultiColor({x, y}, {x + width, y + height}, IM_COL32(20, 20, 20, 255), IM_COL32(245, 245, 245, 255),
                                IM_COL32(245, 245, 245, 255), IM_COL32(20, 20, 20, 255));
   list.AddText({x, y + height + editor.px(2)}, tone::kDim, "0");
@@ -293,8 +304,12 @@ void drawConfidenceLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
   auto& list = *ImGui::GetWindowDrawList();
   float x = origin.x + editor.px(kMargin);
   const float y = origin.y + size.y - editor.px(24), swatch = editor.px(10);
-  for (const auto& [confidence, text] :
-       {std::pair{1.0, "named"}, {0.65, "general keyword"}, {0.2, "class or colour only"}, {-1.0, "no material"}}) {
+  constexpr std::array<std::pair<double, const char*>, 4> kRows = {
+      {{1.0, "named"}, {0.65, "general keyword"}, {0.2, "class or colour only"}, {-1.0, "no material"}}};
+  float width = 0;
+  for (const auto& [confidence, text] : kRows) width += swatch + editor.px(19) + ImGui::CalcTextSize(text).x;
+  drawPlate(editor, {x, y}, {width - editor.px(14), ImGui::GetTextLineHeight()});
+  for (const auto& [confidence, text] : kRows) {
     const Colour c = confidenceColour(confidence);
     list.AddRectFilled({x, y + editor.px(2)}, {x + swatch, y + editor.px(2) + swatch},
                        ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1}));
@@ -314,6 +329,7 @@ void drawDeviationLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
     list.AddText({x, y}, tone::kDim, editor.deviation.busy() ? "Comparing with the original …" : "");
     return;
   }
+  drawPlate(editor, {x, y}, {width, height + editor.px(2) + ImGui::GetTextLineHeight()});
   constexpr int kSteps = 32;
   for (int i = 0; i < kSteps; ++i) {
     const auto c = deviationColour((i + 0.5) / kSteps, 1);
@@ -326,6 +342,13 @@ void drawDeviationLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
 }
 
 }  // namespace
+
+void drawPlate(const Editor& editor, ImVec2 at, ImVec2 size) {
+  if (editor.graphicsLook() == GraphicsLook()) return;
+  const float rim = editor.px(4);
+  ImGui::GetWindowDrawList()->AddRectFilled({at.x - rim, at.y - rim}, {at.x + size.x + rim, at.y + size.y + rim},
+                                            tone::kOverlay, rim);
+}
 
 bool overOverlay(const Editor& editor, ImVec2 origin, ImVec2 size) {
   const ImVec2 p = ImGui::GetIO().MousePos, c = axesCentre(editor, origin, size);
@@ -345,6 +368,7 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   cutChip(editor);
   cloudChip(editor);
   beside(editor, editor.px(5 * 32));  // they stay together
+  drawTogglePlate(editor);
   toggle(editor, ICON_CUBE, "edges", editor.view.edges);
   toggle(editor, ICON_GRID, "grid", editor.view.grid);
   toggle(editor, ICON_WALK, "walkable", editor.view.walkable);

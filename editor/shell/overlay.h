@@ -10,6 +10,8 @@ struct Editor;
 // Drawn over the picture of the scene with Dear ImGui's draw list: crisp at any scale, and no redraw of the scene.
 void drawMarkers(Editor& editor, ImVec2 origin);  // stations, targets, the measured distance, the tool's preview
 void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size);  // view controls, cut, axes, legend
+// A ground for words over the view: the dark gradient of the lowest level needs none.
+void drawPlate(const Editor& editor, ImVec2 at, ImVec2 size);
 // Is the pointer on one of the overlay's controls, so that the scene must not take the click?
 bool overOverlay(const Editor& editor, ImVec2 origin, ImVec2 size);
 

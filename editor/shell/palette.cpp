@@ -13,6 +13,7 @@
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
+#include "editor/shell/graphics_choice.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keyboard.h"
 #include "editor/widgets/theme.h"
@@ -47,9 +48,11 @@ bool ownToEditor(const Verb& verb) {
 
 std::vector<Entry> entries(Editor& editor) {
   std::vector<Entry> all;
-  for (const auto& action : actions())
-    all.push_back({action.id, action.icon, action.title, shortcutText(action.shortcut), whyNot(action, editor),
-                   [&editor, &action] { action.run(editor); }});
+  for (const auto& action : actions()) {
+    const auto about = aboutGraphics(editor, action.id);
+    all.push_back({action.id, action.icon, action.title, about.empty() ? shortcutText(action.shortcut) : about,
+                   whyNot(action, editor), [&editor, &action] { action.run(editor); }});
+  }
   for (const auto& verb : editor.session.verbs())
     if (!ownToEditor(verb))
       all.push_back({fmt::format("verb-{}", verb.name), ICON_GEAR, verb.summary, verb.name,
@@ -109,7 +112,8 @@ void drawEntry(Editor& editor, const Entry& entry, bool chosen, bool& done) {
   ImGui::SameLine(editor.px(44));
   ImGui::TextUnformatted(entry.title.c_str());
   ImGui::EndDisabled();
-  const float width = std::min(ImGui::CalcTextSize(entry.detail.c_str()).x, editor.px(220));
+  const float room = right - editor.px(44 + 24) - ImGui::CalcTextSize(entry.title.c_str()).x;
+  const float width = std::min(ImGui::CalcTextSize(entry.detail.c_str()).x, std::max(room, editor.px(220)));
   ImGui::SameLine(right - width);
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   ui::fitted(entry.detail, width);

@@ -14,6 +14,7 @@
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/escape.h"
+#include "editor/shell/graphics_choice.h"
 #include "editor/shell/import_preview.h"
 #include "editor/shell/panel_actions.h"
 #include "editor/shell/start_page.h"
@@ -98,55 +99,37 @@ void runMenu(Editor& editor) {
   }
 }
 
+void submenu(Editor& editor, const char* title, std::initializer_list<const char*> ids) {
+  if (!ImGui::BeginMenu(title)) return;
+  items(editor, ids);
+  ImGui::EndMenu();
+}
+
+void graphicsMenu(Editor& editor) {
+  if (!ImGui::BeginMenu("      Graphics###menu-graphics")) return;
+  drawGraphicsChoices(editor, 380);
+  ImGui::EndMenu();
+}
+
+// With submenus, so that all of it has room in a window of 800 pixels.
 void viewMenu(Editor& editor) {
-  items(editor, {"frame",
-                 "view-corner",
-                 "view-front",
-                 "view-back",
-                 "view-right",
-                 "view-left",
-                 "view-top",
-                 "view-plan",
-                 "view-parallel",
-                 "",
-                 "hide",
-                 "isolate",
-                 "show-all",
-                 "",
-                 "edges",
-                 "grid",
-                 "labels",
-                 "room-names",
-                 "labels-through-walls",
-                 "walkable",
-                 "shapes",
-                 "shaded-points",
-                 "walk",
-                 "teleport",
-                 "view-before",
-                 "",
-                 "colour-model",
-                 "colour-material",
-                 "colour-reflectance",
-                 "colour-confidence",
-                 "colour-intensity",
-                 "colour-noise",
-                 "colour-fate",
-                 "colour-coverage",
-                 "colour-spacing",
-                 "colour-incidence",
-                 "",
-                 "workspace-environment",
-                 "workspace-optimise",
-                 "workspace-materials",
-                 "workspace-georeference",
-                 "workspace-survey",
-                 "workspace-instrument",
-                 "workspace-inspect",
-                 "",
-                 "interface-larger",
-                 "interface-smaller",
-                 "interface-usual"});
+  items(editor, {"frame", "view-corner"});
+  submenu(editor, "      Look from###menu-look",
+          {"view-front", "view-back", "view-right", "view-left", "view-top", "view-before"});
+  items(editor, {"view-plan", "view-parallel", "", "hide", "isolate", "show-all", "", "edges", "grid", "walkable",
+                 "shapes", "shaded-points", "labels"});
+  submenu(editor, "      More labels###menu-labels", {"room-names", "labels-through-walls"});
+  items(editor, {"", "walk", "teleport", ""});
+  submenu(editor, ICON_PAINT "  Colour by###menu-colour",
+          {"colour-model", "colour-material", "colour-reflectance", "colour-confidence", "colour-intensity",
+           "colour-noise", "colour-fate", "colour-coverage", "colour-spacing", "colour-incidence"});
+  submenu(editor, "      Workspace###menu-workspace",
+          {"workspace-environment", "workspace-optimise", "workspace-materials", "workspace-georeference",
+           "workspace-survey", "workspace-instrument", "workspace-inspect"});
+  ImGui::Separator();
+  graphicsMenu(editor);
+  items(editor, {editor.settings.theme == Theme::light ? "theme-dark" : "theme-light"});
+  submenu(editor, "      Interface size###menu-size", {"interface-larger", "interface-smaller", "interface-usual"});
 }
 
 void drawMenuBar(Editor& editor) {
@@ -193,10 +176,10 @@ void toolGap(const Editor& editor) {
   ImGui::SameLine(0, editor.px(8));
 }
 
-// Beside eight tools, the button Scan and the palette's.
+// Beside ten tools, the button Scan and the palette's.
 bool roomForTitles(const Editor& editor, float width) {
   const float padding = 2 * ImGui::GetStyle().FramePadding.x;
-  float needed = 9 * (ImGui::GetFrameHeight() + editor.px(10)) + editor.px(3 * 17 + 16 + 96);
+  float needed = 11 * (ImGui::GetFrameHeight() + editor.px(10)) + editor.px(3 * 17 + 16 + 96);
   for (const auto& tab : kWorkspaceTabs) needed += ImGui::CalcTextSize(tab.title).x + editor.px(24) + padding;
   return needed <= width;
 }
@@ -218,7 +201,7 @@ void drawWorkspaceTabs(Editor& editor, bool titles) {
   for (const auto& tab : kWorkspaceTabs) {
     const bool chosen = editor.workspace == tab.workspace;
     ImGui::PushStyleColor(ImGuiCol_Button, chosen ? ImVec4(0.25F, 0.56F, 0.97F, 0.26F) : ImVec4(0, 0, 0, 0));
-    ImGui::PushStyleColor(ImGuiCol_Text, chosen ? ImVec4(0.62F, 0.79F, 1, 1) : ImVec4(0.72F, 0.75F, 0.80F, 1));
+    ImGui::PushStyleColor(ImGuiCol_Text, chosen ? tone::kChosen : tone::kCalm);
     const std::string label = fmt::format("{}{}{}###{}", findAction(tab.action)->icon, titles ? "  " : "",
                                           titles ? tab.title : "", tab.action);
     if (ImGui::Button(label.c_str())) editor.workspace = tab.workspace;
@@ -229,7 +212,7 @@ void drawWorkspaceTabs(Editor& editor, bool titles) {
 }
 
 void drawToolbar(Editor& editor, const Box& box) {
-  beginFixed("###toolbar", box, {editor.px(8), editor.px(6)}, IM_COL32(35, 39, 46, 255));
+  beginFixed("###toolbar", box, {editor.px(8), editor.px(6)}, tone::kPanel);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(editor.px(2), 0));
   for (const char* id : {"open", "import", "save"}) actionToolButton(editor, id);
   toolGap(editor);
@@ -331,7 +314,7 @@ Layout layOut(const Editor& editor, const Box& all) {
 void drawSplitters(Editor& editor, const Layout& l) {
   auto& sizes = editor.settings.areas[static_cast<std::size_t>(editor.workspace)];
   const float gap = editor.px(3);
-  beginFixed("###splitters", l.all, {0, 0}, IM_COL32(22, 24, 29, 255));
+  beginFixed("###splitters", l.all, {0, 0}, tone::kBehind);
   if (l.left.w > 0)
     splitter(editor, "###split-left", {l.left.x + l.left.w, l.all.y, gap, l.all.h}, ImGuiAxis_X, 1, sizes.left, 160,
              900);
@@ -346,8 +329,8 @@ void drawSplitters(Editor& editor, const Layout& l) {
 
 void drawArea(Editor& editor, const char* id, const Box& box, Area area) {
   if (box.w <= 0 || box.h <= 0) return;
-  beginFixed(id, box, {0, editor.px(3)}, IM_COL32(31, 35, 41, 255));
-  ImGui::PushStyleColor(ImGuiCol_ChildBg, IM_COL32(35, 39, 46, 255));
+  beginFixed(id, box, {0, editor.px(3)}, tone::kTabs);
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, tone::kPanel);
   drawPanelTabs(editor, area, id);
   ImGui::PopStyleColor();
   ImGui::End();
@@ -356,12 +339,11 @@ void drawArea(Editor& editor, const char* id, const Box& box, Area area) {
 // While a model is previewed, there is it and the question, and nothing else.
 void drawPreviewLayout(Editor& editor, const Box& all) {
   const float panel = std::min(editor.px(400), all.w * 0.5F), gap = editor.px(3);
-  beginFixed("###preview", {all.x + all.w - panel, all.y, panel, all.h}, {editor.px(14), editor.px(12)},
-             IM_COL32(35, 39, 46, 255));
+  beginFixed("###preview", {all.x + all.w - panel, all.y, panel, all.h}, {editor.px(14), editor.px(12)}, tone::kPanel);
   PanelActions actions(editor);
   drawImportPreview(editor, editor.panels.of<ImportPreviewState>(), actions);
   ImGui::End();
-  beginFixed("###viewport", {all.x, all.y, all.w - panel - gap, all.h}, {0, 0}, IM_COL32(35, 39, 46, 255));
+  beginFixed("###viewport", {all.x, all.y, all.w - panel - gap, all.h}, {0, 0}, tone::kPanel);
   drawViewport(editor);
   ImGui::End();
 }
@@ -369,7 +351,7 @@ void drawPreviewLayout(Editor& editor, const Box& all) {
 void drawPreviewShell(Editor& editor) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float head = ImGui::GetFrameHeight() + editor.px(12);
-  beginFixed("###preview-head", {0, 0, display.x, head}, {editor.px(14), editor.px(6)}, IM_COL32(35, 39, 46, 255));
+  beginFixed("###preview-head", {0, 0, display.x, head}, {editor.px(14), editor.px(6)}, tone::kPanel);
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(ICON_IMPORT "  Import preview");
   ImGui::SameLine(0, editor.px(16));
@@ -385,7 +367,7 @@ void drawWorkspace(Editor& editor, const Box& all) {
   drawArea(editor, "###left", l.left, Area::left);
   drawArea(editor, "###right", l.right, Area::right);
   drawArea(editor, "###bottom", l.bottom, Area::bottom);
-  beginFixed("###viewport", l.middle, {0, 0}, IM_COL32(35, 39, 46, 255));
+  beginFixed("###viewport", l.middle, {0, 0}, tone::kPanel);
   drawViewport(editor);
   ImGui::End();
   drawSplitters(editor, l);  // last: windows that keep their place lie behind those made before them
@@ -416,14 +398,13 @@ void drawShell(Editor& editor) {
   drawToolbar(editor, {0, menu, display.x, tools});
   const Box all = {0, menu + tools, display.x, display.y - menu - tools - status};
   if (wantsStartPage(editor)) {
-    beginFixed("###start", all, {0, 0}, IM_COL32(31, 35, 41, 255));
+    beginFixed("###start", all, {0, 0}, tone::kTabs);
     drawStartPage(editor, {all.w, all.h});
     ImGui::End();
   } else {
     drawWorkspace(editor, all);
   }
-  beginFixed("###status", {0, display.y - status, display.x, status}, {editor.px(10), editor.px(2)},
-             IM_COL32(26, 29, 34, 255));
+  beginFixed("###status", {0, display.y - status, display.x, status}, {editor.px(10), editor.px(2)}, tone::kBar);
   drawStatusBar(editor);
   ImGui::End();
   drawFileDialog(editor);

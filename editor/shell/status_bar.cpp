@@ -2,6 +2,7 @@
 #include "editor/shell/status_bar.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -69,7 +70,7 @@ void drawNextStep(Editor& editor) {
   const float width = ImGui::CalcTextSize(text.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x;
   ImGui::SameLine(std::max(0.0F, ImGui::GetWindowWidth() - width - editor.px(10)));
   ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0, 0, 0, 0));
-  ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.62F, 0.79F, 1, 1));
+  ImGui::PushStyleColor(ImGuiCol_Text, tone::kLink);
   if (ImGui::Button((text + "###next-step").c_str())) openPanel(editor, steps[*next].workspace, steps[*next].tab);
   ImGui::PopStyleColor(2);
   ui::tooltip(fmt::format("{}: {}", steps[*next].title, steps[*next].status));
@@ -80,7 +81,9 @@ void drawNextStep(Editor& editor) {
 void drawStatusBar(Editor& editor) {
   ImGui::AlignTextToFramePadding();
   const auto hover = hoverText(editor);
-  if (!hover.empty()) {
+  if (!editor.notice.text.empty() && std::chrono::steady_clock::now() < editor.notice.until) {
+    ImGui::TextColored(colour(tone::kWarning), "%s  %s", ICON_INFO, editor.notice.text.c_str());
+  } else if (!hover.empty()) {
     ImGui::TextUnformatted(hover.c_str());
   } else if (const auto& environment = editor.environment()) {
     std::string text = fmt::format("{} products   {} triangles", groupedDigits(environment->products.size()),

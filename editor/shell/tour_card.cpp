@@ -50,7 +50,7 @@ void drawTour(Editor& editor, ImVec2 origin, ImVec2 size) {
   if (!editor.tour.active() || !editor.environment()) return;
   const float width = std::min(editor.px(300), size.x - editor.px(20)), height = editor.px(152);
   ImGui::SetCursorScreenPos({origin.x + editor.px(10), origin.y + ImGui::GetFrameHeight() + editor.px(20)});
-  ImGui::PushStyleColor(ImGuiCol_ChildBg, IM_COL32(28, 52, 88, 240));
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, tone::kOverlay);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(editor.px(12), editor.px(8)));
   ImGui::PushStyleVar(ImGuiStyleVar_ChildRounding, editor.px(6));
   ImGui::BeginChild("tour", {width, height}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);

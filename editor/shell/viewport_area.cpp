@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -200,10 +201,21 @@ void drawScene(SceneView* scene, const ViewState& state, ImVec2 origin, ImVec2 s
                                        {origin.x + size.x, origin.y + size.y}, {0, 1}, {1, 0});
 }
 
+// What each level costs, one in each frame while somebody reads it.
+void measureGraphics(Editor& editor, ImVec2 size) {
+  if (!std::exchange(editor.costs_wanted, false) || editor.scene == nullptr || !editor.shown()) return;
+  const auto level = editor.graphics.notMeasured();
+  if (!level || !editor.graphics.means()) return;
+  ViewState state = editor.viewState();
+  state.graphics.level = *level;
+  editor.graphics.measured(*level, editor.scene->cost_s(state, static_cast<int>(size.x), static_cast<int>(size.y)));
+}
+
 void drawCaption(const Editor& editor, ImVec2 origin, ImVec2 size, const std::string& text) {
   const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
-  ImGui::GetWindowDrawList()->AddText({origin.x + (size.x - extent.x) / 2, origin.y + size.y - extent.y - editor.px(8)},
-                                      tone::kDim, text.c_str());
+  const ImVec2 at(origin.x + (size.x - extent.x) / 2, origin.y + size.y - extent.y - editor.px(8));
+  drawPlate(editor, at, extent);
+  ImGui::GetWindowDrawList()->AddText(at, tone::kDim, text.c_str());
 }
 
 // The original on the left, what was made of it on the right, through one camera. The half under the pointer is turned.
@@ -234,6 +246,7 @@ void drawViewport(Editor& editor) {
     frame(view.camera, editor.buildingBounds(), size.x / size.y);
     view.frame_wanted = false;
   }
+  measureGraphics(editor, size);
   if (both)
     drawBothModels(editor, origin, size);
   else

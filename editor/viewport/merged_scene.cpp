@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -19,11 +20,6 @@ constexpr double kSharp_rad = 0.5;  // 29°: a cylinder of 12 or more sides has 
 
 std::uint8_t byte(float value) { return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * 255)); }
 Rgba rgba(const Colour& c) { return {byte(c.r), byte(c.g), byte(c.b), byte(c.a)}; }
-
-bool visible(const ViewState& state, std::uint32_t product) {
-  if (!state.environment->products[product].inScene()) return false;
-  return !state.hidden || product >= state.hidden->size() || (*state.hidden)[product] == 0;
-}
 
 void appendPositions(std::vector<float>& out, const Mesh& mesh, const Eigen::Affine3d& placed) {
   for (const auto& p : mesh.positions) {
@@ -203,6 +199,11 @@ std::vector<Rgba> coloursOf(const DeviationField& field, std::size_t instance) {
 
 }  // namespace
 
+bool isShown(const ViewState& state, std::uint32_t product) {
+  if (!state.environment->products[product].inScene()) return false;
+  return !state.hidden || product >= state.hidden->size() || (*state.hidden)[product] == 0;
+}
+
 MergedScene mergeVisible(const ViewState& state) {
   MergedScene scene;
   const Painter painter(state);
@@ -210,7 +211,7 @@ MergedScene mergeVisible(const ViewState& state) {
   std::vector<Rgba> distances;
   for (std::size_t i = 0; i < state.environment->instances.size(); ++i) {
     const auto& instance = state.environment->instances[i];
-    if (!visible(state, instance.product)) continue;
+    if (!isShown(state, instance.product)) continue;
     const Mesh& mesh = *state.environment->meshes[instance.mesh];
     if (deviations) distances = coloursOf(*state.deviation, i);
     std::span<const Rgba> gradation;
@@ -254,7 +255,7 @@ std::optional<MergedColours> mergeColours(const ViewState& state) {
   };
   for (std::size_t i = 0; i < environment.instances.size(); ++i) {
     const auto& instance = environment.instances[i];
-    if (!visible(state, instance.product)) continue;
+    if (!isShown(state, instance.product)) continue;
     const auto& of = environment.meshes[instance.mesh]->surface_of_triangle;
     for (std::size_t t = 0; t < of.size();) {
       const auto end = static_cast<std::size_t>(
@@ -295,10 +296,26 @@ MergedTriangles mergeShapes(const CollideResult& collision) {
   return out;
 }
 
-MergedTriangles mergeMesh(const Mesh& mesh, Rgba colour, float lift_m) {
+MergedTriangles mergeWalkable(const Mesh& mesh, Rgba colour) {
+  constexpr float kLift_m = 0.03F, kStep_m = 0.12F;  // a stair has higher steps
   MergedTriangles out;
-  appendPositions(out.positions, mesh, Eigen::Affine3d(Eigen::Translation3d(0, 0, lift_m)));
+  appendPositions(out.positions, mesh, Eigen::Affine3d::Identity());
   for (const auto& t : mesh.triangles) appendTriangle(out, t, 0, false, colour);
+  std::vector<std::size_t> order(mesh.positions.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto at = [&](std::size_t i) { return &out.positions[3 * i]; };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::lexicographical_compare(at(b), at(b) + 3, at(a), at(a) + 3);
+  });
+  float above = 0, height = 0;  // of the corner before, and what it is drawn at
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    float* p = at(order[k]);
+    const float* before = k > 0 ? at(order[k - 1]) : nullptr;
+    const bool meets = before != nullptr && before[0] == p[0] && before[1] == p[1] && above - p[2] < kStep_m;
+    above = p[2];
+    if (!meets) height = p[2] + kLift_m;
+    p[2] = height;
+  }
   return out;
 }
 
@@ -313,7 +330,7 @@ MergedLines EdgeCache::edges(const ViewState& state, const std::vector<std::uint
   MergedLines out;
   if (only == nullptr && triangleCount(*state.environment) > most) return out;
   for (const auto& instance : state.environment->instances) {
-    if (!visible(state, instance.product)) continue;
+    if (!isShown(state, instance.product)) continue;
     if (only != nullptr && !std::binary_search(only->begin(), only->end(), instance.product)) continue;
     const auto& mesh = state.environment->meshes[instance.mesh];
     std::map<std::uint32_t, std::int64_t> placed;

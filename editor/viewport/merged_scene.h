@@ -43,6 +43,8 @@ struct MergedScene {
   std::map<std::pair<std::int32_t, bool>, PaintedTriangles> painted;  // by image, and whether graded
 };
 
+bool isShown(const ViewState& state, std::uint32_t product);  // in the scene and not hidden
+
 MergedScene mergeVisible(const ViewState& state);
 
 // The colours of mergeVisible() without the geometry, for a view that shows the same triangles in another paint.
@@ -57,7 +59,9 @@ std::optional<MergedColours> mergeColours(const ViewState& state);
 
 MergedTriangles mergeProducts(const Environment& environment, const std::vector<std::uint32_t>& products, Rgba colour);
 MergedTriangles mergeShapes(const CollideResult& collision);
-MergedTriangles mergeMesh(const Mesh& mesh, Rgba colour, float lift_m);
+// A walkable surface just above what it lies on. It is made of level cells, which on a slope are steps with the ground
+// in between: corners that nearly meet are drawn at the height of the highest.
+MergedTriangles mergeWalkable(const Mesh& mesh, Rgba colour);
 
 // Feature edges of meshes, kept as long as the mesh is.
 class EdgeCache {

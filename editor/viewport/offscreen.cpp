@@ -112,7 +112,7 @@ class EglOffscreen : public Offscreen {
   }
 
   Result<void> picture(const std::function<void()>& draw, const std::filesystem::path& png) override {
-    for (int i = 0; i < kFramesUntilStill; ++i) layOut(draw);
+    for (int i = 0; i < kFramesUntilStill || scene_->refining() || beside_->refining(); ++i) layOut(draw);
     paint();
     std::vector<unsigned char> pixels(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 3);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);

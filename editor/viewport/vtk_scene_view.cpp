@@ -2,49 +2,37 @@
 #include "editor/viewport/vtk_scene_view.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
-#include <cstring>
-#include <numeric>
+#include <functional>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include <vtkActor.h>
 #include <vtkCamera.h>
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
 #include <vtkEDLShading.h>
-#include <vtkFloatArray.h>
 #include <vtkGenericOpenGLRenderWindow.h>
-#include <vtkIdTypeArray.h>
 #include <vtkLight.h>
-#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkOpaquePass.h>
 #include <vtkOpenGLFramebufferObject.h>
-#include <vtkPlane.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 #include <vtkRenderStepsPass.h>
 #include <vtkRenderer.h>
-#include <vtkTexture.h>
 #include <vtkTextureObject.h>
 #include <vtkTranslucentPass.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtk_glew.h>
 
 #include "core/units.h"
-#include "editor/viewport/merged_scene.h"
-#include "editor/viewport/texture.h"
+#include "editor/viewport/backdrop.h"
+#include "editor/viewport/finish.h"
+#include "editor/viewport/scene_layers.h"
 
 namespace standpoint {
 
 namespace {
 
-constexpr std::uint64_t kMostEdges = 1500000;
 // A fine picture is drawn twice as large and shrunk, up to this many pixels: VTK makes its framebuffer once with the
 // number of samples of that time, so multisampling cannot be switched on for a view that comes to rest.
 constexpr int kFineFactor = 2;
@@ -67,132 +55,31 @@ class ForeignContextWindow : public vtkGenericOpenGLRenderWindow {
 };
 vtkStandardNewMacro(ForeignContextWindow);
 
-vtkSmartPointer<vtkPoints> pointsOf(const std::vector<float>& positions) {
-  vtkNew<vtkFloatArray> array;
-  array->SetNumberOfComponents(3);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(positions.size() / 3));
-  if (!positions.empty()) std::memcpy(array->GetPointer(0), positions.data(), positions.size() * sizeof(float));
-  auto points = vtkSmartPointer<vtkPoints>::New();
-  points->SetData(array);
-  return points;
-}
-
-vtkSmartPointer<vtkCellArray> cellsOf(const std::vector<std::int64_t>& indices, vtkIdType size) {
-  vtkNew<vtkTypeInt64Array> array;
-  array->SetNumberOfTuples(static_cast<vtkIdType>(indices.size()));
-  if (!indices.empty()) std::memcpy(array->GetPointer(0), indices.data(), indices.size() * sizeof(std::int64_t));
-  auto cells = vtkSmartPointer<vtkCellArray>::New();
-  cells->SetData(size, array);
-  return cells;
-}
-
-vtkSmartPointer<vtkUnsignedCharArray> coloursOf(const std::vector<Rgba>& colours) {
-  auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
-  array->SetNumberOfComponents(4);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(colours.size()));
-  if (!colours.empty()) std::memcpy(array->GetPointer(0), colours.data(), colours.size() * sizeof(Rgba));
-  return array;
-}
-
-// One drawn thing: an actor whose geometry is replaced when it changes.
-struct Layer {
-  vtkNew<vtkPolyDataMapper> mapper;
-  vtkNew<vtkActor> actor;
-
-  void show(const MergedTriangles& triangles) {
-    vtkNew<vtkPolyData> data;
-    data->SetPoints(pointsOf(triangles.positions));
-    data->SetPolys(cellsOf(triangles.corners, 3));
-    if (triangles.graded)
-      data->GetPointData()->SetScalars(coloursOf(triangles.colours));
-    else
-      data->GetCellData()->SetScalars(coloursOf(triangles.colours));
-    if (triangles.graded)
-      mapper->SetScalarModeToUsePointData();
-    else
-      mapper->SetScalarModeToUseCellData();
-    set(data, triangles.colours.empty());
+// What is opaque, with something behind it.
+class PassWithBackdrop : public vtkOpaquePass {
+ public:
+  static PassWithBackdrop* New();
+  vtkTypeMacro(PassWithBackdrop, vtkOpaquePass);
+  std::function<void()> draw_behind;
+  void Render(const vtkRenderState* state) override {
+    if (draw_behind) draw_behind();
+    vtkOpaquePass::Render(state);
   }
-  void show(const PaintedTriangles& painted, vtkTexture* texture) {
-    show(painted.triangles);
-    vtkNew<vtkFloatArray> coordinates;
-    coordinates->SetNumberOfComponents(2);
-    coordinates->SetNumberOfTuples(static_cast<vtkIdType>(painted.coordinates.size() / 2));
-    if (!painted.coordinates.empty())
-      std::memcpy(coordinates->GetPointer(0), painted.coordinates.data(), painted.coordinates.size() * sizeof(float));
-    vtkPolyData::SafeDownCast(mapper->GetInput())->GetPointData()->SetTCoords(coordinates);
-    actor->SetTexture(texture);
-    actor->GetProperty()->SetLighting(!painted.unlit);
-  }
-  void show(const MergedLines& lines) {
-    vtkNew<vtkPolyData> data;
-    data->SetPoints(pointsOf(lines.positions));
-    data->SetLines(cellsOf(lines.ends, 2));
-    set(data, lines.ends.empty());
-  }
-  // Every `step`-th point.
-  void show(const Cloud& cloud, std::size_t step = 1) {
-    std::vector<float> positions;
-    std::vector<Rgba> colours;
-    for (std::size_t i = 0; i < cloud.colours.size(); i += step) {
-      positions.insert(positions.end(),
-                       {cloud.positions[3 * i], cloud.positions[3 * i + 1], cloud.positions[3 * i + 2]});
-      colours.push_back(cloud.colours[i]);
-    }
-    std::vector<std::int64_t> indices(colours.size());
-    std::iota(indices.begin(), indices.end(), std::int64_t{0});
-    vtkNew<vtkPolyData> data;
-    data->SetPoints(pointsOf(positions));
-    data->SetVerts(cellsOf(indices, 1));
-    data->GetPointData()->SetScalars(coloursOf(colours));
-    set(data, colours.empty());
-  }
-  void set(vtkPolyData* data, bool empty) {
-    mapper->SetInputData(data);
-    actor->SetMapper(mapper);
-    actor->SetVisibility(empty ? 0 : 1);
-  }
-  // The same triangles in other colours: their places stay where the graphics card has them.
-  void paint(const std::vector<Rgba>& colours) {
-    if (!colours.empty()) mapper->GetInput()->GetCellData()->SetScalars(coloursOf(colours));
-  }
-  void hide() { actor->SetVisibility(0); }
 };
+vtkStandardNewMacro(PassWithBackdrop);
 
-// Squares of 1 m and, where the model is large, of 10 m; they fade towards the rim.
-vtkSmartPointer<vtkPolyData> groundGrid(const Bounds& bounds) {
-  const double reach =
-      std::max(4.0, 0.9 * std::hypot(bounds.max.x() - bounds.min.x(), bounds.max.y() - bounds.min.y()));
-  const double step = std::pow(10.0, std::max(0.0, std::floor(std::log10(reach / 8))));
-  const Eigen::Vector3d centre = (bounds.min + bounds.max) / 2;
-  const double cx = std::round(centre.x() / step) * step, cy = std::round(centre.y() / step) * step,
-               z = bounds.min.z() - 0.02;
-  const int lines = static_cast<int>(std::ceil(reach / step));
-  constexpr int kParts = 40;  // of a line, so that each can have its own strength
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> cells;
-  vtkNew<vtkUnsignedCharArray> colours;
-  colours->SetNumberOfComponents(4);
-  for (int axis = 0; axis < 2; ++axis)
-    for (int i = -lines; i <= lines; ++i)
-      for (int part = 0; part <= kParts; ++part) {
-        const double across = i * step, along = (2.0 * part / kParts - 1) * lines * step;
-        const double x = axis == 0 ? across : along, y = axis == 0 ? along : across;
-        const auto id = points->InsertNextPoint(cx + x, cy + y, z);
-        const double fade = std::clamp(1 - std::hypot(x, y) / (lines * step), 0.0, 1.0);
-        const auto absolute = std::lround(((axis == 0 ? cx : cy) + across) / step);
-        const double strength = absolute % 10 == 0 ? 150 : 70;
-        const unsigned char rgba[4] = {150, 162, 180, static_cast<unsigned char>(strength * fade)};
-        colours->InsertNextTypedTuple(rgba);
-        if (part == 0) continue;
-        const vtkIdType ends[2] = {id - 1, id};
-        cells->InsertNextCell(2, ends);
-      }
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  data->SetPoints(points);
-  data->SetLines(cells);
-  data->GetPointData()->SetScalars(colours);
-  return data;
+bool drawnByProcessor() {
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string_view renderer = name != nullptr ? name : "";
+  for (const char* known : {"llvmpipe", "softpipe", "swrast", "SWR", "Software"})
+    if (renderer.find(known) != std::string_view::npos) return true;
+  return false;
+}
+
+bool onlyCameraDiffers(const ViewState& a, const ViewState& b) {
+  ViewState moved = a;
+  moved.camera = b.camera;
+  return moved == b && !(a.camera == b.camera);
 }
 
 class VtkSceneView : public SceneView {
@@ -200,9 +87,10 @@ class VtkSceneView : public SceneView {
   VtkSceneView() {
     setUpWindow();
     setUpLights();
-    setUpLayers();
   }
   ~VtkSceneView() override {
+    backdrop_.reset();
+    finish_.reset();
     for (const auto& p : pixels_) glDeleteTextures(1, &p.texture);
     window_->Finalize();
   }
@@ -215,22 +103,50 @@ class VtkSceneView : public SceneView {
     const bool changed = !drawn_ || !(*drawn_ == state);
     // A picture that was made fine stays so until something changes.
     if (changed || resized || (fine && !fine_)) {
+      const bool after_measuring = std::exchange(measured_, false);
+      if (!fine && !resized && !after_measuring && drawn_ && onlyCameraDiffers(*drawn_, state)) ++moved_pictures_;
       width_ = w;
       height_ = h;
-      fine_ = fine;
-      const bool larger = fine && std::int64_t{w} * h * kFineFactor * kFineFactor <= kMostFinePixels;
-      setPixels(larger ? kFineFactor : 1);
-      update(state);
-      renderer_->SetPass(fine && state.cloud && state.shaded_points ? static_cast<vtkRenderPass*>(depth_shading_)
-                                                                    : steps_);
-      window_->Render();
-      drawn_ = state;
+      draw(state, fine);
+      shading_ = shades(state);
+      if (shading_) finish().begin();
+      shown_ = finished(state);
+    } else if (refining()) {
+      shown_ = finished(state);
     }
-    auto* buffer = window_->GetDisplayFramebuffer();
-    auto* colour = buffer != nullptr ? buffer->GetColorAttachmentAsTextureObject(0) : nullptr;
-    if (colour == nullptr) return 0;
-    smooth(colour->GetHandle());
-    return colour->GetHandle();
+    if (shown_ != 0) smooth(shown_);
+    return shown_;
+  }
+
+  bool refining() const override { return shading_ && fine_ && !finish_->shaded(); }
+
+  GraphicsMeans means() override {
+    GraphicsMeans means{.by_processor = drawnByProcessor()};
+    means.no_sky = backdrop().problem();
+    means.no_smoothing = finish().noSmoothing();
+    means.no_shading = finish().noShading();
+    return means;
+  }
+
+  std::uint64_t movedPictures() const override { return moved_pictures_; }
+
+  // The first picture builds and compiles what it needs; the quickest of the next three was held up the least.
+  double cost_s(const ViewState& state, int width, int height) override {
+    ViewState moved = state;
+    double least_s = 0;
+    const auto moved_before = moved_pictures_;
+    for (int i = 0; i < 4 && (i < 2 || least_s < 0.1); ++i) {
+      moved.camera.azimuth_rad += 1e-4;
+      glFinish();
+      const auto begun = std::chrono::steady_clock::now();
+      texture(moved, width, height, false);
+      glFinish();
+      const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+      least_s = i < 2 ? took_s : std::min(least_s, took_s);
+    }
+    moved_pictures_ = moved_before;
+    measured_ = true;
+    return least_s;
   }
 
   std::uint64_t texture(const std::shared_ptr<const PixelPicture>& picture) override {
@@ -257,12 +173,73 @@ class VtkSceneView : public SceneView {
   }
 
  private:
-  void setPixels(int factor) {
-    window_->SetSize(width_ * factor, height_ * factor);
-    for (Layer* layer : {&edges_, &grid_}) layer->actor->GetProperty()->SetLineWidth(static_cast<float>(factor));
-    outline_.actor->GetProperty()->SetLineWidth(static_cast<float>(2 * factor));
-    cloud_.actor->GetProperty()->SetPointSize(static_cast<float>(2 * factor));
-    for (const auto& u : underlays_) u->layer.actor->GetProperty()->SetPointSize(static_cast<float>(2 * factor));
+  // Made when they are first needed: a picture at the lowest level does without.
+  Backdrop& backdrop() {
+    if (!backdrop_) backdrop_ = std::make_unique<Backdrop>();
+    return *backdrop_;
+  }
+  Finish& finish() {
+    if (!finish_) finish_ = std::make_unique<Finish>();
+    return *finish_;
+  }
+
+  void draw(const ViewState& state, bool fine) {
+    fine_ = fine;
+    const std::int64_t pixels = std::int64_t{width_} * height_ * kFineFactor * kFineFactor;
+    factor_ = fine && pixels <= kMostFinePixels ? kFineFactor : 1;
+    window_->SetSize(width_ * factor_, height_ * factor_);
+    layers_.setPixels(factor_);
+    const ViewState* last = drawn_ ? &*drawn_ : nullptr;
+    layers_.update(state, last);
+    if (last == nullptr || last->graphics.theme != state.graphics.theme) updateTheme(state.graphics.theme);
+    updateCamera(state.camera);
+    updateBackdrop(state);
+    const bool points = fine && state.cloud && state.shaded_points;
+    renderer_->SetPass(points ? static_cast<vtkRenderPass*>(depth_shading_) : steps_);
+    window_->Render();
+    drawn_ = state;
+  }
+
+  // What VTK has drawn last; without colours where it could not.
+  DrawnScene scene() const {
+    DrawnScene scene{0, 0, width_, height_, factor_};
+    auto* shown = window_->GetDisplayFramebuffer();
+    auto* colours = shown != nullptr ? shown->GetColorAttachmentAsTextureObject(0) : nullptr;
+    auto* drawn = window_->GetRenderFramebuffer();
+    auto* depths = drawn != nullptr ? drawn->GetDepthAttachmentAsTextureObject() : nullptr;
+    if (colours != nullptr) scene.colours = colours->GetHandle();
+    if (depths != nullptr) scene.depths = depths->GetHandle();
+    return scene;
+  }
+
+  Lens lens(const Camera& camera) const {
+    const double* range = renderer_->GetActiveCamera()->GetClippingRange();
+    const double high = camera.orthographic ? camera.heightAtTarget_m() / 2 : std::tan(camera.view_angle_rad / 2);
+    return {camera.orthographic, range[0], range[1], high * width_ / height_, high};
+  }
+
+  // Maps keep the colours of their legends, and what lies beside its surface, as points do, has no corners. A processor
+  // would need a second for what moves.
+  bool shades(const ViewState& state) {
+    const bool plain = state.colour == ColourMode::model || state.colour == ColourMode::material;
+    return state.graphics.level == GraphicsLevel::high && state.environment && plain && !state.cloud &&
+           state.underlays.empty() && (fine_ || !drawnByProcessor()) && finish().noShading().empty() &&
+           scene().depths != 0;
+  }
+
+  GLuint finished(const ViewState& state) {
+    DrawnScene drawn = scene();
+    if (shading_) {
+      const GLuint shaded = finish().shade(drawn, lens(state.camera));
+      shading_ = shaded != 0;
+      if (shading_) drawn.colours = shaded;
+    }
+    const bool smooth_by_its_pixels = factor_ > 1;
+    if (drawn.colours == 0 || smooth_by_its_pixels || state.graphics.level == GraphicsLevel::low) return drawn.colours;
+    if (!finish().noSmoothing().empty()) return drawn.colours;
+    smooth(drawn.colours);
+    const GLuint smoothed = finish().smooth(drawn);
+    return smoothed != 0 ? smoothed : drawn.colours;
   }
 
   // At half size each pixel is then the mean of four.
@@ -287,8 +264,6 @@ class VtkSceneView : public SceneView {
     window_->SetSize(8, 8);
     window_->AddRenderer(renderer_);
     renderer_->GradientBackgroundOn();  // also gives the texture an alpha of 1
-    renderer_->SetBackground(0.118, 0.129, 0.149);
-    renderer_->SetBackground2(0.267, 0.298, 0.345);
     renderer_->SetAutomaticLightCreation(0);
     setUpPasses();
   }
@@ -298,6 +273,9 @@ class VtkSceneView : public SceneView {
   void setUpPasses() {
     vtkNew<vtkTranslucentPass> translucent;
     steps_->SetTranslucentPass(translucent);
+    vtkNew<PassWithBackdrop> opaque;
+    opaque->draw_behind = [this] { drawBackdrop(); };
+    steps_->SetOpaquePass(opaque);
     depth_shading_->SetDelegatePass(steps_);
     renderer_->SetPass(steps_);
   }
@@ -320,196 +298,43 @@ class VtkSceneView : public SceneView {
     renderer_->AddLight(light);
   }
 
-  void setUpSurface(Layer& layer, double offset) {
-    auto* property = layer.actor->GetProperty();
-    property->SetInterpolationToFlat();
-    property->SetAmbient(0.34);
-    property->SetDiffuse(0.78);
-    property->SetSpecular(0);
-    layer.mapper->SetColorModeToDirectScalars();
-    layer.mapper->SetResolveCoincidentTopologyToPolygonOffset();
-    layer.mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(offset, offset);
-    renderer_->AddActor(layer.actor);
-  }
-
-  void setUpLines(Layer& layer, std::array<double, 3> colour, double opacity, double width) {
-    auto* property = layer.actor->GetProperty();
-    property->SetLighting(false);
-    property->SetColor(colour.data());
-    property->SetOpacity(opacity);
-    property->SetLineWidth(static_cast<float>(width));
-    renderer_->AddActor(layer.actor);
-  }
-
-  void setUpPoints(Layer& layer) {
-    layer.actor->GetProperty()->SetLighting(false);
-    layer.mapper->SetScalarModeToUsePointData();
-    layer.mapper->SetColorModeToDirectScalars();
-    renderer_->AddActor(layer.actor);
-  }
-
-  void setUpLayers() {
-    setUpLines(grid_, {0.6, 0.6, 0.6}, 1, 1);  // what is translucent is blended in this order
-    grid_.actor->ForceTranslucentOn();
-    setUpSurface(opaque_, 1);
-    setUpSurface(transparent_, 1);
-    transparent_.actor->ForceTranslucentOn();
-    setUpSurface(graded_, 1);
-    setUpSurface(graded_transparent_, 1);
-    graded_transparent_.actor->ForceTranslucentOn();
-    setUpSurface(shapes_, 1);
-    setUpSurface(selected_, -1);
-    selected_.actor->ForceTranslucentOn();
-    selected_.actor->GetProperty()->SetAmbient(0.5);
-    setUpSurface(walkable_, -1);
-    walkable_.actor->ForceTranslucentOn();
-    walkable_.actor->GetProperty()->SetAmbient(0.8);
-    setUpLines(edges_, {0.07, 0.08, 0.10}, 0.55, 1);
-    setUpLines(outline_, {0.42, 0.71, 1.0}, 1, 2);
-    setUpPoints(cloud_);
-    for (Layer* layer : {&opaque_, &transparent_, &graded_, &graded_transparent_, &shapes_, &selected_, &walkable_,
-                         &edges_, &outline_, &grid_, &cloud_})
-      layer->hide();
-  }
-
-  void update(const ViewState& state) {
-    const ViewState* last = drawn_ ? &*drawn_ : nullptr;
-    const bool environment = last == nullptr || last->environment != state.environment;
-    const bool shown =
-        environment || last->hidden != state.hidden || last->shapes != state.shapes || last->cloud != state.cloud;
-    if (environment) bounds_ = state.environment ? bounds(*state.environment) : Bounds();
-    const bool painted = shown || last->materials != state.materials || last->colour != state.colour ||
-                         last->wavelength_nm != state.wavelength_nm || last->deviation != state.deviation;
-    if (painted) updateSurfaces(state, !shown);
-    if (shown || last->edges != state.edges) updateEdges(state);
-    if (shown || last->selected != state.selected) updateSelection(state);
-    if (last == nullptr || last->collision != state.collision || last->walkable != state.walkable ||
-        last->shapes != state.shapes)
-      updateCollision(state);
-    if (environment || last->grid != state.grid) updateGrid(state);
-    if (last == nullptr || last->cloud != state.cloud) updateCloud(state);
-    if (last == nullptr || last->underlays != state.underlays || last->cloud != state.cloud) updateUnderlays(state);
-    reach_ = reachOf(state);
-    updateCut(state);
-    updateCamera(state.camera);
-  }
-
-  void updateSurfaces(const ViewState& state, bool same_triangles) {
-    auto colours = state.environment && !state.shapes && !state.cloud ? mergeColours(state) : std::nullopt;
-    const bool repaint = same_triangles && colours && runs_ == colours->runs;
-    if (repaint) {
-      opaque_.paint(colours->opaque);
-      transparent_.paint(colours->transparent);
-      return;
-    }
-    runs_ = colours ? std::move(colours->runs) : std::vector<std::uint32_t>();
-    opaque_.hide();
-    transparent_.hide();
-    graded_.hide();
-    graded_transparent_.hide();
-    for (const auto& layer : painted_) renderer_->RemoveActor(layer->actor);
-    painted_.clear();
-    if (!state.environment || state.shapes || state.cloud) return;
-    const auto merged = mergeVisible(state);
-    opaque_.show(merged.opaque);
-    transparent_.show(merged.transparent);
-    graded_.show(merged.graded);
-    graded_transparent_.show(merged.graded_transparent);
-    for (const auto& [key, painted] : merged.painted) {
-      painted_.push_back(std::make_unique<Layer>());
-      setUpSurface(*painted_.back(), 1);
-      painted_.back()->show(painted, textures_.of(state.environment->images[static_cast<std::size_t>(key.first)]));
+  void updateTheme(Theme theme) {
+    const bool light = theme == Theme::light;
+    if (light) {
+      renderer_->SetBackground(0.780, 0.800, 0.825);
+      renderer_->SetBackground2(0.915, 0.930, 0.950);
+    } else {
+      renderer_->SetBackground(0.118, 0.129, 0.149);
+      renderer_->SetBackground2(0.267, 0.298, 0.345);
     }
   }
 
-  void updateEdges(const ViewState& state) {
-    edges_.hide();
-    if (state.environment && state.edges && !state.shapes && !state.cloud)
-      edges_.show(edge_cache_.edges(state, nullptr, kMostEdges));
+  // Seen in parallel there is no horizon: the plain gradient stays.
+  void updateBackdrop(const ViewState& state) {
+    const bool wanted = state.graphics.level >= GraphicsLevel::medium && state.environment && !layers_.bounds().empty();
+    sky_.reset();
+    if (wanted && !state.camera.orthographic && backdrop().problem().empty())
+      sky_ = Sky{state.camera, state.graphics.theme};
+    renderer_->SetGradientBackground(!sky_);
+    updateShadow(state);
   }
 
-  void updateSelection(const ViewState& state) {
-    selected_.hide();
-    outline_.hide();
-    if (!state.environment || !state.selected || state.selected->empty()) return;
-    selected_.show(mergeProducts(*state.environment, *state.selected, {64, 144, 247, 110}));
-    outline_.show(edge_cache_.edges(state, state.selected.get(), kMostEdges));
+  // Of what stands there now; cast when the view stands still, because it costs as much as some pictures.
+  void updateShadow(const ViewState& state) {
+    const bool wanted = sky_ && state.graphics.level == GraphicsLevel::high && !state.cloud && !state.shapes;
+    const auto now =
+        wanted ? std::optional(Shadowed{state.environment, state.hidden, state.cut_height_m}) : std::nullopt;
+    if (shadowed_ == now) return;
+    const auto shadow = now && fine_ ? castShadow(state) : GroundShadow();
+    backdrop().cast(shadow);
+    layers_.cast(state, shadow);
+    shadowed_ = fine_ ? now : std::nullopt;
   }
 
-  void updateCollision(const ViewState& state) {
-    shapes_.hide();
-    walkable_.hide();
-    if (!state.collision) return;
-    if (state.shapes) shapes_.show(mergeShapes(*state.collision));
-    if (state.walkable) walkable_.show(mergeMesh(state.collision->walkable, {72, 200, 130, 120}, 0.03F));
-  }
-
-  void updateCloud(const ViewState& state) {
-    cloud_.hide();
-    if (state.cloud) cloud_.show(*state.cloud);
-  }
-
-  // Above what can be turned smoothly each shows every k-th point of its sample.
-  void updateUnderlays(const ViewState& state) {
-    std::uint64_t points = 0;
-    for (const auto& u : state.underlays) points += u.cloud->colours.size();
-    const auto step = static_cast<std::size_t>(points / kMostShownPoints + 1);
-    while (underlays_.size() < state.underlays.size()) {
-      underlays_.push_back(std::make_unique<UnderlayLayer>());
-      setUpPoints(underlays_.back()->layer);
-      underlays_.back()->layer.actor->GetProperty()->SetPointSize(cloud_.actor->GetProperty()->GetPointSize());
-    }
-    for (std::size_t i = 0; i < underlays_.size(); ++i) {
-      auto& [layer, cloud, shown_step] = *underlays_[i];
-      layer.hide();
-      if (state.cloud || i >= state.underlays.size()) continue;
-      const auto& wanted = state.underlays[i];
-      if (cloud != wanted.cloud || shown_step != step) layer.show(*wanted.cloud, step);
-      cloud = wanted.cloud;
-      shown_step = step;
-      vtkNew<vtkMatrix4x4> matrix;
-      for (int row = 0; row < 4; ++row)
-        for (int column = 0; column < 4; ++column)
-          matrix->SetElement(row, column, wanted.local_from_cloud(row, column));
-      layer.actor->SetUserMatrix(matrix);
-      layer.actor->SetVisibility(1);
-    }
-  }
-
-  // Of all that is shown; what lies behind it is not drawn.
-  Bounds reachOf(const ViewState& state) const {
-    Bounds reach = bounds_;
-    if (!state.cloud)
-      for (const auto& u : underlays_)
-        if (u->layer.actor->GetVisibility() != 0) {
-          const double* b = u->layer.actor->GetBounds();
-          reach.extend(Eigen::Vector3d(b[0], b[2], b[4]));
-          reach.extend(Eigen::Vector3d(b[1], b[3], b[5]));
-        }
-    return reach;
-  }
-
-  void updateGrid(const ViewState& state) {
-    grid_.hide();
-    if (!state.grid || !state.environment || bounds_.empty()) return;
-    grid_.mapper->SetColorModeToDirectScalars();
-    grid_.set(groundGrid(bounds_), false);
-  }
-
-  void updateCut(const ViewState& state) {
-    std::vector<Layer*> layers = {&opaque_,  &transparent_, &graded_,   &graded_transparent_,
-                                  &shapes_,  &selected_,    &walkable_, &edges_,
-                                  &outline_, &cloud_};
-    for (const auto& u : underlays_) layers.push_back(&u->layer);
-    for (const auto& layer : painted_) layers.push_back(layer.get());
-    for (Layer* layer : layers) {
-      layer->mapper->RemoveAllClippingPlanes();
-      if (!state.cut_height_m) continue;
-      vtkNew<vtkPlane> plane;
-      plane->SetOrigin(0, 0, *state.cut_height_m);
-      plane->SetNormal(0, 0, -1);
-      layer->mapper->AddClippingPlane(plane);
-    }
+  void drawBackdrop() {
+    if (sky_)
+      backdrop().draw(sky_->camera, static_cast<double>(width_) / height_, sky_->theme,
+                      groundHeight_m(layers_.bounds()));
   }
 
   void updateCamera(const Camera& camera) {
@@ -521,19 +346,20 @@ class VtkSceneView : public SceneView {
     vtk->SetViewAngle(camera.view_angle_rad / kRadPerDeg);
     vtk->SetParallelProjection(camera.orthographic ? 1 : 0);
     vtk->SetParallelScale(camera.heightAtTarget_m() / 2);
-    if (reach_.empty()) {
+    const Bounds& reached = layers_.reach();
+    if (reached.empty()) {
       vtk->SetClippingRange(0.1, 1000);
       return;
     }
-    const Eigen::Vector3d centre = (reach_.min + reach_.max) / 2;
-    const double reach = 2 * reach_.diagonal() + 10;  // the grid reaches farther than the model
+    const Eigen::Vector3d centre = (reached.min + reached.max) / 2;
+    const double reach = 2 * reached.diagonal() + 10;  // the grid reaches farther than the model
     const double depth = (centre - eye).dot(camera.forward());
     if (camera.orthographic) {
       vtk->SetClippingRange(depth - reach, depth + reach);
       return;
     }
     // As far away as the model allows: how finely depths can be told apart hangs on the nearest one.
-    const Eigen::Vector3d outside = (eye - reach_.max).cwiseMax(reach_.min - eye).cwiseMax(0.0);
+    const Eigen::Vector3d outside = (eye - reached.max).cwiseMax(reached.min - eye).cwiseMax(0.0);
     const double nearest = std::max(0.04, 0.5 * outside.norm());
     vtk->SetClippingRange(nearest, std::max(depth + reach, 10 * nearest));
   }
@@ -543,20 +369,26 @@ class VtkSceneView : public SceneView {
   vtkNew<vtkRenderStepsPass> steps_;
   vtkNew<vtkEDLShading>
       depth_shading_;  // eye-dome lighting, of a bare cloud at rest: it costs as much as a million points
-  Layer opaque_, transparent_, graded_, graded_transparent_, shapes_, selected_, walkable_, edges_, outline_, grid_,
-      cloud_;
-  std::vector<std::unique_ptr<Layer>> painted_;  // one for each image in sight
-  std::vector<std::uint32_t>
-      runs_;  // of what opaque_ and transparent_ show; empty: their colours cannot be changed alone
-  TextureCache textures_;
-  EdgeCache edge_cache_;
-  struct UnderlayLayer {
-    Layer layer;
-    std::shared_ptr<const Cloud> cloud;
-    std::size_t step = 0;
+  SceneLayers layers_{renderer_};
+  struct Sky {
+    Camera camera;
+    Theme theme;
   };
-  std::vector<std::unique_ptr<UnderlayLayer>> underlays_;
-  Bounds bounds_, reach_;  // of the environment; of all that is shown
+  std::optional<Sky> sky_;  // behind the picture that is drawn
+  struct Shadowed {
+    std::shared_ptr<const Environment> environment;
+    std::shared_ptr<const HiddenProducts> hidden;
+    std::optional<double> cut_height_m;
+    bool operator==(const Shadowed&) const = default;
+  };
+  std::optional<Shadowed> shadowed_;  // whose shadow the backdrop has
+  std::unique_ptr<Backdrop> backdrop_;
+  std::unique_ptr<Finish> finish_;
+  GLuint shown_ = 0;  // the picture
+  std::uint64_t moved_pictures_ = 0;
+  int factor_ = 1;  // pixels that are drawn, for each of the picture, each way
+  bool shading_ = false;
+  bool measured_ = false;  // the last picture was drawn for its time
   std::optional<ViewState> drawn_;
   struct PixelTexture {
     std::weak_ptr<const PixelPicture> of;  // gone: the texture is free for another

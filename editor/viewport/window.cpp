@@ -24,7 +24,6 @@ namespace standpoint {
 
 namespace {
 
-constexpr double kStill_s = 0.25;  // without input the picture is made fine
 std::atomic<FramePacer*> shown_window{nullptr};
 
 class GlfwEvents : public EventSource {
@@ -51,6 +50,7 @@ class Window {
     scene_ = makeVtkSceneView();
     beside_ = makeVtkSceneView();
     scene_->texture(ViewState(), 8, 8, false);  // loads the OpenGL functions
+    editor_.graphics.begin(scene_->means());
     editor_.scene = scene_.get();
     editor_.scene_beside = beside_.get();
     ImGui_ImplOpenGL3_Init("#version 150");
@@ -87,7 +87,7 @@ class Window {
 
   void push(const InputEvent& event) {
     input_.push(event);
-    last_input_s_ = glfwGetTime();
+    last_moved_s_ = glfwGetTime();
   }
 
   // GLFW names keys by their place on an American keyboard; plus and minus lie elsewhere on others, and on the number
@@ -137,18 +137,27 @@ class Window {
   }
 
   void waitForWork() {
-    const auto untilFine = [&] { return last_input_s_ + kStill_s - glfwGetTime(); };
+    const auto untilFine = [&] { return last_moved_s_ + stillFor_s(fine_picture_s_) - glfwGetTime(); };
     pacer_.waitForWork(events_, [&] {
       FramePacer::Reasons reasons{.input = input_.pending(),
                                   .key_held = keyboard::anyHeld(),
                                   .walker_moves = editor_.walk.moves(),
                                   .text_edited = ImGui::GetIO().WantTextInput,
-                                  .job_runs = editor_.jobRuns()};
+                                  .job_runs = editor_.jobRuns(),
+                                  .refining = refining()};
+      if (reasons.walker_moves || (reasons.key_held && editor_.walk.active())) moveOn();
       if (!editor_.fine_picture) reasons.until_fine_s = std::max(0.0, untilFine());
       return reasons;
     });
     if (!editor_.fine_picture) editor_.fine_picture = !input_.pending() && untilFine() <= 0;
   }
+
+  void moveOn() {
+    last_moved_s_ = glfwGetTime();
+    editor_.fine_picture = false;
+  }
+
+  bool refining() const { return scene_->refining() || beside_->refining() || editor_.costs_wanted; }
 
   void takeInput() {
     auto& io = ImGui::GetIO();
@@ -188,13 +197,15 @@ class Window {
     glfwGetWindowSize(handle_, &w, &h);
     const double monitor = std::max(x, 0.5F), user = editor_.settings.user_scale;
     const auto wanted = static_cast<float>(fittingScale(monitor, user, w, h));
+    if (wanted == built_scale_ && editor_.settings.theme == applied_theme_) return;
+    applied_theme_ = editor_.settings.theme;
+    applyTheme(wanted, applied_theme_);
+    pacer_.drawSome();
     if (wanted == built_scale_) return;
     built_scale_ = editor_.scale = wanted;
-    applyTheme(wanted);
     editor_.fonts = buildFonts(wanted);
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
-    pacer_.drawSome();
   }
 
   void drawFrame() {
@@ -212,17 +223,30 @@ class Window {
     last_frame_s_ = now;
     takeInput();
     rescale();
+    const auto moved_pictures = scene_->movedPictures();
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::NewFrame();
+    const auto not_measured = editor_.graphics.notMeasured();
     drawShell(editor_);
+    if (editor_.graphics.notMeasured() != not_measured) pacer_.drawSome();  // its line has grown
     ImGui::Render();
     glViewport(0, 0, w, h);
     glClearColor(0.09F, 0.10F, 0.11F, 1);
     glClear(GL_COLOR_BUFFER_BIT);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    glFinish();
+    timeFrame(glfwGetTime() - now, scene_->movedPictures() != moved_pictures);
     glfwSwapBuffers(handle_);
     showCursor();
     showTitle();
+  }
+
+  void timeFrame(double seconds, bool moved) {
+    if (moved) {
+      if (auto said = editor_.graphics.moved(seconds); !said.empty()) editor_.say(std::move(said));
+    }
+    if (editor_.fine_picture && !was_fine_) fine_picture_s_ = seconds;
+    was_fine_ = editor_.fine_picture;
   }
 
   void showCursor() {
@@ -245,7 +269,10 @@ class Window {
   GLFWcursor* cursors_[ImGuiMouseCursor_COUNT] = {};
   FramePacer& pacer_;
   GlfwEvents events_;
-  double last_input_s_ = 0, last_frame_s_ = 0;
+  double last_moved_s_ = 0, last_frame_s_ = 0;
+  double fine_picture_s_ = 0;  // what the last one took
+  bool was_fine_ = false;
+  Theme applied_theme_ = Theme::dark;
   RecoveryKeeper keeper_{recoveryFolder(recoveryRoot(), getpid())};
   float built_scale_ = 0;
   bool focus_lost_ = false;

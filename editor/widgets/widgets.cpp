@@ -18,7 +18,7 @@ namespace ui {
 
 void filterButton(const Style& style, const char* list, const char* icon, const char* name, std::size_t count,
                   ImU32 shade, bool& shown) {
-  ImGui::PushStyleColor(ImGuiCol_Button, shown ? ImVec4(1, 1, 1, 0.07F) : ImVec4(0, 0, 0, 0));
+  ImGui::PushStyleColor(ImGuiCol_Button, shown ? colour(tone::kLit) : ImVec4(0, 0, 0, 0));
   ImGui::PushStyleColor(ImGuiCol_Text,
                         shown && count > 0 ? colour(shade) : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   if (ImGui::Button(fmt::format("{}  {}###{}-{}", icon, groupedDigits(count), list, name).c_str())) shown = !shown;
@@ -56,8 +56,9 @@ bool primaryButton(const char* label, const std::string& why, ImVec2 size) {
   ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.17F, 0.41F, 0.74F, 1));
   ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ImVec4(0.22F, 0.48F, 0.84F, 1));
   ImGui::PushStyleColor(ImGuiCol_ButtonActive, ImVec4(0.14F, 0.36F, 0.66F, 1));
+  ImGui::PushStyleColor(ImGuiCol_Text, tone::kText.dark);  // its ground is dark in either theme
   const bool pressed = button(label, why, size);
-  ImGui::PopStyleColor(3);
+  ImGui::PopStyleColor(4);
   return pressed;
 }
 
@@ -115,7 +116,7 @@ void emptyState(const Style& style, const char* icon, const char* title, const c
   ImGui::Dummy({0, std::min(style.px(28), ImGui::GetContentRegionAvail().y * 0.12F)});
   if (style.fonts.huge != nullptr) ImGui::PushFont(style.fonts.huge);
   centred(icon);
-  ImGui::TextColored({0.33F, 0.37F, 0.43F, 1}, "%s", icon);
+  ImGui::TextColored(colour(tone::kFaint), "%s", icon);
   if (style.fonts.huge != nullptr) ImGui::PopFont();
   centred(title);
   ImGui::TextUnformatted(title);
@@ -163,7 +164,7 @@ void meter(const Style& style, double fraction, ImU32 fill, float wanted_width) 
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = wanted_width > 0 ? wanted_width : ImGui::GetContentRegionAvail().x, height = style.px(6);
   auto& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled(at, {at.x + width, at.y + height}, IM_COL32(27, 30, 36, 255), height / 2);
+  list.AddRectFilled(at, {at.x + width, at.y + height}, tone::kWell, height / 2);
   const float filled = width * static_cast<float>(std::clamp(fraction, 0.0, 1.0));
   if (filled > height / 2) list.AddRectFilled(at, {at.x + filled, at.y + height}, fill, height / 2);
   ImGui::Dummy({width, height});

@@ -58,8 +58,12 @@ TEST_F(Folder, KeepsSettingsFromOneStartToTheNext) {
   settings.remember("/models/house.ifc");
   settings.areas[1].left = 444;
   settings.user_scale = 1.25;
+  settings.graphics = GraphicsChoice::medium;
+  settings.theme = Theme::light;
   ASSERT_TRUE(writeSettings(settings, root / "deep" / "editor.json"));
-  EXPECT_EQ(readSettings(root / "deep" / "editor.json"), settings);
+  const auto stored = readSettings(root / "deep" / "editor.json");
+  EXPECT_EQ(stored.settings, settings);
+  EXPECT_EQ(stored.problem, "");
   EXPECT_EQ(settings.recent, (std::vector<std::string>{"/models/house.ifc", "/models/school.ifc"}));
 }
 
@@ -82,13 +86,26 @@ TEST(Scale, NeverOutgrowsTheWindow) {
 TEST_F(Folder, StartsWithDefaultsWhenTheSettingsAreBroken) {
   for (const char* text :
        {"", "{", "[1,2]",
-        "{\"areas\": {\"optimise\": {\"left\": \"wide\"}, \"survey\": 3}, \"user_scale\": 1e99, \"recent\": [7]}"}) {
+        "{\"areas\": {\"optimise\": {\"left\": \"wide\"}, \"survey\": 3}, \"user_scale\": 1e99, \"recent\": [7]}",
+        R"({"graphics": "ultra", "theme": 7})", R"({"graphics": null, "theme": ["light"], "recovery": "yes"})"}) {
     write("editor.json", text);
-    const auto settings = readSettings(root / "editor.json");
+    const auto stored = readSettings(root / "editor.json");
+    const auto& settings = stored.settings;
+    EXPECT_EQ(settings.graphics, GraphicsChoice::automatic) << text;
+    EXPECT_EQ(settings.theme, Theme::dark) << text;
+    EXPECT_TRUE(stored.problem.starts_with("Preferences")) << text;
     EXPECT_EQ(settings.areas, Settings().areas) << text;
     EXPECT_LE(settings.user_scale, kUserScales.back()) << text;
     EXPECT_TRUE(settings.recent.empty()) << text;
   }
+}
+
+TEST_F(Folder, NamesTheSettingsThatMakeNoSense) {
+  write("editor.json", R"({"graphics": "ultra", "theme": "light", "user_scale": 40})");
+  const auto stored = readSettings(root / "editor.json");
+  EXPECT_EQ(stored.settings.theme, Theme::light);
+  EXPECT_EQ(stored.problem, "Preferences without a valid value, changed to what is valid: user_scale, graphics");
+  EXPECT_EQ(readSettings(root / "none.json").problem, "") << "the first start";
 }
 
 TEST_F(Folder, OffersOnlyTheCopiesOfProcessesThatAreGone) {

@@ -205,6 +205,27 @@ TEST(MergedColours, AreNotToldWhereTheGeometryDependsOnThem) {
   EXPECT_TRUE(mergeColours(state));
 }
 
+// Three cells in a row: the second is a little higher, as on a slope; the third is a stair's next step.
+TEST(MergedScene, DrawsTheCellsOfASlopeWithoutGapsAndTheStepsOfAStairAsTheyAre) {
+  Mesh mesh;
+  for (const auto& [x, z] : {std::pair{0.0F, 1.0F}, {1.0F, 1.05F}, {2.0F, 1.23F}}) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), {{x, 0, z}, {x + 1, 0, z}, {x + 1, 1, z}, {x, 1, z}});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.triangles.push_back({first, first + 2, first + 3});
+  }
+  const auto drawn = mergeWalkable(mesh, {72, 200, 130, 120});
+  const auto height = [&](std::size_t cell, std::size_t corner) {
+    return drawn.positions[(4 * cell + corner) * 3 + 2];
+  };
+  EXPECT_FLOAT_EQ(height(0, 0), 1.03F);
+  EXPECT_FLOAT_EQ(height(0, 1), 1.08F) << "meets the second";
+  EXPECT_FLOAT_EQ(height(1, 0), 1.08F);
+  EXPECT_FLOAT_EQ(height(1, 1), 1.08F) << "below the step";
+  EXPECT_FLOAT_EQ(height(2, 0), 1.26F);
+  EXPECT_EQ(drawn.colours.size(), 6U);
+}
+
 TEST(EdgeCache, PlacesTheEdgesOfEveryInstance) {
   Document document = demoHouse();
   EdgeCache cache;

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/model/graphics.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace standpoint {
+
+namespace {
+
+constexpr double kSlow_s = 1.0 / 25, kQuick_s = 1.0 / 50;
+constexpr double kSustained_s = 1.5;  // of drawing: a stall of one frame says nothing
+constexpr std::size_t kFewestFrames = 8;
+constexpr double kCalm_s = 5;
+
+std::size_t index(GraphicsLevel level) { return static_cast<std::size_t>(level); }
+GraphicsLevel levelOf(GraphicsChoice choice) {
+  return static_cast<GraphicsLevel>(static_cast<int>(choice) - static_cast<int>(GraphicsChoice::low));
+}
+
+void append(std::string& list, const std::string& item) { list += (list.empty() ? "" : ", ") + item; }
+
+}  // namespace
+
+const char* graphicsName(GraphicsLevel level) {
+  switch (level) {
+    case GraphicsLevel::low: return "Low";
+    case GraphicsLevel::medium: return "Medium";
+    case GraphicsLevel::high: return "High";
+  }
+  return "";
+}
+
+const char* graphicsName(GraphicsChoice choice) {
+  return choice == GraphicsChoice::automatic ? "Automatic" : graphicsName(levelOf(choice));
+}
+
+const char* graphicsKey(GraphicsChoice choice) {
+  switch (choice) {
+    case GraphicsChoice::automatic: return "automatic";
+    case GraphicsChoice::low: return "low";
+    case GraphicsChoice::medium: return "medium";
+    case GraphicsChoice::high: return "high";
+  }
+  return "";
+}
+
+std::optional<GraphicsChoice> graphicsChoice(std::string_view key) {
+  const auto* found = std::find_if(kGraphicsChoices.begin(), kGraphicsChoices.end(),
+                                   [&](GraphicsChoice choice) { return key == graphicsKey(choice); });
+  return found != kGraphicsChoices.end() ? std::optional(*found) : std::nullopt;
+}
+
+const char* themeKey(Theme theme) { return theme == Theme::light ? "light" : "dark"; }
+
+std::optional<Theme> themeOf(std::string_view key) {
+  for (const auto theme : {Theme::dark, Theme::light})
+    if (key == themeKey(theme)) return theme;
+  return std::nullopt;
+}
+
+void GraphicsPace::begin(GraphicsMeans means) {
+  means_ = std::move(means);
+  start();
+}
+
+void GraphicsPace::choose(GraphicsChoice choice) {
+  if (choice == choice_) return;
+  choice_ = choice;
+  start();
+}
+
+void GraphicsPace::showAnother() {
+  cost_s_ = {};
+  start();
+}
+
+GraphicsLevel GraphicsPace::most() const {
+  return means_ && !means_->by_processor ? GraphicsLevel::high : GraphicsLevel::medium;
+}
+
+void GraphicsPace::start() {
+  level_ = choice_ == GraphicsChoice::automatic ? most() : levelOf(choice_);
+  frames_s_.clear();
+  sum_s_ = calm_s_ = 0;
+  taken_back_ = {};
+}
+
+double GraphicsPace::median_s() const {
+  std::vector<double> sorted(frames_s_.begin(), frames_s_.end());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  return *middle;
+}
+
+std::string GraphicsPace::moved(double frame_s) {
+  if (!means_ || choice_ != GraphicsChoice::automatic || !(frame_s >= 0)) return {};
+  frames_s_.push_back(frame_s);
+  sum_s_ += frame_s;
+  while (frames_s_.size() > kFewestFrames && sum_s_ - frames_s_.front() >= kSustained_s) {
+    sum_s_ -= frames_s_.front();
+    frames_s_.pop_front();
+  }
+  if (frames_s_.size() < kFewestFrames || sum_s_ < kSustained_s) return {};
+  const double usual_s = median_s();
+  calm_s_ = usual_s < kQuick_s ? calm_s_ + frame_s : 0;
+  if (usual_s > kSlow_s && level_ > GraphicsLevel::low) return change(-1, usual_s);
+  if (calm_s_ >= kCalm_s && mayRise(usual_s)) return change(1, usual_s);
+  return {};
+}
+
+// What is known of the costs must leave room to spare above the limit.
+bool GraphicsPace::mayRise(double frame_s) const {
+  if (level_ >= most()) return false;
+  const auto next = index(level_) + 1;
+  if (taken_back_[next]) return false;
+  const auto &now_s = cost_s_[index(level_)], &then_s = cost_s_[next];
+  return !now_s || !then_s || frame_s + *then_s - *now_s < 0.75 * kSlow_s;
+}
+
+std::string GraphicsPace::change(int steps, double frame_s) {
+  level_ = static_cast<GraphicsLevel>(static_cast<int>(level_) + steps);
+  if (steps > 0) taken_back_[index(level_)] = true;
+  frames_s_.clear();
+  sum_s_ = calm_s_ = 0;
+  return fmt::format("Graphics {} to {}: {:.0f} frames per second", steps < 0 ? "lowered" : "raised",
+                     graphicsName(level_), 1 / frame_s);
+}
+
+std::optional<GraphicsLevel> GraphicsPace::notMeasured() const {
+  for (const auto level : {GraphicsLevel::low, GraphicsLevel::medium, GraphicsLevel::high})
+    if (!cost_s_[index(level)]) return level;
+  return std::nullopt;
+}
+
+std::string GraphicsPace::about(GraphicsChoice choice) const {
+  if (choice == GraphicsChoice::automatic)
+    return fmt::format("The highest that keeps 25 frames per second, now {}",
+                       graphicsName(choice_ == choice ? level() : most()));
+  const auto level = levelOf(choice);
+  const GraphicsMeans means = means_.value_or(GraphicsMeans());
+  std::string has, lacks;
+  const auto list = [&](const std::string& why_not, const char* feature) {
+    append(why_not.empty() ? has : lacks, why_not.empty() ? feature : fmt::format("{} ({})", feature, why_not));
+  };
+  list({}, level == GraphicsLevel::low || !means.no_smoothing.empty()
+               ? "anti-aliasing 4× at rest"
+               : "anti-aliasing 4× at rest, by contrast in motion");
+  if (level >= GraphicsLevel::medium && !means.no_smoothing.empty())
+    list(means.no_smoothing, "anti-aliasing in motion");
+  if (level >= GraphicsLevel::medium) list(means.no_sky, "sky and horizon");
+  if (level >= GraphicsLevel::high) list(means.no_sky, "soft shadow on the ground");
+  if (level >= GraphicsLevel::high)
+    list(means.no_shading, means.by_processor ? "ambient occlusion at rest" : "ambient occlusion");
+  has[0] = static_cast<char>(has[0] - 'a' + 'A');
+  if (!lacks.empty()) has += "; without " + lacks;
+  if (const auto& cost_s = cost_s_[index(level)])
+    has += fmt::format("; about {:.0f} ms a picture here", *cost_s * 1000);
+  return has;
+}
+
+}  // namespace standpoint

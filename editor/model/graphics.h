@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace standpoint {
+
+// How much the picture of the scene may cost.
+enum class GraphicsLevel { low, medium, high };
+enum class GraphicsChoice { automatic, low, medium, high };
+constexpr std::size_t kGraphicsLevels = 3;
+inline constexpr std::array kGraphicsChoices = {GraphicsChoice::automatic, GraphicsChoice::low, GraphicsChoice::medium,
+                                                GraphicsChoice::high};
+
+enum class Theme { dark, light };
+
+const char* graphicsName(GraphicsLevel level);    // "Low"
+const char* graphicsName(GraphicsChoice choice);  // "Automatic", "Low"
+const char* graphicsKey(GraphicsChoice choice);   // in the preferences: "automatic"
+std::optional<GraphicsChoice> graphicsChoice(std::string_view key);
+const char* themeKey(Theme theme);
+std::optional<Theme> themeOf(std::string_view key);
+
+// What of it a picture depends on. Pictures that are made without a window keep these defaults, so that they stay as
+// they are from machine to machine.
+struct GraphicsLook {
+  GraphicsLevel level = GraphicsLevel::low;
+  Theme theme = Theme::dark;
+  bool operator==(const GraphicsLook&) const = default;
+};
+
+// What the machine's OpenGL has. Each reason is empty where the feature works; else the levels go without it.
+struct GraphicsMeans {
+  bool by_processor = false;                     // software rendering
+  std::string no_sky, no_smoothing, no_shading;  // why
+};
+
+// The level that is drawn. Automatic begins with what suits the machine and lowers it where moving pictures stay below
+// 25 frames a second. It takes a level back only after a long time far above that, and no level more than once, so it
+// never goes to and fro between two.
+class GraphicsPace {
+ public:
+  void begin(GraphicsMeans means);  // until then, Low is drawn
+  void choose(GraphicsChoice choice);
+  void showAnother();  // model: what has been measured does not hold any more
+  GraphicsLevel level() const { return means_ ? level_ : GraphicsLevel::low; }
+  const std::optional<GraphicsMeans>& means() const { return means_; }
+
+  // A whole frame while the camera moved. What is to be said of it: the level has changed; mostly "".
+  std::string moved(double frame_s);
+
+  // What a picture of the scene costs at a level while the camera moves.
+  void measured(GraphicsLevel level, double picture_s) { cost_s_[static_cast<std::size_t>(level)] = picture_s; }
+  std::optional<GraphicsLevel> notMeasured() const;
+  // One line: what a choice has, and what it costs on this machine if that has been measured.
+  std::string about(GraphicsChoice choice) const;
+
+ private:
+  GraphicsLevel most() const;
+  void start();
+  double median_s() const;
+  bool mayRise(double frame_s) const;
+  std::string change(int steps, double frame_s);
+
+  std::optional<GraphicsMeans> means_;
+  GraphicsChoice choice_ = GraphicsChoice::automatic;
+  GraphicsLevel level_ = GraphicsLevel::low;
+  std::deque<double> frames_s_;  // the last ones at this level
+  double sum_s_ = 0;             // of these
+  double calm_s_ = 0;            // drawn far above the limit, without a break
+  std::array<bool, kGraphicsLevels> taken_back_ = {};
+  std::array<std::optional<double>, kGraphicsLevels> cost_s_;
+};
+
+}  // namespace standpoint

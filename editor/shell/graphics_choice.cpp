@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/shell/graphics_choice.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "editor/shell/editor.h"
+
+namespace standpoint {
+
+void drawGraphicsChoices(Editor& editor, float width_pt) {
+  editor.costs_wanted = editor.shown() && editor.graphics.notMeasured();
+  for (const auto choice : kGraphicsChoices) {
+    if (ImGui::RadioButton(fmt::format("{}###graphics-{}", graphicsName(choice), graphicsKey(choice)).c_str(),
+                           editor.settings.graphics == choice))
+      editor.settings.graphics = choice;
+    const float inset = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x;
+    ImGui::Indent(inset);
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() - editor.px(6));
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + editor.px(width_pt) - inset);
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ImGui::TextUnformatted(editor.graphics.about(choice).c_str());
+    ImGui::PopStyleColor();
+    ImGui::PopTextWrapPos();
+    ImGui::Unindent(inset);
+  }
+}
+
+std::string aboutGraphics(const Editor& editor, std::string_view command) {
+  constexpr std::string_view kPrefix = "graphics-";
+  if (!command.starts_with(kPrefix)) return {};
+  const auto choice = graphicsChoice(command.substr(kPrefix.size()));
+  return choice ? editor.graphics.about(*choice) : std::string();
+}
+
+}  // namespace standpoint

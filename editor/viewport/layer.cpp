@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/viewport/layer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <numeric>
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkFloatArray.h>
+#include <vtkIdTypeArray.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkProperty.h>
+#include <vtkUnsignedCharArray.h>
+
+namespace standpoint {
+
+namespace {
+
+vtkSmartPointer<vtkPoints> pointsOf(const std::vector<float>& positions) {
+  vtkNew<vtkFloatArray> array;
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(positions.size() / 3));
+  if (!positions.empty()) std::memcpy(array->GetPointer(0), positions.data(), positions.size() * sizeof(float));
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetData(array);
+  return points;
+}
+
+vtkSmartPointer<vtkCellArray> cellsOf(const std::vector<std::int64_t>& indices, vtkIdType size) {
+  vtkNew<vtkTypeInt64Array> array;
+  array->SetNumberOfTuples(static_cast<vtkIdType>(indices.size()));
+  if (!indices.empty()) std::memcpy(array->GetPointer(0), indices.data(), indices.size() * sizeof(std::int64_t));
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->SetData(size, array);
+  return cells;
+}
+
+vtkSmartPointer<vtkUnsignedCharArray> coloursOf(const std::vector<Rgba>& colours) {
+  auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  array->SetNumberOfComponents(4);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(colours.size()));
+  if (!colours.empty()) std::memcpy(array->GetPointer(0), colours.data(), colours.size() * sizeof(Rgba));
+  return array;
+}
+
+}  // namespace
+
+void Layer::show(const MergedTriangles& triangles) {
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(pointsOf(triangles.positions));
+  data->SetPolys(cellsOf(triangles.corners, 3));
+  if (triangles.graded)
+    data->GetPointData()->SetScalars(coloursOf(triangles.colours));
+  else
+    data->GetCellData()->SetScalars(coloursOf(triangles.colours));
+  if (triangles.graded)
+    mapper->SetScalarModeToUsePointData();
+  else
+    mapper->SetScalarModeToUseCellData();
+  set(data, triangles.colours.empty());
+}
+
+void Layer::show(const PaintedTriangles& painted, vtkTexture* texture) {
+  show(painted.triangles);
+  vtkNew<vtkFloatArray> coordinates;
+  coordinates->SetNumberOfComponents(2);
+  coordinates->SetNumberOfTuples(static_cast<vtkIdType>(painted.coordinates.size() / 2));
+  if (!painted.coordinates.empty())
+    std::memcpy(coordinates->GetPointer(0), painted.coordinates.data(), painted.coordinates.size() * sizeof(float));
+  vtkPolyData::SafeDownCast(mapper->GetInput())->GetPointData()->SetTCoords(coordinates);
+  actor->SetTexture(texture);
+  actor->GetProperty()->SetLighting(!painted.unlit);
+}
+
+void Layer::show(const MergedLines& lines) {
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(pointsOf(lines.positions));
+  data->SetLines(cellsOf(lines.ends, 2));
+  set(data, lines.ends.empty());
+}
+
+void Layer::show(const Cloud& cloud, std::size_t step) {
+  std::vector<float> positions;
+  std::vector<Rgba> colours;
+  for (std::size_t i = 0; i < cloud.colours.size(); i += step) {
+    positions.insert(positions.end(), {cloud.positions[3 * i], cloud.positions[3 * i + 1], cloud.positions[3 * i + 2]});
+    colours.push_back(cloud.colours[i]);
+  }
+  std::vector<std::int64_t> indices(colours.size());
+  std::iota(indices.begin(), indices.end(), std::int64_t{0});
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(pointsOf(positions));
+  data->SetVerts(cellsOf(indices, 1));
+  data->GetPointData()->SetScalars(coloursOf(colours));
+  set(data, colours.empty());
+}
+
+void Layer::set(vtkPolyData* data, bool empty) {
+  mapper->SetInputData(data);
+  actor->SetMapper(mapper);
+  actor->SetVisibility(empty ? 0 : 1);
+}
+
+void Layer::paint(const std::vector<Rgba>& colours) {
+  if (!colours.empty()) mapper->GetInput()->GetCellData()->SetScalars(coloursOf(colours));
+}
+
+double groundHeight_m(const Bounds& bounds) { return bounds.min.z() - 0.02; }
+
+vtkSmartPointer<vtkPolyData> groundGrid(const Bounds& bounds, Theme theme) {
+  const double reach =
+      std::max(4.0, 0.9 * std::hypot(bounds.max.x() - bounds.min.x(), bounds.max.y() - bounds.min.y()));
+  const double step = std::pow(10.0, std::max(0.0, std::floor(std::log10(reach / 8))));
+  const Eigen::Vector3d centre = (bounds.min + bounds.max) / 2;
+  const double cx = std::round(centre.x() / step) * step, cy = std::round(centre.y() / step) * step,
+               z = groundHeight_m(bounds);
+  const int lines = static_cast<int>(std::ceil(reach / step));
+  const std::array<unsigned char, 3> tone =
+      theme == Theme::light ? std::array<unsigned char, 3>{92, 102, 118} : std::array<unsigned char, 3>{150, 162, 180};
+  constexpr int kParts = 40;  // of a line, so that each can have its own strength
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetNumberOfComponents(4);
+  for (int axis = 0; axis < 2; ++axis)
+    for (int i = -lines; i <= lines; ++i)
+      for (int part = 0; part <= kParts; ++part) {
+        const double across = i * step, along = (2.0 * part / kParts - 1) * lines * step;
+        const double x = axis == 0 ? across : along, y = axis == 0 ? along : across;
+        const auto id = points->InsertNextPoint(cx + x, cy + y, z);
+        const double fade = std::clamp(1 - std::hypot(x, y) / (lines * step), 0.0, 1.0);
+        const auto absolute = std::lround(((axis == 0 ? cx : cy) + across) / step);
+        const double strength = absolute % 10 == 0 ? 150 : 70;
+        const unsigned char rgba[4] = {tone[0], tone[1], tone[2], static_cast<unsigned char>(strength * fade)};
+        colours->InsertNextTypedTuple(rgba);
+        if (part == 0) continue;
+        const vtkIdType ends[2] = {id - 1, id};
+        cells->InsertNextCell(2, ends);
+      }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->SetLines(cells);
+  data->GetPointData()->SetScalars(colours);
+  return data;
+}
+
+}  // namespace standpoint

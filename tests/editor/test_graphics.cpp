@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "demo_verbs.h"
+#include "editor/model/frame_pacer.h"
+#include "editor/model/graphics.h"
+#include "editor/shell/actions.h"
+#include "item_probe.h"
+
+namespace standpoint {
+namespace {
+
+GraphicsPace paceOf(bool by_processor) {
+  GraphicsPace pace;
+  pace.begin({.by_processor = by_processor, .no_sky = {}, .no_smoothing = {}, .no_shading = {}});
+  return pace;
+}
+
+// What is said in so many seconds of frames that take this long.
+std::vector<std::string> run(GraphicsPace& pace, double frame_s, double seconds) {
+  std::vector<std::string> said;
+  for (double t = 0; t < seconds; t += frame_s)
+    if (auto words = pace.moved(frame_s); !words.empty()) said.push_back(std::move(words));
+  return said;
+}
+
+TEST(GraphicsPace, DrawsTheLowestLevelUntilTheMachineIsKnown) {
+  EXPECT_EQ(GraphicsPace().level(), GraphicsLevel::low);
+  EXPECT_EQ(paceOf(true).level(), GraphicsLevel::medium);
+  EXPECT_EQ(paceOf(false).level(), GraphicsLevel::high);
+}
+
+TEST(GraphicsPace, LowersALevelOnceBelow25FramesForASustainedTimeAndSaysSo) {
+  auto pace = paceOf(true);
+  EXPECT_TRUE(run(pace, 0.030, 60).empty()) << "33 frames per second are enough";
+  const auto said = run(pace, 1.0 / 14, 60);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0], "Graphics lowered to Low: 14 frames per second");
+  EXPECT_EQ(pace.level(), GraphicsLevel::low);
+}
+
+TEST(GraphicsPace, GoesDownStepByStep) {
+  auto pace = paceOf(false);
+  const auto said = run(pace, 0.1, 30);
+  ASSERT_EQ(said.size(), 2U);
+  EXPECT_EQ(said[0], "Graphics lowered to Medium: 10 frames per second");
+  EXPECT_EQ(said[1], "Graphics lowered to Low: 10 frames per second");
+}
+
+TEST(GraphicsPace, IsNotImpressedByAStall) {
+  auto pace = paceOf(true);
+  EXPECT_TRUE(run(pace, 0.016, 3).empty());
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(pace.moved(1.2), "") << "something else was busy";
+    EXPECT_TRUE(run(pace, 0.016, 1.5).empty());
+  }
+  EXPECT_EQ(pace.level(), GraphicsLevel::medium);
+}
+
+TEST(GraphicsPace, IsNotImpressedByAFewSlowFrames) {
+  auto pace = paceOf(true);
+  EXPECT_TRUE(run(pace, 0.1, 1.2).empty());
+  EXPECT_EQ(pace.level(), GraphicsLevel::medium);
+}
+
+// A level that is too slow, and one below it that is quick: the worst that a rule without memory could meet.
+TEST(GraphicsPace, NeverGoesToAndFroBetweenTwoLevels) {
+  auto pace = paceOf(true);
+  int changes = 0;
+  for (int i = 0; i < 200000; ++i)
+    changes += pace.moved(pace.level() == GraphicsLevel::low ? 0.012 : 0.060).empty() ? 0 : 1;
+  EXPECT_EQ(changes, 3) << "down, one try up, down";
+  EXPECT_EQ(pace.level(), GraphicsLevel::low);
+}
+
+TEST(GraphicsPace, DoesNotEvenTryWhereTheCostsAreKnown) {
+  auto pace = paceOf(true);
+  pace.measured(GraphicsLevel::low, 0.005);
+  pace.measured(GraphicsLevel::medium, 0.050);
+  int changes = 0;
+  for (int i = 0; i < 200000; ++i)
+    changes += pace.moved(pace.level() == GraphicsLevel::low ? 0.012 : 0.060).empty() ? 0 : 1;
+  EXPECT_EQ(changes, 1);
+}
+
+TEST(GraphicsPace, ComesBackAfterASlowTimeIsOver) {
+  auto pace = paceOf(true);
+  run(pace, 0.1, 5);  // a scan is being made beside it
+  ASSERT_EQ(pace.level(), GraphicsLevel::low);
+  EXPECT_TRUE(run(pace, 0.012, 4).empty()) << "not at once";
+  const auto said = run(pace, 0.012, 10);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0], "Graphics raised to Medium: 83 frames per second");
+}
+
+TEST(GraphicsPace, LeavesAloneWhatTheUserChose) {
+  auto pace = paceOf(true);
+  pace.choose(GraphicsChoice::high);
+  EXPECT_TRUE(run(pace, 0.5, 60).empty());
+  EXPECT_EQ(pace.level(), GraphicsLevel::high);
+  pace.choose(GraphicsChoice::automatic);
+  EXPECT_EQ(pace.level(), GraphicsLevel::medium);
+}
+
+TEST(GraphicsPace, BeginsAnewWithAnotherModel) {
+  auto pace = paceOf(true);
+  run(pace, 0.1, 5);
+  pace.measured(GraphicsLevel::low, 0.005);
+  pace.showAnother();
+  EXPECT_EQ(pace.level(), GraphicsLevel::medium);
+  EXPECT_EQ(pace.notMeasured(), GraphicsLevel::low);
+}
+
+TEST(GraphicsPace, SaysWhatEachLevelHasAndCosts) {
+  auto pace = paceOf(true);
+  EXPECT_EQ(pace.about(GraphicsChoice::automatic), "The highest that keeps 25 frames per second, now Medium");
+  EXPECT_EQ(pace.about(GraphicsChoice::low), "Anti-aliasing 4× at rest");
+  pace.measured(GraphicsLevel::medium, 0.0123);
+  EXPECT_EQ(pace.about(GraphicsChoice::medium),
+            "Anti-aliasing 4× at rest, by contrast in motion, sky and horizon; about 12 ms a picture here");
+  EXPECT_EQ(pace.about(GraphicsChoice::high),
+            "Anti-aliasing 4× at rest, by contrast in motion, sky and horizon, soft shadow on the ground, ambient "
+            "occlusion at rest");
+}
+
+TEST(GraphicsPace, OffersALevelWithoutWhatTheMachineLacksAndSaysSo) {
+  GraphicsPace pace;
+  pace.begin({.by_processor = false, .no_sky = {}, .no_smoothing = {}, .no_shading = "no shader"});
+  EXPECT_EQ(pace.about(GraphicsChoice::high),
+            "Anti-aliasing 4× at rest, by contrast in motion, sky and horizon, soft shadow on the ground; without "
+            "ambient occlusion "
+            "(no shader)");
+  pace.begin({.by_processor = true, .no_sky = "old", .no_smoothing = "old", .no_shading = "old"});
+  EXPECT_EQ(pace.about(GraphicsChoice::medium),
+            "Anti-aliasing 4× at rest; without anti-aliasing in motion (old), sky and horizon (old)");
+}
+
+TEST(Graphics, AreSharpWithin100MillisecondsUnlessThatWouldHoldUp) {
+  EXPECT_LE(stillFor_s(0.05) + 0.05, 0.1);
+  EXPECT_GE(stillFor_s(0.3), 0.2);
+}
+
+TEST(Graphics, AreChosenByCommandsAndKeepWhatPicturesDependOn) {
+  Editor editor(verbsWithDemo(), [] {});
+  EXPECT_EQ(editor.viewState().graphics, GraphicsLook()) << "pictures without a window";
+  ASSERT_TRUE(invoke(editor, "graphics-high"));
+  EXPECT_EQ(editor.settings.graphics, GraphicsChoice::high);
+  ASSERT_TRUE(invoke(editor, "theme-light"));
+  editor.graphics.begin({});
+  editor.update();
+  EXPECT_EQ(editor.viewState().graphics, (GraphicsLook{GraphicsLevel::high, Theme::light}));
+}
+
+// The list of the levels asks for their costs.
+TEST(Graphics, AreListedInThePreferences) {
+  Editor editor(verbsWithDemo(), [] {});
+  GuiDriver gui(editor);
+  editor.dialogs.preferences = true;
+  gui.frames(3);
+  EXPECT_FALSE(editor.costs_wanted) << "there is no model to measure with";
+  ASSERT_TRUE(editor.session.start("demo", nlohmann::json::object()));
+  gui.settle();
+  EXPECT_TRUE(editor.costs_wanted);
+  ASSERT_TRUE(gui.click("###graphics-medium"));
+  EXPECT_EQ(editor.settings.graphics, GraphicsChoice::medium);
+  ASSERT_TRUE(gui.click("###theme-light"));
+  EXPECT_EQ(editor.settings.theme, Theme::light);
+}
+
+}  // namespace
+}  // namespace standpoint

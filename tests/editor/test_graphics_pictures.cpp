@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <vtk_glew.h>
+
+#include "demo_document.h"
+#include "editor/viewport/finish.h"
+#include "editor/viewport/ground_shadow.h"
+#include "editor/viewport/offscreen.h"
+
+namespace standpoint {
+namespace {
+
+constexpr int kWidth = 320, kHeight = 240;
+
+struct Drawn {
+  std::vector<unsigned char> rgba;
+  double brightness(int x0, int y0, int x1, int y1) const {  // of a part, from the lower left
+    double sum = 0;
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x) {
+        const auto* c = &rgba[static_cast<std::size_t>(y * kWidth + x) * 4];
+        sum += (c[0] + c[1] + c[2]) / 3.0;
+      }
+    return sum / ((x1 - x0) * (y1 - y0));
+  }
+};
+
+// A room of 6 × 4 × 3 m, open to the south; its ground lies around it.
+std::shared_ptr<const Environment> room() {
+  Environment e;
+  e.surfaces = {{"plaster", {0.8F, 0.8F, 0.8F, 1}}};
+  Mesh mesh;
+  const auto wall = [&](Eigen::Vector3f a, Eigen::Vector3f b, Eigen::Vector3f c) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), {a, b, b + c - a, c});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.triangles.push_back({first, first + 2, first + 3});
+    mesh.surface_of_triangle.insert(mesh.surface_of_triangle.end(), 2, 0);
+  };
+  wall({0, 0, 0}, {6, 0, 0}, {0, 4, 0});
+  wall({0, 4, 0}, {6, 4, 0}, {0, 4, 3});
+  wall({0, 0, 0}, {0, 4, 0}, {0, 0, 3});
+  wall({6, 0, 0}, {6, 4, 0}, {6, 0, 3});
+  wall({0, 0, 3}, {6, 0, 3}, {0, 4, 3});
+  e.meshes = {std::make_shared<Mesh>(mesh)};
+  e.products.resize(1);
+  e.instances = {{0, 0, Eigen::Affine3d::Identity()}};
+  return std::make_shared<const Environment>(e);
+}
+
+class Levels : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto made = Offscreen::create(kWidth, kHeight, 1);
+    if (!made) GTEST_SKIP() << describe(made.error());
+    offscreen = std::move(*made);
+    state.environment = room();
+    state.edges = state.grid = false;
+    state.camera.target = {3, 0, 1.5};
+    state.camera.distance_m = 4;
+    state.camera.azimuth_rad = state.camera.elevation_rad = 0;
+    state.camera.view_angle_rad = 0.9;
+  }
+  SceneView& view() { return offscreen->scene(); }
+  Drawn draw(bool fine) {
+    std::uint64_t texture = view().texture(state, kWidth, kHeight, fine);
+    while (view().refining()) texture = view().texture(state, kWidth, kHeight, fine);
+    GLint width = 0, height = 0;
+    glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(texture));
+    glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &width);
+    glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_HEIGHT, &height);
+    std::vector<unsigned char> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+    glBindTexture(GL_TEXTURE_2D, 0);
+    return shrunk(pixels, width, height);
+  }
+  // As it is shown: a fine picture has more pixels each way.
+  static Drawn shrunk(const std::vector<unsigned char>& pixels, int width, int height) {
+    Drawn drawn;
+    const int factor = width / kWidth;
+    EXPECT_EQ(width, factor * kWidth);
+    EXPECT_EQ(height, factor * kHeight);
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x)
+        for (int c = 0; c < 4; ++c) {
+          int sum = 0;
+          for (int i = 0; i < factor * factor; ++i)
+            sum +=
+                pixels[static_cast<std::size_t>(((y * factor + i / factor) * width + x * factor + i % factor) * 4 + c)];
+          drawn.rgba.push_back(static_cast<unsigned char>(sum / (factor * factor)));
+        }
+    return drawn;
+  }
+  std::unique_ptr<Offscreen> offscreen;
+  ViewState state;
+};
+
+TEST_F(Levels, ARoomHasDarkerCornersAtTheHighestLevelAndOnlyThere) {
+  state.camera.target = {3, 1, 1.5};
+  state.camera.distance_m = 0.5;
+  state.graphics.level = GraphicsLevel::medium;
+  const Drawn plain = draw(true);
+  state.graphics.level = GraphicsLevel::high;
+  const Drawn shaded = draw(true);
+  // The back wall, 3.5 m away, is 427 pixels for 6 m: its middle, and where it meets the ceiling.
+  const double middle = shaded.brightness(150, 110, 170, 130) / plain.brightness(150, 110, 170, 130);
+  int darkest = 0;
+  double least = 1;
+  for (int y = 60; y < 238; ++y)
+    if (const double share = shaded.brightness(150, y, 170, y + 1) / plain.brightness(150, y, 170, y + 1);
+        share < least) {
+      least = share;
+      darkest = y;
+    }
+  EXPECT_GT(middle, 0.93) << "a wall stays what it is";
+  EXPECT_LT(least, 0.80) << "at row " << darkest;
+}
+
+TEST_F(Levels, TheHorizonIsBetweenSkyAndGround) {
+  state.camera.target = {3, -40, 1.5};
+  state.camera.azimuth_rad = M_PI;  // away from the room
+  for (const auto theme : {Theme::dark, Theme::light}) {
+    state.graphics = {GraphicsLevel::medium, theme};
+    const Drawn sky = draw(true);
+    EXPECT_GT(sky.brightness(0, 126, kWidth, 140), sky.brightness(0, 90, kWidth, 114) + 10);
+    EXPECT_LT(sky.brightness(0, 228, kWidth, 240), sky.brightness(0, 126, kWidth, 140)) << "lighter at the horizon";
+    state.graphics.level = GraphicsLevel::low;
+    const Drawn plain = draw(true);
+    EXPECT_NE(plain.rgba, sky.rgba);
+  }
+}
+
+TEST_F(Levels, TheLightThemeHasALightBackground) {
+  state.camera.azimuth_rad = M_PI;
+  state.camera.target = {3, -40, 1.5};
+  const double dark = draw(true).brightness(0, 0, kWidth, kHeight);
+  state.graphics.theme = Theme::light;
+  EXPECT_GT(draw(true).brightness(0, 0, kWidth, kHeight), dark + 100);
+}
+
+// The same view again is the same picture, at each level, at rest and in motion, whatever was drawn before.
+TEST_F(Levels, AreTheSameBytesWhenTheyAreDrawnAgain) {
+  for (const auto level : {GraphicsLevel::low, GraphicsLevel::medium, GraphicsLevel::high})
+    for (const bool fine : {false, true}) {
+      state.graphics.level = level;
+      const Drawn first = draw(fine);
+      state.camera.azimuth_rad += 0.3;
+      draw(fine);
+      state.camera.azimuth_rad -= 0.3;
+      EXPECT_EQ(draw(fine).rgba, first.rgba) << graphicsName(level) << fine;
+      state.camera.azimuth_rad = 0;
+    }
+}
+
+TEST_F(Levels, SmoothTheEdgesInMotionFromMediumOn) {
+  state.camera.target = {3, -3, 1.5};
+  state.camera.distance_m = 8;
+  state.camera.elevation_rad = 0.2;
+  state.camera.azimuth_rad = 0.4;
+  const auto greys = [](const Drawn& d) {  // pixels that differ from both neighbours: steps are softened by such
+    int count = 0;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 1; x + 1 < kWidth; ++x) {
+        const auto at = [&](int i) { return int{d.rgba[static_cast<std::size_t>(y * kWidth + i) * 4]}; };
+        count += std::abs(at(x) - at(x - 1)) > 4 && std::abs(at(x) - at(x + 1)) > 4 ? 1 : 0;
+      }
+    return count;
+  };
+  state.graphics.level = GraphicsLevel::low;
+  const int stepped = greys(draw(false));
+  state.graphics.level = GraphicsLevel::medium;
+  EXPECT_GT(greys(draw(false)), stepped + 100);
+}
+
+TEST_F(Levels, DropWhatIsRefinedAtOnceWhenTheCameraMoves) {
+  state.graphics.level = GraphicsLevel::high;
+  view().texture(state, kWidth, kHeight, true);
+  EXPECT_TRUE(view().refining());
+  state.camera.azimuth_rad += 0.1;
+  view().texture(state, kWidth, kHeight, false);
+  EXPECT_FALSE(view().refining());
+}
+
+TEST_F(Levels, MapsKeepTheirColours) {
+  state.graphics.level = GraphicsLevel::high;
+  state.colour = ColourMode::confidence;
+  view().texture(state, kWidth, kHeight, true);
+  EXPECT_FALSE(view().refining());
+}
+
+TEST_F(Levels, AnEmptySceneHasNoSky) {
+  state.environment.reset();
+  const Drawn low = draw(true);
+  state.graphics.level = GraphicsLevel::high;
+  EXPECT_EQ(draw(true).rgba, low.rgba);
+}
+
+TEST_F(Levels, CountPicturesInWhichOnlyTheCameraMoved) {
+  const auto before = view().movedPictures();
+  draw(false);
+  state.camera.azimuth_rad += 0.1;
+  draw(false);
+  EXPECT_EQ(view().movedPictures(), before + 1);
+  state.graphics.level = GraphicsLevel::medium;
+  draw(false);
+  EXPECT_EQ(view().movedPictures(), before + 1) << "another level";
+  EXPECT_GT(view().cost_s(state, kWidth, kHeight), 0);
+  draw(false);
+  EXPECT_EQ(view().movedPictures(), before + 1) << "drawn for its time";
+}
+
+TEST_F(Levels, AShaderThatTheDriverRefusesIsAReasonAndNoCrash) {
+  view().texture(state, kWidth, kHeight, false);
+  const FullScreenProgram broken("#version 150\nthis is no shader");
+  EXPECT_FALSE(broken.problem().empty());
+  const FullScreenProgram newer("#version 990\nvoid main() {}");
+  EXPECT_FALSE(newer.problem().empty());
+}
+
+TEST(GroundShadow, FallsBesideWhatStandsAndEndsInNothing) {
+  ViewState state;
+  state.environment = room();
+  const auto shadow = castShadow(state);
+  ASSERT_EQ(shadow.darkness.size(), static_cast<std::size_t>(GroundShadow::kSide) * GroundShadow::kSide);
+  const auto at = [&](double x, double y) {
+    const auto column = static_cast<std::size_t>((x - shadow.x) / shadow.width_m * GroundShadow::kSide),
+               row = static_cast<std::size_t>((y - shadow.y) / shadow.height_m * GroundShadow::kSide);
+    return int{shadow.darkness[row * GroundShadow::kSide + column]};
+  };
+  EXPECT_GT(at(3, 2), 200) << "below the room";
+  EXPECT_GT(at(7, 2), 90) << "in the shadow of its ceiling, 1.56 m to the east";
+  EXPECT_LT(at(-1, 2), at(7, 2) / 2) << "towards the sun";
+  for (std::size_t i = 0; i < GroundShadow::kSide; ++i) {
+    EXPECT_LE(shadow.darkness[i], 1);
+    EXPECT_LE(shadow.darkness[i * GroundShadow::kSide], 1);
+  }
+}
+
+TEST(GroundShadow, OfNothingOrOfWhatIsHiddenIsNone) {
+  EXPECT_TRUE(castShadow({}).darkness.empty());
+  ViewState state;
+  state.environment = room();
+  state.hidden = std::make_shared<const HiddenProducts>(1, std::uint8_t{1});
+  EXPECT_TRUE(castShadow(state).darkness.empty());
+  state.hidden.reset();
+  state.cut_height_m = -1;
+  EXPECT_TRUE(castShadow(state).darkness.empty()) << "cut away";
+}
+
+TEST(GroundShadow, OfTerrainIsNone) {
+  auto e = *room();
+  e.products[0].ifc_class = "IfcSite";
+  ViewState state;
+  state.environment = std::make_shared<const Environment>(e);
+  EXPECT_TRUE(castShadow(state).darkness.empty());
+}
+
+}  // namespace
+}  // namespace standpoint
