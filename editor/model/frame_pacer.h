@@ -17,7 +17,7 @@ class EventSource {
 
 // How long after the last input a picture is made fine, if that takes so long: at once, so that it is sharp within
 // 100 ms, unless that would hold up whoever goes on moving after a moment.
-inline double stillFor_s(double fine_picture_s) { return fine_picture_s <= 0.055 ? 0.04 : 0.25; }
+inline double stillFor_s(double fine_picture_s) { return fine_picture_s <= 0.08 ? 0.02 : 0.25; }
 
 // When the next picture is drawn. Nothing is drawn while nothing happens.
 class FramePacer {

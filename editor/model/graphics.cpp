@@ -138,7 +138,8 @@ std::optional<GraphicsLevel> GraphicsPace::notMeasured() const {
 
 std::string GraphicsPace::about(GraphicsChoice choice) const {
   if (choice == GraphicsChoice::automatic)
-    return fmt::format("The highest that keeps 25 frames per second, now {}",
+    return fmt::format("The highest that keeps 25 frames per second, {} {}",
+                       choice_ == choice ? "now" : "beginning with",
                        graphicsName(choice_ == choice ? level() : most()));
   const auto level = levelOf(choice);
   const GraphicsMeans means = means_.value_or(GraphicsMeans());

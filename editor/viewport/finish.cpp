@@ -87,7 +87,8 @@ out vec4 result;
 float at(vec2 place) { return texture(occlusion, place).r; }
 void main() {
   vec2 here = gl_FragCoord.xy * pixel, half_x = vec2(0.5 * pixel.x, 0.0), half_y = vec2(0.0, 0.5 * pixel.y);
-  float sum = at(here - half_x - half_y) + at(here + half_x - half_y) + at(here - half_x + half_y) + at(here + half_x + half_y);
+  float sum = at(here - half_x - half_y) + at(here + half_x - half_y);
+  sum += at(here - half_x + half_y) + at(here + half_x + half_y);
   result = vec4(texture(colours, here).rgb * max(0.3, 1.0 - strength * sum), 1.0);
 }
 )";

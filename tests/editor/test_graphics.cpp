@@ -115,6 +115,9 @@ TEST(GraphicsPace, SaysWhatEachLevelHasAndCosts) {
   auto pace = paceOf(true);
   EXPECT_EQ(pace.about(GraphicsChoice::automatic), "The highest that keeps 25 frames per second, now Medium");
   EXPECT_EQ(pace.about(GraphicsChoice::low), "Anti-aliasing 4× at rest");
+  pace.choose(GraphicsChoice::low);
+  EXPECT_EQ(pace.about(GraphicsChoice::automatic),
+            "The highest that keeps 25 frames per second, beginning with Medium");
   pace.measured(GraphicsLevel::medium, 0.0123);
   EXPECT_EQ(pace.about(GraphicsChoice::medium),
             "Anti-aliasing 4× at rest, by contrast in motion, sky and horizon; about 12 ms a picture here");
@@ -136,7 +139,7 @@ TEST(GraphicsPace, OffersALevelWithoutWhatTheMachineLacksAndSaysSo) {
 }
 
 TEST(Graphics, AreSharpWithin100MillisecondsUnlessThatWouldHoldUp) {
-  EXPECT_LE(stillFor_s(0.05) + 0.05, 0.1);
+  EXPECT_LE(stillFor_s(0.08) + 0.08, 0.1 + 1e-9);
   EXPECT_GE(stillFor_s(0.3), 0.2);
 }
 
