@@ -24,6 +24,22 @@ struct Trajectory {
 };
 Pose at(const Trajectory& trajectory, double time_s);
 
+enum class TargetKind { sphere, checkerboard };
+
+struct Target {
+  std::string name;
+  TargetKind kind = TargetKind::sphere;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();   // local frame
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  // of a checkerboard
+  double size_m = 0.145;                              // diameter or side
+};
+
+// How what a scan is registered by stood while it was made.
+struct AsScanned {
+  Pose station;  // its true pose
+  std::vector<Target> targets;
+};
+
 // What a scan left behind; the points themselves stay in the file.
 struct Scan {
   std::string instrument;  // id
@@ -34,6 +50,7 @@ struct Scan {
   std::uint64_t pulses = 0;
   std::uint64_t points = 0;
   double instrument_seconds = 0;
+  std::optional<AsScanned> as_scanned = {};  // nothing in the projects of versions that did not keep it
 };
 
 // A place on a floor: "X,Y" or "X,Y,Z" in metres, the frame of the model's file.
@@ -48,16 +65,6 @@ struct Station {
   Pose true_pose;                   // of the instrument's centre: what the simulation knows
   std::optional<Pose> solved_pose;  // what the surveyor would know after registration
   std::vector<Scan> scans;
-};
-
-enum class TargetKind { sphere, checkerboard };
-
-struct Target {
-  std::string name;
-  TargetKind kind = TargetKind::sphere;
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();   // local frame
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  // of a checkerboard
-  double size_m = 0.145;                              // diameter or side
 };
 
 struct ControlPoint {

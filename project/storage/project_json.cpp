@@ -15,20 +15,53 @@ using nlohmann::json;
 
 namespace {
 
-json scanToJson(const Scan& s) {
-  return {{"instrument", s.instrument},
-          {"file", s.file},
-          {"format", s.format},
-          {"settings", s.settings},
-          {"seed", s.seed},
-          {"pulses", s.pulses},
-          {"points", s.points},
-          {"instrument_seconds", s.instrument_seconds}};
+json targetToJson(const Target& t) {
+  return {{"name", t.name},
+          {"kind", t.kind == TargetKind::sphere ? "sphere" : "checkerboard"},
+          {"centre", toJson(t.centre)},
+          {"normal", toJson(t.normal)},
+          {"size_m", t.size_m}};
 }
 
+Target targetFrom(const json& t) {
+  return {t.at("name"), t.at("kind") == "sphere" ? TargetKind::sphere : TargetKind::checkerboard,
+          vectorFrom(t.at("centre")), vectorFrom(t.at("normal")), t.at("size_m")};
+}
+
+json targetsToJson(const std::vector<Target>& targets) {
+  json rows = json::array();
+  for (const auto& t : targets) rows.push_back(targetToJson(t));
+  return rows;
+}
+
+std::vector<Target> targetsFrom(const json& rows) {
+  std::vector<Target> targets;
+  for (const auto& t : rows) targets.push_back(targetFrom(t));
+  return targets;
+}
+
+json scanToJson(const Scan& s) {
+  json row = {{"instrument", s.instrument},
+              {"file", s.file},
+              {"format", s.format},
+              {"settings", s.settings},
+              {"seed", s.seed},
+              {"pulses", s.pulses},
+              {"points", s.points},
+              {"instrument_seconds", s.instrument_seconds}};
+  if (s.as_scanned)
+    row["as_scanned"] = {{"station", poseToJson(s.as_scanned->station)},
+                         {"targets", targetsToJson(s.as_scanned->targets)}};
+  return row;
+}
+
+// As it was scanned came later.
 Scan scanFrom(const json& j) {
-  return {j.at("instrument"), j.at("file"),   j.at("format"), j.at("settings"),
-          j.at("seed"),       j.at("pulses"), j.at("points"), j.at("instrument_seconds")};
+  Scan s{j.at("instrument"), j.at("file"),   j.at("format"), j.at("settings"),
+         j.at("seed"),       j.at("pulses"), j.at("points"), j.at("instrument_seconds")};
+  if (const auto as = j.find("as_scanned"); as != j.end())
+    s.as_scanned = AsScanned{poseFrom(as->at("station")), targetsFrom(as->at("targets"))};
+  return s;
 }
 
 json jobToJson(const Job& job) {
@@ -43,17 +76,13 @@ json jobToJson(const Job& job) {
     if (s.solved_pose) row["solved_pose"] = poseToJson(*s.solved_pose);
     stations.push_back(std::move(row));
   }
-  json targets = json::array();
-  for (const auto& t : job.targets)
-    targets.push_back({{"name", t.name},
-                       {"kind", t.kind == TargetKind::sphere ? "sphere" : "checkerboard"},
-                       {"centre", toJson(t.centre)},
-                       {"normal", toJson(t.normal)},
-                       {"size_m", t.size_m}});
   json controls = json::array();
   for (const auto& c : job.control_points)
     controls.push_back({{"name", c.name}, {"position", toJson(c.position)}, {"sigma_m", c.sigma_m}});
-  return {{"name", job.name}, {"stations", stations}, {"targets", targets}, {"control_points", controls}};
+  return {{"name", job.name},
+          {"stations", stations},
+          {"targets", targetsToJson(job.targets)},
+          {"control_points", controls}};
 }
 
 Job jobFrom(const json& j) {
@@ -65,9 +94,7 @@ Job jobFrom(const json& j) {
     for (const auto& scan : s.at("scans")) station.scans.push_back(scanFrom(scan));
     job.stations.push_back(std::move(station));
   }
-  for (const auto& t : j.at("targets"))
-    job.targets.push_back({t.at("name"), t.at("kind") == "sphere" ? TargetKind::sphere : TargetKind::checkerboard,
-                           vectorFrom(t.at("centre")), vectorFrom(t.at("normal")), t.at("size_m")});
+  job.targets = targetsFrom(j.at("targets"));
   for (const auto& c : j.at("control_points"))
     job.control_points.push_back({c.at("name"), vectorFrom(c.at("position")), c.at("sigma_m")});
   return job;

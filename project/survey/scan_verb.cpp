@@ -77,7 +77,8 @@ ScanAnswerRow scanRow(const Station& station, const ScanCount& count, double sec
           file,          std::nullopt};
 }
 
-Scan record(const ScanCount& count, const ScanRequest& request, const fs::path& file) {
+Scan record(const ScanCount& count, const ScanRequest& request, const fs::path& file, const Pose& pose,
+            const std::vector<Target>& targets) {
   Scan s;
   s.instrument = request.instrument.id;
   s.file = file.string();
@@ -87,6 +88,7 @@ Scan record(const ScanCount& count, const ScanRequest& request, const fs::path& 
   s.pulses = count.pulses;
   s.points = count.points;
   s.instrument_seconds = request.settings.scan_seconds + request.settings.imaging_seconds;
+  s.as_scanned = AsScanned{pose, targets};
   return s;
 }
 
@@ -219,7 +221,7 @@ class ScanRun {
     if (is_there) rows.back().resumed = true;
     if (count.points == 0 && request_.settings.laser)
       report.warn(station.name, whyNothing(scene_, station.true_pose, request_.instrument, request_.settings));
-    station.scans.push_back(record(count, request_, file));
+    station.scans.push_back(record(count, request_, file, station.true_pose, job_.targets));
     return {};
   }
 

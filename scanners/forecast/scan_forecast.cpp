@@ -67,15 +67,21 @@ double spacingOf(const ScanSettings& settings, double range_m, double elevation_
   return range_m * std::sqrt(std::max(0.0, column * row) / std::max(1e-9, std::cos(incidence_rad)));
 }
 
+std::vector<std::uint8_t> seenSamples(const Expectation& expectation, const Pose& local_from_scanner,
+                                      const SurfaceSamples& samples, const SeenWhen& wanted) {
+  std::vector<std::uint8_t> seen(samples.samples.size(), 0);
+  tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t k) {  // each into its own slot
+    seen[k] = static_cast<std::uint8_t>(samples.samples[k].exposed &&
+                                        isSeen(expectation, local_from_scanner, samples.samples[k].place, wanted));
+  });
+  return seen;
+}
+
 ScanForecast forecastScan(const Expectation& expectation, const Pose& local_from_scanner, const SurfaceSamples& samples,
                           const SeenWhen& wanted) {
   const auto& settings = expectation.law().settings();
   ScanForecast forecast;
-  forecast.seen.assign(samples.samples.size(), 0);
-  tbb::parallel_for(std::size_t{0}, samples.samples.size(), [&](std::size_t k) {  // each into its own slot
-    forecast.seen[k] = static_cast<std::uint8_t>(
-        samples.samples[k].exposed && isSeen(expectation, local_from_scanner, samples.samples[k].place, wanted));
-  });
+  forecast.seen = seenSamples(expectation, local_from_scanner, samples, wanted);
   std::vector<double> of_column(kColumns, 0);
   tbb::parallel_for(0, kColumns, [&](int j) {
     const double azimuth =

@@ -26,6 +26,10 @@ struct ScanForecast {
 ScanForecast forecastScan(const Expectation& expectation, const Pose& local_from_scanner, const SurfaceSamples& samples,
                           const SeenWhen& wanted);
 
+// Of each sample a 1 where it is exposed and would return points as wanted, else a 0.
+std::vector<std::uint8_t> seenSamples(const Expectation& expectation, const Pose& local_from_scanner,
+                                      const SurfaceSamples& samples, const SeenWhen& wanted);
+
 // Would the place return points as wanted?
 bool isSeen(const Expectation& expectation, const Pose& local_from_scanner, SurfacePlace place, const SeenWhen& wanted);
 

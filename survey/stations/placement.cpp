@@ -39,6 +39,26 @@ const Eigen::Vector3d kUp(0, 0, 1);
 
 }  // namespace
 
+std::string plainKind(const Product& product) {
+  std::string_view rest = product.ifc_class;
+  if (rest.empty()) return "object";
+  if (rest.starts_with("Ifc")) rest.remove_prefix(3);
+  for (const std::string_view end : {"StandardCase", "ElementedCase", "Type"})
+    if (rest.ends_with(end) && rest.size() > end.size()) rest.remove_suffix(end.size());
+  std::string kind;
+  for (const char c : rest) {
+    const bool upper = c >= 'A' && c <= 'Z';
+    if (upper && !kind.empty()) kind += ' ';
+    kind += upper ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return kind == "building element proxy" ? "object" : kind;
+}
+
+std::string someKind(const Product& product) {
+  const auto kind = plainKind(product);
+  return (std::string_view("aeiou").find(kind.front()) == std::string_view::npos ? "a " : "an ") + kind;
+}
+
 double slopeOf(const RayHit& hit) { return std::acos(std::clamp(std::abs(hit.normal.z()), 0.0, 1.0)); }
 
 StationPlacement::StationPlacement(const RayScene& scene, const TripodStand& stand, double trunnion_m)
@@ -50,21 +70,29 @@ std::optional<Refusal> StationPlacement::badHeight(double height_m) const {
   if (height_m >= lowest_m() - 1e-9 && height_m <= highest_m() + 1e-9) return std::nullopt;
   return Refusal{fmt::format("a tripod supports instrument heights of {:.2f} to {:.2f} m, not {:.2f} m", lowest_m(),
                              highest_m(), height_m),
-                 "change --height, or use --stand free for suspended or handheld instruments"};
+                 "change --height, or use --stand free for suspended or handheld instruments",
+                 fmt::format("Tripod reaches {:.2f} to {:.2f} m", lowest_m(), highest_m())};
+}
+
+std::optional<StationPlacement::Near> StationPlacement::nearest(const Eigen::Vector3d& centre, double reach_m) const {
+  const auto& environment = scene_.environment();
+  std::optional<Near> found;
+  for (std::uint32_t i = 0; i < instances_.size(); ++i)
+    if (!instances_[i].empty() && distanceTo(instances_[i], centre) < reach_m &&
+        nearestOf(environment, environment.instances[i], centre, reach_m))
+      found = Near{reach_m, environment.instances[i].product};
+  return found;
 }
 
 std::optional<Refusal> StationPlacement::tooNear(const Eigen::Vector3d& centre) const {
-  const auto& environment = scene_.environment();
-  double reach = stand_.clearance_m;
-  std::optional<std::uint32_t> nearest;
-  for (std::uint32_t i = 0; i < instances_.size(); ++i)
-    if (!instances_[i].empty() && distanceTo(instances_[i], centre) < reach &&
-        nearestOf(environment, environment.instances[i], centre, reach))
-      nearest = environment.instances[i].product;
-  if (!nearest) return std::nullopt;
-  return Refusal{fmt::format("the instrument centre would be {:.0f} mm from {}; it needs {:.0f} mm of clearance",
-                             reach * 1000, productText(environment.products[*nearest]), stand_.clearance_m * 1000),
-                 fmt::format("move it {:.0f} mm away", std::ceil((stand_.clearance_m - reach) * 1000 - 0.01))};
+  const auto near = nearest(centre, stand_.clearance_m);
+  if (!near) return std::nullopt;
+  const auto& product = scene_.environment().products[near->product];
+  return Refusal{
+      fmt::format("the instrument centre would be {:.0f} mm from {}; it needs {:.0f} mm of clearance",
+                  near->distance_m * 1000, productText(product), stand_.clearance_m * 1000),
+      fmt::format("move it {:.0f} mm away", std::ceil((stand_.clearance_m - near->distance_m) * 1000 - 0.01)),
+      fmt::format("{:.0f} cm from {}", near->distance_m * 100, plainKind(product))};
 }
 
 bool StationPlacement::worthTrying(const Eigen::Vector3d& centre) const {
@@ -84,42 +112,52 @@ std::optional<Refusal> StationPlacement::noHeadroom(const Eigen::Vector3d& centr
   return Refusal{
       fmt::format("{} is {:.2f} m above the instrument centre; it needs {:.2f} m of headroom",
                   productText(scene_.environment().products[above->product]), above->range_m, stand_.headroom_m),
-      fmt::format("lower it by {:.2f} m, or choose another place", stand_.headroom_m - above->range_m)};
+      fmt::format("lower it by {:.2f} m, or choose another place", stand_.headroom_m - above->range_m),
+      fmt::format("{:.0f} cm below {}", above->range_m * 100, someKind(scene_.environment().products[above->product]))};
 }
 
 std::optional<Ground> StationPlacement::groundBelow(const Eigen::Vector3d& centre) const {
   if (all_.empty()) return std::nullopt;
   if (const auto hit = scene_.intersect(centre, kDown, centre.z() - all_.min.z() + 1))
     return Ground{hit->position.z(), slopeOf(*hit), productText(scene_.environment().products[hit->product]),
-                  isSuspendedCeiling(scene_.environment().products[hit->product])};
+                  isSuspendedCeiling(scene_.environment().products[hit->product]), hit->product};
   if (all_.min.z() > centre.z()) return std::nullopt;
   return Ground{all_.min.z(), 0, {}, false};
+}
+
+std::string StationPlacement::steepText(double slope_rad) const {
+  return slope_rad > stand_.wall_rad ? "A wall, not a floor"
+                                     : fmt::format("On a slope of {:.0f}°", slope_rad / kRadPerDeg);
 }
 
 std::optional<Refusal> StationPlacement::badGround(const Eigen::Vector3d& centre) const {
   const auto ground = groundBelow(centre);
   const char* elsewhere =
       "use --on X,Y[,Z] with a point on a floor, or --stand free for suspended or handheld instruments";
-  if (!ground) return Refusal{"no ground below: the whole model is above the station, or there is no model", elsewhere};
+  if (!ground)
+    return Refusal{"no ground below: the whole model is above the station, or there is no model", elsewhere,
+                   "No floor below"};
   if (ground->ceiling)
     return Refusal{fmt::format("the ground below is {}, a suspended ceiling, which bears nobody", ground->product),
-                   elsewhere};
+                   elsewhere, "On a suspended ceiling"};
   const double height = centre.z() - ground->z;
   if (height > highest_m() + 1e-3)
     return Refusal{
         fmt::format("too high: {} is {:.2f} m below the instrument centre, and a tripod supports up to {:.2f} m",
                     ground->modelled() ? ground->product : "the lowest level of the model", height, highest_m()),
-        fmt::format("lower it by at least {:.2f} m, or {}", height - highest_m(), elsewhere)};
+        fmt::format("lower it by at least {:.2f} m, or {}", height - highest_m(), elsewhere),
+        fmt::format("{:.2f} m above the ground", height)};
   if (height < lowest_m() - 1e-3)
     return Refusal{
         fmt::format("too low: {} is only {:.2f} m below the instrument centre, and a tripod needs at least {:.2f} m",
                     ground->modelled() ? ground->product : "the lowest level of the model", height, lowest_m()),
-        fmt::format("raise it by {:.2f} m, or {}", lowest_m() - height, elsewhere)};
+        fmt::format("raise it by {:.2f} m, or {}", lowest_m() - height, elsewhere),
+        fmt::format("Only {:.2f} m above ground", height)};
   if (ground->slope_rad > stand_.steepest_rad)
     return Refusal{fmt::format("the ground below is {} of {:.0f} degrees, {}; the limit for a tripod is {:.0f} degrees",
                                ground->slope_rad > stand_.wall_rad ? "a wall" : "a slope",
                                ground->slope_rad / kRadPerDeg, ground->product, stand_.steepest_rad / kRadPerDeg),
-                   elsewhere};
+                   elsewhere, steepText(ground->slope_rad)};
   return noFooting(centre, *ground);
 }
 
@@ -139,7 +177,8 @@ std::optional<Refusal> StationPlacement::noFooting(const Eigen::Vector3d& centre
     if (stands[k] && stands[k + kTurns] && stands[k + 2 * kTurns]) return std::nullopt;
   return Refusal{fmt::format("the tripod feet, {:.2f} m from the centre, have no ground: {} is too small here",
                              stand_.foot_radius_m, ground.product),
-                 "move it away from the edge, or use --stand free for suspended or handheld instruments"};
+                 "move it away from the edge, or use --stand free for suspended or handheld instruments",
+                 "No ground under the feet"};
 }
 
 std::optional<Refusal> StationPlacement::whyNotOn(const RayHit& hit, double height_m) const {
@@ -149,21 +188,25 @@ std::optional<Refusal> StationPlacement::whyNotOn(const RayHit& hit, double heig
         fmt::format("this is {} of {:.0f} degrees, {}; the limit for a tripod is {:.0f} degrees",
                     slope > stand_.wall_rad ? "a wall" : "a slope", slope / kRadPerDeg,
                     productText(scene_.environment().products[hit.product]), stand_.steepest_rad / kRadPerDeg),
-        "choose a point on a floor"};
+        "choose a point on a floor", steepText(slope)};
   return whyNot(hit.position + Eigen::Vector3d(0, 0, height_m));
 }
 
 // In a body that has no class a tripod may stand where all else is well: many draw a room as a single box.
 std::optional<Refusal> StationPlacement::whyNot(const Eigen::Vector3d& centre) const {
-  if (auto why = tooNear(centre)) return why;
   const auto& environment = scene_.environment();
-  const auto body = bodyRound(scene_.environment(), instances_, centre);
-  const bool solid = body && !environment.products[*body].ifc_class.empty();
+  const auto inside = [&](std::uint32_t product) { return "In " + someKind(environment.products[product]); };
+  if (auto why = tooNear(centre)) {
+    if (const auto around = bodyRound(environment, instances_, centre)) why->brief = inside(*around);
+    return why;
+  }
+  const auto around = bodyRound(environment, instances_, centre);
+  const bool solid = around && !environment.products[*around].ifc_class.empty();
   auto why = solid ? std::nullopt : noHeadroom(centre);
   if (!why && !solid) why = badGround(centre);
-  if (!solid && !(body && why)) return why;
-  return Refusal{fmt::format("the position is inside {}, a closed body", productText(environment.products[*body])),
-                 "move it out of the body; if the body models a room, use --stand free"};
+  if (!solid && !(around && why)) return why;
+  return Refusal{fmt::format("the position is inside {}, a closed body", productText(environment.products[*around])),
+                 "move it out of the body; if the body models a room, use --stand free", inside(*around)};
 }
 
 std::optional<std::string> StationPlacement::remark(const Eigen::Vector3d& centre) const {

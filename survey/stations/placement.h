@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,9 +11,9 @@
 
 namespace standpoint {
 
-// Why a station cannot stand where it should, and what helps.
+// Why a station cannot stand where it should, and what helps. `brief` is the reason in some five words.
 struct Refusal {
-  std::string reason, remedy;
+  std::string reason, remedy, brief;
 };
 
 // What is straight below an instrument.
@@ -21,6 +22,7 @@ struct Ground {
   double slope_rad = 0;
   std::string product;   // "IfcSlab #12 'Floor'"; empty where the model ends and its lowest height stands in
   bool ceiling = false;  // a suspended one
+  std::optional<std::uint32_t> index = {};  // of the product
   bool modelled() const { return !product.empty(); }
 };
 
@@ -36,6 +38,12 @@ class StationPlacement {
   std::optional<Refusal> whyNotOn(const RayHit& hit, double height_m) const;
   // Of a scanner that hangs or is held: only that it touches nothing.
   std::optional<Refusal> tooNear(const Eigen::Vector3d& centre) const;
+  // The surface that is nearest to an instrument, where one is nearer than `reach_m`.
+  struct Near {
+    double distance_m = 0;
+    std::uint32_t product = 0;
+  };
+  std::optional<Near> nearest(const Eigen::Vector3d& centre, double reach_m) const;
   // A quick look for many places: what passes may still be refused by whyNot().
   bool worthTrying(const Eigen::Vector3d& centre) const;
 
@@ -51,6 +59,7 @@ class StationPlacement {
   const RayScene& scene() const { return scene_; }
 
  private:
+  std::string steepText(double slope_rad) const;
   std::optional<Refusal> noHeadroom(const Eigen::Vector3d& centre) const;
   std::optional<Refusal> badGround(const Eigen::Vector3d& centre) const;
   std::optional<Refusal> noFooting(const Eigen::Vector3d& centre, const Ground& ground) const;
@@ -64,5 +73,9 @@ class StationPlacement {
 
 // Of a hit's triangle against the horizontal, 0 to π/2.
 double slopeOf(const RayHit& hit);
+// What people call a product of its class: "wall", "building element", or "object" where it has none.
+std::string plainKind(const Product& product);
+// With its article: "a wall", "an object".
+std::string someKind(const Product& product);
 
 }  // namespace standpoint

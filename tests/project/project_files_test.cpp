@@ -148,7 +148,8 @@ TEST(Project, OfEachVersionThatThereWasIsRead) {
     ++versions;
     ASSERT_EQ(d->job->stations.size(), 2U);
     EXPECT_EQ(d->job->stations[0].name, "S1");
-    EXPECT_EQ(d->job->stations[0].scans.size(), 1U);
+    ASSERT_EQ(d->job->stations[0].scans.size(), 1U);
+    EXPECT_FALSE(d->job->stations[0].scans[0].as_scanned) << "which was not kept then";
     EXPECT_TRUE(d->job->stations[1].solved_pose);
     EXPECT_EQ(d->job->targets.size(), 1U);
     EXPECT_TRUE(d->simplified && d->collision && d->materials && d->scanning && d->verification && d->treatments);

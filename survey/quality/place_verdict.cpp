@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "survey/quality/place_verdict.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "survey/stations/storeys.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr double kEvenEnough_rad = 10 * kRadPerDeg;  // steeper ground holds a tripod, but makes levelling awkward
+
+// What speaks against a place that is not refused; "" nothing.
+std::string doubtOf(const StationPlacement& placement, const RayHit& hit, double height_m, double nearest_m) {
+  const auto& environment = placement.scene().environment();
+  const auto& ground = environment.products[hit.product];
+  if (!isMadeForStanding(ground)) return "On " + someKind(ground);
+  const Eigen::Vector3d centre = hit.position + Eigen::Vector3d(0, 0, height_m);
+  if (const auto near = placement.nearest(centre, nearest_m))
+    return fmt::format("{:.0f} cm from {}", near->distance_m * 100, plainKind(environment.products[near->product]));
+  if (const double slope = slopeOf(hit); slope > kEvenEnough_rad)
+    return fmt::format("On a slope of {:.0f}°", slope / kRadPerDeg);
+  return placement.remark(centre) ? "Inside a closed body" : "";
+}
+
+}  // namespace
+
+PlaceVerdict judgePlace(const StationPlacement& placement, const RayHit& hit, double height_m, double nearest_m) {
+  if (const auto refusal = placement.whyNotOn(hit, height_m))
+    return {Verdict::bad, refusal->brief, refusal->reason + "; " + refusal->remedy};
+  if (auto doubt = doubtOf(placement, hit, height_m, nearest_m); !doubt.empty())
+    return {Verdict::warn, std::move(doubt), {}};
+  return {Verdict::good, "Good place", {}};
+}
+
+Verdict placeFigureVerdict(const char* limit_id, double value) {
+  static const auto limits = qualityLimits(QualityProfile::loa30);
+  const auto limit =
+      std::find_if(limits.begin(), limits.end(), [&](const QualityLimit& l) { return l.id == limit_id; });
+  return limit == limits.end() ? Verdict::unknown : verdictOf(*limit, value);
+}
+
+PlaceVerdict withForecast(PlaceVerdict verdict, const PlaceForecast& forecast) {
+  if (verdict.verdict != Verdict::good || forecast.overlaps.empty()) return verdict;
+  const auto best = std::max_element(forecast.overlaps.begin(), forecast.overlaps.end(),
+                                     [](const auto& a, const auto& b) { return a.fraction < b.fraction; });
+  if (placeFigureVerdict("overlap", best->fraction * 100) == Verdict::good) return verdict;
+  return {Verdict::warn, fmt::format("Overlaps {} by {:.0f} %", best->station, best->fraction * 100), {}};
+}
+
+}  // namespace standpoint
