@@ -71,13 +71,24 @@ const std::vector<std::uint8_t>& PlaceForecaster::inRoom(std::uint32_t product) 
   return in;
 }
 
+const std::vector<std::uint8_t>& PlaceForecaster::inStorey(const std::string& storey) {
+  auto& in = storey_samples_[storey];
+  if (!in.empty()) return in;
+  const auto& products = expectation_->scene().environment().products;
+  for (const auto& sample : samples_.samples)
+    in.push_back(static_cast<std::uint8_t>(sample.exposed && products[sample.product].storey == storey));
+  return in;
+}
+
 // As the assessment of scans does it, with the laws in place of points.
 void PlaceForecaster::measure(PlaceForecast& forecast, const Pose& place, const std::vector<std::uint8_t>& seen) {
-  const auto* room = forecast.room ? &inRoom(*forecast.room) : nullptr;
+  const auto* near = forecast.room              ? &inRoom(*forecast.room)
+                     : !forecast.storey.empty() ? &inStorey(forecast.storey)
+                                                : nullptr;
   std::size_t exposed = 0;
   std::vector<double> spacings, incidences;
   for (std::size_t k = 0; k < seen.size(); ++k) {
-    if (room != nullptr && (*room)[k] == 0) continue;
+    if (near != nullptr && (*near)[k] == 0) continue;
     exposed += static_cast<std::size_t>(samples_.samples[k].exposed);
     if (seen[k] == 0) continue;
     const auto& sample = samples_.samples[k].place;
@@ -88,8 +99,8 @@ void PlaceForecaster::measure(PlaceForecast& forecast, const Pose& place, const 
     incidences.push_back(incidence);
     spacings.push_back(spacingOf(expectation_->law().settings(), range, elevation, incidence));
   }
-  if (room != nullptr && exposed > 0)
-    forecast.room_seen = static_cast<double>(spacings.size()) / static_cast<double>(exposed);
+  if (near != nullptr && exposed > 0)
+    forecast.near_seen = static_cast<double>(spacings.size()) / static_cast<double>(exposed);
   if (spacings.empty()) return;
   forecast.spacing_m = fractile95(spacings);
   forecast.incidence_rad = fractile95(incidences);
@@ -99,11 +110,14 @@ PlaceForecast PlaceForecaster::at(const Pose& place, std::span<const Station* co
   PlaceForecast forecast;
   if (samples_.samples.empty()) return forecast;
   forecast.room = spaceAt(spaces_, place.translation);
+  const auto& scene = expectation_->scene();
+  if (const auto below = scene.intersect(place.translation, -Eigen::Vector3d::UnitZ(), kNearby_m))
+    forecast.storey = scene.environment().products[below->product].storey;
   const auto seen = seenSamples(*expectation_, place, samples_, {});
   const auto nearby = nearbyOf(others, place.translation);
   std::vector<const std::vector<std::uint8_t>*> all = {&seen};
   for (const auto* station : nearby) all.push_back(&seenFrom(*station));
-  const auto counted = countSeen(samples_, expectation_->scene().environment(), all);
+  const auto counted = countSeen(samples_, scene.environment(), all);
   if (counted.all.exposed > 0)
     forecast.model_seen = counted.seen_m2.front() / (samples_.each_m2() * static_cast<double>(counted.all.exposed));
   for (const auto& pair : counted.pairs)

@@ -22,10 +22,11 @@ struct PlaceForecast {
     double fraction = 0;  // of the one that sees less
   };
   std::optional<std::uint32_t> room;    // the IfcSpace around the instrument
-  std::optional<double> room_seen;      // fraction of the exposed surface of that room
+  std::string storey;                   // of what it stands on; where there is no room, its surface counts
+  std::optional<double> near_seen;      // fraction of the exposed surface of the room, else of the storey
   double model_seen = 0;                // and of the whole model
   std::vector<Overlap> overlaps;        // with the stations nearby, nearest first
-  std::optional<double> spacing_m;      // 95 % of what is seen of the room, else of the model, is denser than this
+  std::optional<double> spacing_m;      // 95 % of what is seen of the room, storey or model is denser than this
   std::optional<double> incidence_rad;  // and is met less slanting than this
 };
 
@@ -41,6 +42,7 @@ class PlaceForecaster {
   explicit PlaceForecaster(std::shared_ptr<const Expectation> expectation);
   const std::vector<std::uint8_t>& seenFrom(const Station& station);
   const std::vector<std::uint8_t>& inRoom(std::uint32_t product);
+  const std::vector<std::uint8_t>& inStorey(const std::string& storey);
   void measure(PlaceForecast& forecast, const Pose& place, const std::vector<std::uint8_t>& seen);
 
   struct Kept {
@@ -52,6 +54,7 @@ class PlaceForecaster {
   SurfaceSamples samples_;
   std::map<std::string, Kept> kept_;                                 // by the station's name
   std::map<std::uint32_t, std::vector<std::uint8_t>> room_samples_;  // of each, a 1 for each sample of the room
+  std::map<std::string, std::vector<std::uint8_t>> storey_samples_;
 };
 
 }  // namespace standpoint

@@ -13,6 +13,7 @@ namespace standpoint {
 // How far a standing axis leans out of the plumb line and where to, counter-clockwise from the file's X.
 struct Tilt {
   double angle_rad = 0, towards_rad = 0;
+  bool operator==(const Tilt&) const = default;
 };
 
 // Turned about the plumb line first, then leant over. `yawOf` and `tiltOf` take such a rotation apart again.

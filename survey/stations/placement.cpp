@@ -125,8 +125,8 @@ std::optional<Ground> StationPlacement::groundBelow(const Eigen::Vector3d& centr
   return Ground{all_.min.z(), 0, {}, false};
 }
 
-std::string StationPlacement::steepText(double slope_rad) const {
-  return slope_rad > stand_.wall_rad ? "A wall, not a floor"
+std::string StationPlacement::steepText(double slope_rad, const Product& product) const {
+  return slope_rad > stand_.wall_rad ? "Not a floor: " + plainKind(product)
                                      : fmt::format("On a slope of {:.0f}°", slope_rad / kRadPerDeg);
 }
 
@@ -157,7 +157,7 @@ std::optional<Refusal> StationPlacement::badGround(const Eigen::Vector3d& centre
     return Refusal{fmt::format("the ground below is {} of {:.0f} degrees, {}; the limit for a tripod is {:.0f} degrees",
                                ground->slope_rad > stand_.wall_rad ? "a wall" : "a slope",
                                ground->slope_rad / kRadPerDeg, ground->product, stand_.steepest_rad / kRadPerDeg),
-                   elsewhere, steepText(ground->slope_rad)};
+                   elsewhere, steepText(ground->slope_rad, scene_.environment().products[*ground->index])};
   return noFooting(centre, *ground);
 }
 
@@ -188,7 +188,7 @@ std::optional<Refusal> StationPlacement::whyNotOn(const RayHit& hit, double heig
         fmt::format("this is {} of {:.0f} degrees, {}; the limit for a tripod is {:.0f} degrees",
                     slope > stand_.wall_rad ? "a wall" : "a slope", slope / kRadPerDeg,
                     productText(scene_.environment().products[hit.product]), stand_.steepest_rad / kRadPerDeg),
-        "choose a point on a floor", steepText(slope)};
+        "choose a point on a floor", steepText(slope, scene_.environment().products[hit.product])};
   return whyNot(hit.position + Eigen::Vector3d(0, 0, height_m));
 }
 

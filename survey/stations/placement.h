@@ -59,7 +59,7 @@ class StationPlacement {
   const RayScene& scene() const { return scene_; }
 
  private:
-  std::string steepText(double slope_rad) const;
+  std::string steepText(double slope_rad, const Product& product) const;
   std::optional<Refusal> noHeadroom(const Eigen::Vector3d& centre) const;
   std::optional<Refusal> badGround(const Eigen::Vector3d& centre) const;
   std::optional<Refusal> noFooting(const Eigen::Vector3d& centre, const Ground& ground) const;

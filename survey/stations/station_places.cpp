@@ -134,6 +134,31 @@ std::vector<Eigen::Vector3d> groundWithoutFloor(const RayScene& scene) {
   return places;
 }
 
+std::optional<Eigen::Vector3d> placeBeside(const Job& job, const StationPlacement& placement, const Station& station) {
+  constexpr double kApart_m = 1, kSameFloor_m = 0.5;
+  constexpr int kDirections = 16;
+  const auto& scene = placement.scene();
+  const Eigen::Vector3d& from = station.true_pose.translation;
+  const double height = station.instrument_height_m;
+  const auto isFree = [&](const Eigen::Vector3d& centre) {
+    const Eigen::Vector3d way = centre - from;
+    return std::all_of(job.stations.begin(), job.stations.end(),
+                       [&](const Station& s) { return (s.true_pose.translation - centre).norm() > kApart_m - 1e-6; }) &&
+           !scene.intersect(from, way.normalized(), way.norm()) && placement.worthTrying(centre) &&
+           !placement.whyNot(centre);
+  };
+  for (const double away : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0})
+    for (int k = 0; k < kDirections; ++k) {
+      const double azimuth = 2 * std::numbers::pi * k / kDirections;
+      const double x = from.x() + away * std::cos(azimuth), y = from.y() + away * std::sin(azimuth);
+      for (const double floor : floorsAt(scene, x, y, height))
+        if (const Eigen::Vector3d centre(x, y, floor + height);
+            std::abs(centre.z() - from.z()) < kSameFloor_m && isFree(centre))
+          return centre;
+    }
+  return std::nullopt;
+}
+
 double roomAround(const RayScene& scene, const Eigen::Vector3d& centre) {
   constexpr int kDirections = 200;
   constexpr double kFar_m = 4;

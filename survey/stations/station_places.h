@@ -39,6 +39,10 @@ std::vector<std::vector<Eigen::Vector3d>> groundsToTry(const Job& job, const Ray
 // beside some of its products, on the lowest height.
 std::vector<Eigen::Vector3d> groundWithoutFloor(const RayScene& scene);
 
+// The instrument's centre of another station of the same height beside one that stands: on the nearest place in its
+// sight where a tripod can stand, a metre or more from all others. None within 5 m.
+std::optional<Eigen::Vector3d> placeBeside(const Job& job, const StationPlacement& placement, const Station& station);
+
 // How much a station would see: the mean distance to what it meets, capped so that neither a long corridor nor the open
 // ground outside outweighs a room, and nothing for beams that leave the model.
 double roomAround(const RayScene& scene, const Eigen::Vector3d& centre);

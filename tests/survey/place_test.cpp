@@ -135,13 +135,31 @@ class PlaceInRoom : public testing::Test {
 
 TEST_F(PlaceInRoom, SeesAllOfARoomButTheDiscBelowAndWhatATableHides) {
   const auto forecast = forecaster->at(at(2, 2), {});
-  ASSERT_TRUE(forecast.room && forecast.room_seen);
+  ASSERT_TRUE(forecast.room && forecast.near_seen);
   EXPECT_EQ(scene->environment().products[*forecast.room].id, "room");
   // Walls, floor and ceiling: 48 + 56 m². The blind disc: its radius is height / tan(60°…); the table hides some more.
   const double blind = std::numbers::pi * std::pow(1.6 / std::tan(-settings.elevation_from_rad), 2);
-  EXPECT_NEAR(*forecast.room_seen, 1 - blind / (48 + 56), 0.06);
-  EXPECT_LT(*forecast.room_seen, 1 - blind / (48 + 56) + 0.01);
-  EXPECT_LT(forecast.model_seen, *forecast.room_seen / 2) << "there is an upper floor, and an outside";
+  EXPECT_NEAR(*forecast.near_seen, 1 - blind / (48 + 56), 0.06);
+  EXPECT_LT(*forecast.near_seen, 1 - blind / (48 + 56) + 0.01);
+  EXPECT_LT(forecast.model_seen, *forecast.near_seen / 2) << "there is an upper floor, and an outside";
+}
+
+TEST_F(PlaceInRoom, WithoutSpacesCountsTheStorey) {
+  auto e = std::make_shared<Environment>(*document.imported);
+  for (std::size_t p = 0; p < e->products.size(); ++p)
+    e->products[p].storey = e->products[p].id.ends_with("0") || e->products[p].id == "table" ? "Ground floor" : "Above";
+  Progress progress;
+  const auto instrument = *instrumentById("leica-rtc360");
+  const auto without = *PlaceForecaster::make(
+      std::make_shared<const Expectation>(*RayScene::build(e, progress), std::make_shared<const MaterialAssignment>(),
+                                          ReturnLaw(instrument, settings)),
+      progress);
+  const auto forecast = without->at(at(2, 2), {});
+  EXPECT_FALSE(forecast.room);
+  EXPECT_EQ(forecast.storey, "Ground floor");
+  ASSERT_TRUE(forecast.near_seen);
+  EXPECT_GT(*forecast.near_seen, forecast.model_seen);
+  EXPECT_LT(*forecast.near_seen, 0.6) << "the outer faces are its, too";
 }
 
 TEST_F(PlaceInRoom, TellsSpacingAndIncidenceOfTheRoom) {
