@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "editor/model/station_steps.h"
 #include "project/model/product_match.h"
 #include "project/model/treatments.h"
 #include "project/survey/underlays.h"
@@ -13,6 +14,7 @@ namespace standpoint {
 
 Model::Model(std::vector<Verb> verbs, std::function<void()> wake_up)
     : session(std::move(verbs), wake_up),
+      place_figures(wake_up),
       budget_preview(wake_up),
       expected(wake_up),
       scan_outlook(wake_up),
@@ -103,9 +105,12 @@ void Model::update() {
   }
   if (session.revision() != seen_revision_) {
     seen_revision_ = session.revision();
+    view.refused_place.reset();
+    chooseWantedStation();
     adoptDocument();
   }
   followWalking(*this);
+  followStationView(*this);
   followPreview();
   startWaitingCloud();
   underlays.follow(session.document(), wake);
@@ -188,6 +193,13 @@ bool Model::followModel(const Environment& before, const Environment& after) {
     return true;
   outliner = {Outliner(after), outliner.made + 1, {}};
   return true;
+}
+
+void Model::chooseWantedStation() {
+  const auto& job = session.document().job;
+  const auto name = std::exchange(survey_wanted, {});
+  for (std::size_t i = 0; job && !name.empty() && i < job->stations.size(); ++i)
+    if (job->stations[i].name == name) survey = {.station = static_cast<int>(i)};
 }
 
 void Model::adoptDocument() {

@@ -23,6 +23,7 @@
 #include "editor/model/live_cloud.h"
 #include "editor/model/outliner_rows.h"
 #include "editor/model/picker.h"
+#include "editor/model/place_figures.h"
 #include "editor/model/placement_view.h"
 #include "editor/model/scan_outlook.h"
 #include "editor/model/scan_readiness.h"
@@ -36,6 +37,7 @@
 #include "editor/model/view_state.h"
 #include "editor/model/visibility.h"
 #include "editor/model/walking.h"
+#include "survey/stations/levelling.h"
 
 namespace standpoint {
 
@@ -52,6 +54,15 @@ struct Probe {
   std::string instrument = "leica-rtc360";
   bool dragged = false;
   std::optional<Eigen::Vector3d> dragged_from;
+};
+
+// What of a station is dragged in the view, and what it was dragged to.
+enum class StationHandle { none, heading, height, tilt };
+struct HandledStation {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // of the instrument, local frame
+  double height_m = 0, yaw_rad = 0;
+  Tilt tilt;
+  bool operator==(const HandledStation&) const = default;
 };
 
 struct ViewportState {
@@ -73,8 +84,13 @@ struct ViewportState {
   bool dragging = false;
   Camera camera_before_drag;  // which Esc brings back
   bool dragged = false;
-  bool in_right_half = false;  // where the pointer is, or began to drag, when both models are shown
-  int dragged_station = -1;    // by the pointer
+  bool in_right_half = false;       // where the pointer is, or began to drag, when both models are shown
+  int dragged_station = -1;         // by the pointer
+  bool station_drag_begun = false;  // it has left the place where it was taken
+  std::optional<RefusedPlace> refused_place;
+  StationHandle handle = StationHandle::none, hovered_handle = StationHandle::none;
+  std::optional<HandledStation> handled_station;   // the chosen one, as its handle was dragged
+  std::optional<double> angle_before_station_rad;  // of the camera, while it is where an instrument is
   bool frame_wanted = false;
 };
 
@@ -119,7 +135,8 @@ struct Model : Style {
   Guide guide;
   Tour tour;
   PlacementView placement;  // of what is picked
-  Walk walk;                // while the tool is Tool::walk
+  PlaceFigures place_figures;
+  Walk walk;  // while the tool is Tool::walk
   WalkGround walk_ground;
   WalkPlace wanted_walk;  // from where, as soon as the ground is there
   ViewHistory views;
@@ -139,6 +156,7 @@ struct Model : Style {
   std::deque<std::filesystem::path> waiting_clouds;  // dropped, each to become an underlay when the document is free
 
   SurveyChoice survey;
+  std::string survey_wanted;   // the station of this name, as soon as it is there
   bool rename_wanted = false;  // the field of the chosen one's name is to be edited
   ChosenMaterial material;
   ScanChoice scan_choice{.instrument = "leica-rtc360"};  // what the next scan is set to
@@ -200,6 +218,7 @@ struct Model : Style {
 
  private:
   void adoptDocument();
+  void chooseWantedStation();
   void followPreview();
   void startWaitingCloud();
   void followLiveScan();

@@ -11,16 +11,19 @@ void PlacementView::follow(std::shared_ptr<const RayScene> scene) {
   placement_.reset();
   scene_ = std::move(scene);
   asked_.reset();
+  answer_ = {Verdict::unknown, "Preparing the model …", {}};
   if (!scene_) return;
   const auto stand = readTripodStand(tripodStandFile());
   if (stand) placement_ = std::make_unique<StationPlacement>(*scene_, *stand, kUsualTrunnion_m);
 }
 
-const std::optional<Refusal>& PlacementView::whyNotOn(const RayHit& hit, double height_m) {
-  if (!placement_ || (asked_ && *asked_ == hit.position && asked_height_m_ == height_m)) return answer_;
+const PlaceVerdict& PlacementView::judge(const RayHit& hit, double height_m, double nearest_m) {
+  const bool same = asked_ && *asked_ == hit.position && asked_height_m_ == height_m && asked_nearest_m_ == nearest_m;
+  if (!placement_ || same) return answer_;
   asked_ = hit.position;
   asked_height_m_ = height_m;
-  answer_ = placement_->whyNotOn(hit, height_m);
+  asked_nearest_m_ = nearest_m;
+  answer_ = judgePlace(*placement_, hit, height_m, nearest_m);
   return answer_;
 }
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "survey/stations/placement.h"
+#include "survey/quality/place_verdict.h"
 
 namespace standpoint {
 
@@ -15,14 +15,23 @@ class PlacementView {
   // Null: nothing can be asked yet. Cheap while the scene is the same.
   void follow(std::shared_ptr<const RayScene> scene);
   bool ready() const { return placement_ != nullptr; }
-  const std::optional<Refusal>& whyNotOn(const RayHit& hit, double height_m);
+  const StationPlacement* placement() const { return placement_.get(); }
+  // `nearest_m`: the shortest range of the instrument. Unknown until it is ready.
+  const PlaceVerdict& judge(const RayHit& hit, double height_m, double nearest_m);
 
  private:
   std::shared_ptr<const RayScene> scene_;
   std::unique_ptr<StationPlacement> placement_;
   std::optional<Eigen::Vector3d> asked_;
-  double asked_height_m_ = 0;
-  std::optional<Refusal> answer_;
+  double asked_height_m_ = 0, asked_nearest_m_ = 0;
+  PlaceVerdict answer_;
+};
+
+// A place where a station was not put, and why; until the next click.
+struct RefusedPlace {
+  std::string station;                   // that stays where it was; "" of a new one
+  std::string brief, reason;             // as of PlaceVerdict
+  std::optional<Eigen::Vector3d> floor;  // local frame
 };
 
 }  // namespace standpoint

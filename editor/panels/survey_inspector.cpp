@@ -15,6 +15,7 @@
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 #include "project/survey/underlays.h"
+#include "survey/scanning/scan_age.h"
 #include "survey/stations/levelling.h"
 
 namespace standpoint {
@@ -26,7 +27,7 @@ struct SurveyEdit {
   const void* of = nullptr;  // the value that they were filled from
   std::string name;
   Eigen::Vector3d at = Eigen::Vector3d::Zero();
-  double heading_deg = 0, height_m = 0;
+  double heading_deg = 0, height_m = 0, tilt_deg = 0, tilt_towards_deg = 0;
   std::string asked, problem;  // the title of the task, and why it was refused
 };
 
@@ -84,6 +85,16 @@ void drawProblem(SurveyEdit& edit) {
   if (ui::button("Revert###revert-inspected")) edit = {};
 }
 
+// It was let go where it cannot stand.
+void drawRefusal(const Model& model, const Station& station) {
+  const auto& refused = model.view.refused_place;
+  if (!refused || refused->station != station.name) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, tone::kBad);
+  ui::wrapped(fmt::format(ICON_BAN "  {}: {} stays where it was", refused->brief, station.name));
+  ImGui::PopStyleColor();
+  ui::dimWrapped(refused->reason);
+}
+
 void bringNear(Actions& actions, const Eigen::Vector3d& place) {
   Bounds around;
   around.extend(place - Eigen::Vector3d(3, 3, 2));
@@ -101,8 +112,18 @@ bool smallButton(const char* icon, const char* text, const char* id, float width
   return ui::button(ui::fittingLabel(icon, text, id, width).c_str(), why, {width, 0}, help);
 }
 
+// Of the newest scan with the way to make it anew.
+void drawAge(const Model& model, Actions& actions, const std::string& age, bool newest) {
+  ImGui::PushStyleColor(ImGuiCol_Text, tone::kWarning);
+  ui::wrapped(ICON_WARNING "  Scan is " + age);
+  ImGui::PopStyleColor();
+  if (newest && ui::button(ICON_PLAY "  Scan again…###scan-again", model.session.whyNot("scan"), {-FLT_MIN, 0}))
+    actions.run("scan");
+}
+
 void drawScans(const Model& model, Actions& actions, const Station& station) {
   if (station.scans.empty()) return;
+  const auto& targets = model.session.document().job->targets;
   ui::heading(model, fmt::format("Scans  {}", station.scans.size()).c_str());
   for (std::size_t i = 0; i < station.scans.size(); ++i) {
     const auto& scan = station.scans[i];
@@ -110,6 +131,8 @@ void drawScans(const Model& model, Actions& actions, const Station& station) {
     ImGui::PushID(static_cast<int>(i));
     const bool open = ImGui::TreeNodeEx("###scan", ImGuiTreeNodeFlags_SpanAvailWidth, "%s   %s points",
                                         file.filename().string().c_str(), groupedDigits(scan.points).c_str());
+    if (const auto age = ageText(scan, station, targets); !age.empty())
+      drawAge(model, actions, age, i + 1 == station.scans.size());
     if (open) {
       if (ui::beginProperties("scan", 0.36F)) {
         ui::property("Instrument", scan.instrument);
@@ -134,11 +157,23 @@ void drawScans(const Model& model, Actions& actions, const Station& station) {
 
 StationOptions movedStation(const Station& station, const SurveyEdit& edit) {
   StationOptions options{.move = station.name, .at = edit.at, .yaw_deg = edit.heading_deg};
-  if (const Tilt tilt = tiltOf(station.true_pose.rotation); tilt.angle_rad > 0) {
-    options.tilt_deg = tilt.angle_rad / kRadPerDeg;
-    options.tilt_towards_deg = tilt.towards_rad / kRadPerDeg;
+  if (edit.tilt_deg > 0) {
+    options.tilt_deg = edit.tilt_deg;
+    options.tilt_towards_deg = edit.tilt_towards_deg;
   }
   return options;
+}
+
+bool tiltRows(SurveyEdit& edit) {
+  ui::propertyLabel("Tilt");
+  bool changed = ui::numberField("###inspected-tilt", edit.tilt_deg,
+                                 {.kind = {.unit = "°", .least = 0, .most = 60}, .decimals = 3, .drag = 0.05},
+                                 "Angle between the standing axis and the vertical");
+  if (edit.tilt_deg <= 0) return changed;
+  ui::propertyLabel("Tilt towards");
+  return ui::numberField("###inspected-tilt-towards", edit.tilt_towards_deg, kHeading,
+                         "Direction of the tilt, counter-clockwise from the file's X") ||
+         changed;
 }
 
 void stationFieldRows(const Model& model, SurveyEdit& edit, Actions& actions, const Station& station) {
@@ -157,11 +192,9 @@ void stationFieldRows(const Model& model, SurveyEdit& edit, Actions& actions, co
     moved = true;
   }
   moved = headingRow(edit, "Direction of the instrument's X axis, counter-clockwise from the file's X") || moved;
+  moved = tiltRows(edit) || moved;
   if (moved) start(actions, edit, movedStation(station, edit), "Move station " + station.name);
   ImGui::EndDisabled();
-  if (const Tilt tilt = tiltOf(station.true_pose.rotation); tilt.angle_rad > 1e-9)
-    ui::property("Tilt",
-                 fmt::format("{:.3f}° towards {:.0f}°", tilt.angle_rad / kRadPerDeg, tilt.towards_rad / kRadPerDeg));
   if (station.solved_pose) {
     const Pose& solved = *station.solved_pose;
     ui::property("Registered", fmt::format("off by {:.1f} mm and {:.4f}°",
@@ -177,10 +210,14 @@ void drawStation(const Model& model, SurveyEdit& edit, Actions& actions, const S
     edit.at = station.true_pose.translation + model.shift_m();
     edit.heading_deg = yawOf(station.true_pose.rotation) / kRadPerDeg;
     edit.height_m = station.instrument_height_m;
+    const Tilt tilt = tiltOf(station.true_pose.rotation);
+    edit.tilt_deg = tilt.angle_rad > 1e-9 ? tilt.angle_rad / kRadPerDeg : 0;
+    edit.tilt_towards_deg = edit.tilt_deg > 0 ? tilt.towards_rad / kRadPerDeg : 0;
   }
   ui::heading(model, ("Station " + station.name).c_str());
   stationFieldRows(model, edit, actions, station);
   drawProblem(edit);
+  drawRefusal(model, station);
   const float width = columnWidth(3);
   if (smallButton(ICON_CROSSHAIRS, "Look", "look-station", width, {}, "Frame in view"))
     bringNear(actions, station.true_pose.translation);
@@ -190,6 +227,10 @@ void drawStation(const Model& model, SurveyEdit& edit, Actions& actions, const S
   ImGui::SameLine();
   if (smallButton(ICON_TRASH, "Remove", "remove-station", width, model.session.whyNot("station"), "Remove station"))
     actions.start(StationOptions{.remove = station.name}, "Remove station " + station.name);
+  const float half = columnWidth(2);
+  actions.button("look-from-station", "Look from here", half);
+  ImGui::SameLine();
+  actions.button("duplicate-station", "Duplicate", half);
   drawScans(model, actions, station);
 }
 

@@ -11,6 +11,7 @@
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 #include "project/survey/survey_verbs.h"
+#include "survey/scanning/scan_age.h"
 
 namespace standpoint {
 
@@ -21,6 +22,15 @@ void lookAt(Actions& actions, const Eigen::Vector3d& place) {
   around.extend(place - Eigen::Vector3d(3, 3, 2));
   around.extend(place + Eigen::Vector3d(3, 3, 2));
   actions.bringIntoView(around);
+}
+
+// Before the number of scans: a sign with the reason.
+void drawOlder(const Station& station, const std::string& age) {
+  const ImVec2 at = ImGui::GetCursorScreenPos(), size = ImGui::CalcTextSize(ICON_WARNING);
+  ImGui::InvisibleButton(("###older-" + station.name).c_str(), size);
+  ui::tooltip("Scan is " + age);
+  ImGui::GetWindowDrawList()->AddText(at, tone::kWarning, ICON_WARNING);
+  ImGui::SameLine();
 }
 
 void drawStationRow(const Model& model, Actions& actions, const Station& station, int i) {
@@ -41,6 +51,8 @@ void drawStationRow(const Model& model, Actions& actions, const Station& station
   ImGui::TableNextColumn();
   ui::fitted(fmt::format("{:.1f}  {:.1f}  {:.1f}", p.x(), p.y(), p.z()), ImGui::GetContentRegionAvail().x);
   ImGui::TableNextColumn();
+  const auto age = ageText(station, model.session.document().job->targets);
+  if (!age.empty()) drawOlder(station, age);
   ui::textRightAligned(station.scans.empty() ? "–" : std::to_string(station.scans.size()));
   ImGui::PopID();
 }

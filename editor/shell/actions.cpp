@@ -9,6 +9,7 @@
 #include "core/data_folder.h"
 #include "editor/model/floor_plan.h"
 #include "editor/model/interface_scale.h"
+#include "editor/model/station_steps.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/escape.h"
@@ -99,6 +100,11 @@ std::string whyRenameNot(const Editor& e) {
   const auto& chosen = e.survey;
   const bool any = chosen.station >= 0 || chosen.target >= 0 || chosen.underlay >= 0;
   return any ? "" : "Select a station, target or underlay first";
+}
+std::string whyDuplicateNot(const Editor& e) {
+  if (auto why = e.session.whyNot("station"); !why.empty()) return why;
+  if (auto why = whyNoStation(e); !why.empty()) return why;
+  return e.placement.ready() ? "" : "Preparing the model";
 }
 std::string whyRemoveNot(const Editor& e) {
   const auto [verb, name] = chosenInSurvey(e);
@@ -355,6 +361,18 @@ const std::array kActions = {
              showWorkspace(e, Workspace::survey);
            },
            whyStationNot},
+    Action{"duplicate-station",
+           "Duplicate selected station",
+           ICON_COPY,
+           {'D', true},
+           [](Editor& e) { duplicateStation(e); },
+           whyDuplicateNot},
+    Action{"look-from-station",
+           "Look from here: step into the selected station's tripod",
+           ICON_EYE,
+           {'V'},
+           [](Editor& e) { lookFromStation(e); },
+           [](const Editor& e) { return whyNoStation(e); }},
     Action{"add-target",
            "Add target by clicking",
            ICON_TARGET,

@@ -45,7 +45,8 @@ bool holdsWidget() {
 
 bool dragsInView(const Editor& editor) {
   const auto& view = editor.view;
-  return view.teleport.active() || view.dragged_station >= 0 || view.probe.dragged || (view.dragging && view.dragged);
+  return view.teleport.active() || view.dragged_station >= 0 || view.handle != StationHandle::none ||
+         view.probe.dragged || (view.dragging && view.dragged);
 }
 
 void endDrag(Editor& editor) {
@@ -57,6 +58,8 @@ void endDrag(Editor& editor) {
     view.teleport = {};
   } else if (view.dragged_station >= 0) {
     view.dragged_station = -1;
+  } else if (view.handle != StationHandle::none) {
+    view.handle = StationHandle::none;
   } else if (view.probe.dragged) {
     view.probe.dragged = false;
     view.probe.position = view.probe.dragged_from;

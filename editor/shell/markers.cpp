@@ -12,7 +12,6 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
-#include "survey/stations/station_places.h"
 
 namespace standpoint {
 
@@ -74,6 +73,7 @@ void drawStations(Editor& editor, Pen& pen, const ViewState& state) {
   for (std::size_t i = 0; i < job->stations.size(); ++i) {
     const auto& station = job->stations[i];
     const Eigen::Vector3d centre = station.true_pose.translation;
+    if ((centre - editor.view.camera.eye()).norm() < 0.05) continue;  // one looks out of it
     const auto place = pen.at(centre);
     if (!place) continue;
     const bool seen = editor.picker.sees(editor.view.camera.eyeOf(centre), centre, state);
@@ -153,19 +153,6 @@ void drawWay(const Editor& editor, Pen& pen) {
   }
 }
 
-// A tripod under the pointer, red and with the reason where it cannot stand.
-void drawWouldStand(Editor& editor, Pen& pen, double height_m) {
-  const RayHit& hit = *editor.view.hover;
-  const auto& refusal = editor.placement.whyNotOn(hit, height_m);
-  const ImU32 tone = faded(refusal ? tone::kBad : tone::kStation, 0.8F);
-  const Eigen::Vector3d centre = hit.position + Eigen::Vector3d(0, 0, height_m);
-  drawTripod(pen, centre, height_m, tone, 2);
-  const auto place = pen.at(centre);
-  if (!place) return;
-  pen.circle(*place, 5, IM_COL32(20, 22, 26, 200), tone);
-  if (refusal) pen.label(*place, refusal->reason, tone::kBad);
-}
-
 // A target as the click would put it up, and how many points each station's scan would lay on it.
 void tellTargetHere(Editor& editor, Pen& pen) {
   const auto& hit = *editor.view.hover;
@@ -194,12 +181,6 @@ void tellTargetHere(Editor& editor, Pen& pen) {
 void drawPreview(Editor& editor, Pen& pen) {
   const auto& view = editor.view;
   if (!view.hover) return;
-  if (view.tool == Tool::placeStation) {
-    drawWouldStand(editor, pen, kUsualHeight_m);
-  }
-  if (const auto& job = editor.session.document().job;
-      job && view.dragged_station >= 0 && view.dragged_station < static_cast<int>(job->stations.size()))
-    drawWouldStand(editor, pen, job->stations[static_cast<std::size_t>(view.dragged_station)].instrument_height_m);
   if (view.tool == Tool::placeTarget) tellTargetHere(editor, pen);
 }
 

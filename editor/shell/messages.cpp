@@ -11,6 +11,7 @@
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/graphics_choice.h"
+#include "editor/shell/place_ghost.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/modal.h"
 #include "editor/widgets/theme.h"
@@ -20,10 +21,12 @@ namespace standpoint {
 
 namespace {
 
-const char* remedy(ErrorKind kind) {
-  switch (kind) {
+const char* remedy(const Error& error) {
+  switch (error.kind) {
     case ErrorKind::usage: return "Correct the input and try again.";
-    case ErrorKind::unusable: return "No changes were made. Repair the file, or exclude the item named above.";
+    case ErrorKind::unusable:
+      return error.source.empty() ? "No changes were made."
+                                  : "No changes were made. Repair the file, or exclude the item named above.";
     case ErrorKind::file_system:
       return "No changes were made. Check that the location exists, is writable and has free space.";
     case ErrorKind::internal:
@@ -46,7 +49,7 @@ void drawError(Editor& editor) {
   ui::wrapped(shown.error.message);
   if (!shown.error.source.empty()) ui::dimWrapped("in " + shown.error.source);
   ui::gap(editor, 2);
-  ui::wrapped(remedy(shown.error.kind));
+  ui::wrapped(remedy(shown.error));
   ui::gap(editor, 6);
   if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || ui::modalCancelled()) {
     errors.pop_front();
@@ -259,6 +262,7 @@ void drawMessages(Editor& editor) {
   drawPreferences(editor);
   drawAbout(editor);
   drawAnswer(editor);
+  takePlaceRefusals(editor);
   drawError(editor);
 }
 

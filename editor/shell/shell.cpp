@@ -119,7 +119,7 @@ void viewMenu(Editor& editor) {
   items(editor, {"view-plan", "view-parallel", "", "hide", "isolate", "show-all", "", "edges", "grid", "walkable",
                  "shapes", "shaded-points", "labels"});
   submenu(editor, "      More labels###menu-labels", {"room-names", "labels-through-walls"});
-  items(editor, {"", "walk", "teleport", ""});
+  items(editor, {"", "walk", "teleport", "look-from-station", ""});
   submenu(editor, ICON_PAINT "  Colour by###menu-colour",
           {"colour-model", "colour-material", "colour-reflectance", "colour-confidence", "colour-intensity",
            "colour-noise", "colour-fate", "colour-coverage", "colour-spacing", "colour-incidence"});
@@ -144,8 +144,8 @@ void drawMenuBar(Editor& editor) {
     ImGui::EndMenu();
   }
   if (ImGui::BeginMenu("Edit")) {
-    items(editor, {"undo", "redo", "", "select-all", "select-none", "", "rename", "remove", "", "take-material",
-                   "paint-material", "", "measure"});
+    items(editor, {"undo", "redo", "", "select-all", "select-none", "", "rename", "duplicate-station", "remove", "",
+                   "take-material", "paint-material", "", "measure"});
     ImGui::EndMenu();
   }
   if (ImGui::BeginMenu("View")) {

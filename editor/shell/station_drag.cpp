@@ -5,6 +5,7 @@
 
 #include "core/units.h"
 #include "editor/shell/editor.h"
+#include "editor/shell/place_ghost.h"
 #include "project/survey/survey_verbs.h"
 #include "survey/stations/levelling.h"
 
@@ -40,7 +41,10 @@ void followPointer(Editor& editor, ImVec2 origin) {
 
 void drop(Editor& editor, const Station& station) {
   const auto& hit = editor.view.hover;
-  if (!hit || editor.placement.whyNotOn(*hit, station.instrument_height_m)) return;
+  const auto held = heldStation(editor);
+  if (!hit || !held) return;
+  if (const auto verdict = verdictUnderPointer(editor, *held); verdict.verdict == Verdict::bad)
+    return refusePlace(editor, *held, verdict);
   const Eigen::Vector3d p = hit->position + editor.shift_m();
   const Tilt tilt = tiltOf(station.true_pose.rotation);
   StationOptions options{.move = station.name,
@@ -63,9 +67,11 @@ bool dragStation(Editor& editor, ImVec2 origin, bool hovered) {
   if (dragged >= 0 && dragged < static_cast<int>(job->stations.size())) {
     ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
     followPointer(editor, origin);
-    if (ImGui::IsMouseDown(0)) return true;
     const ImVec2 way = ImGui::GetMouseDragDelta(0, 0);
-    if (std::hypot(way.x, way.y) > editor.px(kSlack_pt)) drop(editor, job->stations[static_cast<std::size_t>(dragged)]);
+    auto& begun = editor.view.station_drag_begun;
+    begun = begun || std::hypot(way.x, way.y) > editor.px(kSlack_pt);
+    if (ImGui::IsMouseDown(0)) return true;
+    if (begun) drop(editor, job->stations[static_cast<std::size_t>(dragged)]);
     dragged = -1;
     return true;
   }
@@ -73,6 +79,8 @@ bool dragStation(Editor& editor, ImVec2 origin, bool hovered) {
   if (!hovered || editor.view.dragging || editor.view.tool != Tool::select || !ImGui::IsMouseClicked(0)) return false;
   dragged = stationAt(editor, origin);
   if (dragged < 0) return false;
+  editor.view.station_drag_begun = false;
+  editor.view.refused_place.reset();
   editor.survey.station = dragged;
   editor.survey.target = -1;
   return true;

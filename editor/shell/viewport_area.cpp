@@ -6,14 +6,17 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "editor/model/station_steps.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/coverage_overlay.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/expected_overlay.h"
 #include "editor/shell/material_brush.h"
 #include "editor/shell/overlay.h"
+#include "editor/shell/place_ghost.h"
 #include "editor/shell/shell.h"
 #include "editor/shell/station_drag.h"
+#include "editor/shell/station_handles.h"
 #include "editor/shell/teleport.h"
 #include "editor/shell/tour_card.h"
 #include "editor/widgets/icons.h"
@@ -21,6 +24,7 @@
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 #include "project/survey/survey_verbs.h"
+#include "survey/stations/station_places.h"
 
 namespace standpoint {
 
@@ -53,7 +57,8 @@ void continueDrag(Editor& editor) {
   if (moved > kClickSlack_px * editor.scale) view.dragged = true;
   if (!view.dragged || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) return;
   const Eigen::Vector2d drag(io.MouseDelta.x, io.MouseDelta.y);
-  if (view.tool == Tool::walk) return orbit(view.camera, -drag / editor.scale, view.camera.eye());
+  if (view.tool == Tool::walk || looksFromStation(editor))
+    return orbit(view.camera, -drag / editor.scale, view.camera.eye());
   if (io.MouseDown[0] && !io.KeyShift)
     orbit(view.camera, drag / editor.scale, view.pivot);
   else
@@ -67,10 +72,10 @@ std::string nextName(const char* prefix, const std::vector<std::string>& taken) 
 }
 
 void placeStation(Editor& editor, const RayHit& hit) {
-  std::vector<std::string> names;
-  if (const auto& job = editor.session.document().job)
-    for (const auto& s : job->stations) names.push_back(s.name);
-  const auto name = nextName("S", names);
+  const HeldStation held{"", kUsualHeight_m, Eigen::Quaterniond::Identity()};
+  if (const auto verdict = verdictUnderPointer(editor, held); verdict.verdict == Verdict::bad)
+    return refusePlace(editor, held, verdict);
+  const auto name = freeStationName(*editor.session.document().job);
   const Eigen::Vector3d p = hit.position + editor.shift_m();
   editor.session.start(StationOptions{.add = name, .on = FloorPlace{p.x(), p.y(), p.z()}}, "Add station " + name);
 }
@@ -169,6 +174,7 @@ void handleMouse(Editor& editor, ImVec2 origin, bool hovered) {
       view.hover = editor.picker.pick(rayThrough(view.camera, pointer(origin), view.size), editor.viewState());
   }
   if (!view.dragging && aimTeleport(editor, hovered)) return;
+  if (hovered && ImGui::IsMouseClicked(0)) view.refused_place.reset();
   if (hovered && !view.dragging && (ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2)))
     startDrag(editor);
   if (view.dragging) continueDrag(editor);
@@ -271,14 +277,19 @@ void drawViewport(Editor& editor) {
   if (!view.dragging) view.in_right_half = both && ImGui::GetIO().MousePos.x >= right.x;
   const bool on_probe = !previewed && !view.dragging && dragProbe(editor, origin, hovered);
   editor.placement.follow(editor.picker.scene());
-  const bool on_station = !previewed && !on_probe && dragStation(editor, view.in_right_half ? right : origin, hovered);
-  if (!on_probe && !on_station) handleMouse(editor, view.in_right_half ? right : origin, hovered);
+  const bool on_handle =
+      !previewed && !on_probe && dragStationHandle(editor, view.in_right_half ? right : origin, hovered);
+  const bool on_station =
+      !previewed && !on_probe && !on_handle && dragStation(editor, view.in_right_half ? right : origin, hovered);
+  if (!on_probe && !on_handle && !on_station) handleMouse(editor, view.in_right_half ? right : origin, hovered);
   handleWalking(editor);
   if (previewed) return;
   drawExpectedLegend(editor, origin, size);
   drawCoverageLegend(editor, origin, size);
   drawMarkers(editor, both ? right : origin);
   drawOverlay(editor, origin, whole);
+  drawStationHandles(editor, both ? right : origin);
+  drawPlaceGhost(editor, both ? right : origin, size);
   drawTeleport(editor, both ? right : origin);
   drawTour(editor, origin, whole);
   contextMenu(editor);

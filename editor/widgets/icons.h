@@ -14,6 +14,7 @@
 #define ICON_CLOSE "\xef\x80\x8d"
 #define ICON_COMMAND "\xef\x84\xa0"
 #define ICON_COMPRESS "\xef\x81\xa6"
+#define ICON_COPY "\xef\x83\x85"
 #define ICON_CROSSHAIRS "\xef\x81\x9b"
 #define ICON_CUBE "\xef\x86\xb2"
 #define ICON_CUBES "\xef\x86\xb3"

@@ -56,6 +56,21 @@ TEST_F(Inspector, TurnsAStationToATypedHeading) {
   EXPECT_LT((job().stations[0].true_pose.translation - at).norm(), 1e-6);
 }
 
+TEST_F(Inspector, TiltsAStationByTypedNumbersAndKeepsItsHeading) {
+  editor.survey.station = 0;
+  gui.frames(3);
+  typeInto("###inspected-heading", "20");
+  gui.frames(3);
+  typeInto("###inspected-tilt", "1.5");
+  gui.frames(3);
+  typeInto("###inspected-tilt-towards", "90");
+  ASSERT_TRUE(editor.session.errors().empty()) << describe(editor.session.errors().front().error);
+  const auto tilt = tiltOf(job().stations[0].true_pose.rotation);
+  EXPECT_NEAR(tilt.angle_rad / kRadPerDeg, 1.5, 1e-9);
+  EXPECT_NEAR(tilt.towards_rad / kRadPerDeg, 90, 1e-6);
+  EXPECT_NEAR(yawOf(job().stations[0].true_pose.rotation) / kRadPerDeg, 20, 1e-6);
+}
+
 TEST_F(Inspector, RenamesAStationAfterF2AndUndoTakesItBack) {
   editor.survey.station = 0;
   gui.frames(3);

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "core/survey.h"
+
+namespace standpoint {
+
+struct Model;
+
+// What is done with the station that is chosen.
+const Station* chosenStation(const Model& model);  // null: none is
+std::string whyNoStation(const Model& model);
+
+// A name that no station has yet: "S1", "S2", …
+std::string freeStationName(const Job& job);
+// Another one of its height and heading, on the nearest place beside it where one can stand.
+void duplicateStation(Model& model);
+
+// The camera goes where the instrument is, and looks where that does. The view before can be gone back to.
+void lookFromStation(Model& model);
+bool looksFromStation(const Model& model);
+// To be called once a frame: away from the instrument the view is as wide as before.
+void followStationView(Model& model);
+
+}  // namespace standpoint

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/units.h"
+#include "demo_verbs.h"
+#include "editor/model/station_steps.h"
+#include "editor/shell/actions.h"
+#include "editor/shell/place_ghost.h"
+#include "editor/widgets/keyboard.h"
+#include "item_probe.h"
+#include "survey/stations/levelling.h"
+
+namespace standpoint {
+namespace {
+
+// The demo house from above, its ground floor cut open: S1 at (3.2, 2), S2 beyond a partition at x = 5.
+class Placing : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(editor.session.start("demo", nlohmann::json::object()));
+    gui.settle();
+    editor.picker.wait();
+    editor.workspace = Workspace::survey;
+    editor.visibility.cut_height_m = 1.5;
+    look(editor.view.camera, StandardView::top);
+    editor.view.camera.orthographic = true;
+    editor.view.frame_wanted = true;
+    gui.frames(4);
+    ASSERT_TRUE(editor.placement.ready());
+  }
+  const Job& job() const { return *editor.session.document().job; }
+  ImVec2 screenOf(const Eigen::Vector3d& point) const {
+    const auto pixel = project(editor.view.camera, point, editor.view.size);
+    const auto* window = ImGui::FindWindowByName("###viewport");
+    return {window->Pos.x + static_cast<float>(pixel->x()), window->Pos.y + static_cast<float>(pixel->y())};
+  }
+  void hold(bool down) {
+    ImGui::GetIO().MouseDown[0] = down;
+    gui.frames(2);
+  }
+  void drag(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+    gui.moveTo(screenOf(from));
+    hold(true);
+    gui.moveTo(screenOf((from + to) / 2));
+    gui.moveTo(screenOf(to));
+    gui.frames(2);
+  }
+  PlaceVerdict verdict() {
+    const auto held = heldStation(editor);
+    return held ? verdictUnderPointer(editor, *held) : PlaceVerdict{Verdict::unknown, "", ""};
+  }
+  Editor editor{verbsWithDemo(), [] {}};
+  GuiDriver gui{editor};
+};
+
+TEST_F(Placing, ShiftTHoldsANewStationUnderThePointerWithItsVerdict) {
+  gui.key('T', false, true);
+  ASSERT_EQ(editor.view.tool, Tool::placeStation);
+  gui.moveTo(screenOf({1.5, 6, 0}));
+  EXPECT_EQ(verdict().verdict, Verdict::good) << verdict().brief;
+  gui.moveTo(screenOf({0.45, 2, 0}));
+  EXPECT_EQ(verdict().verdict, Verdict::bad);
+  EXPECT_THAT(verdict().brief, testing::MatchesRegex("1[456] cm from wall")) << "by the pixel";
+}
+
+TEST_F(Placing, AClickOnARefusedPlaceAddsNothingAndOpensNothing) {
+  invoke(editor, "add-station");
+  gui.moveTo(screenOf({0.45, 2, 0}));
+  gui.press();
+  gui.settle();
+  EXPECT_EQ(job().stations.size(), 2U);
+  EXPECT_TRUE(editor.session.errors().empty());
+  EXPECT_EQ(ImGui::GetCurrentContext()->OpenPopupStack.Size, 0);
+  ASSERT_TRUE(editor.view.refused_place);
+  EXPECT_THAT(editor.view.refused_place->brief, testing::EndsWith("cm from wall"));
+  EXPECT_EQ(editor.view.tool, Tool::placeStation) << "to try another place";
+}
+
+TEST_F(Placing, FiguresFollowThePointerAndBelongToTheNewestPlaceInTheEnd) {
+  invoke(editor, "add-station");
+  gui.moveTo(screenOf({1.5, 6, 0}));
+  gui.frames(2);
+  editor.place_figures.wait();
+  gui.frames(2);
+  ASSERT_NE(editor.place_figures.forecast(), nullptr);
+  EXPECT_FALSE(editor.place_figures.old());
+  const auto first = *editor.place_figures.forecast();
+  ASSERT_TRUE(first.near_seen && first.spacing_m && first.incidence_rad);
+  EXPECT_EQ(first.overlaps.size(), 2U);
+  EXPECT_EQ(first.overlaps[0].station, "S1");
+  for (const double x : {2.0, 3.0, 4.0, 4.5}) {
+    gui.moveTo(screenOf({x, 1.2, 0}));
+    gui.frame();
+  }
+  EXPECT_NE(editor.place_figures.forecast(), nullptr) << "the last known stay, marked as old";
+  editor.place_figures.wait();
+  gui.frames(2);
+  EXPECT_FALSE(editor.place_figures.old());
+  EXPECT_NE(editor.place_figures.forecast()->model_seen, first.model_seen);
+}
+
+TEST_F(Placing, ThereAreNoFiguresOfARefusedPlace) {
+  invoke(editor, "add-station");
+  gui.moveTo(screenOf({1.5, 6, 0}));
+  gui.frames(2);
+  editor.place_figures.wait();
+  gui.moveTo(screenOf({0.45, 2, 0}));
+  gui.frames(2);
+  EXPECT_EQ(editor.place_figures.forecast(), nullptr);
+}
+
+TEST_F(Placing, ADraggedStationMovesWhereItIsLetGo) {
+  drag(job().stations[0].true_pose.translation, {1.5, 6, 0});
+  ASSERT_TRUE(heldStation(editor));
+  EXPECT_EQ(heldStation(editor)->name, "S1");
+  hold(false);
+  gui.settle();
+  EXPECT_NEAR(job().stations[0].true_pose.translation.x(), 1.5, 0.05);
+  EXPECT_TRUE(editor.session.errors().empty());
+  editor.session.undo();
+  EXPECT_NEAR(job().stations[0].true_pose.translation.x(), 3.2, 1e-9);
+}
+
+TEST_F(Placing, LetGoOnARefusedPlaceItStaysAndTheInspectorSaysWhy) {
+  const auto before = job().stations[0].true_pose.translation;
+  drag(before, {0.45, 2, 0});
+  EXPECT_EQ(verdict().verdict, Verdict::bad);
+  hold(false);
+  gui.settle();
+  EXPECT_EQ(job().stations[0].true_pose.translation, before);
+  EXPECT_TRUE(editor.session.errors().empty());
+  EXPECT_EQ(ImGui::GetCurrentContext()->OpenPopupStack.Size, 0);
+  ASSERT_TRUE(editor.view.refused_place);
+  EXPECT_EQ(editor.view.refused_place->station, "S1");
+  EXPECT_NE(editor.view.refused_place->reason.find("clearance"), std::string::npos);
+  gui.moveTo(screenOf({8, 7, 0}));
+  gui.press();
+  EXPECT_FALSE(editor.view.refused_place) << "the next click takes the message away";
+}
+
+TEST_F(Placing, AClickOnAStationIsNoDrag) {
+  const auto before = job().stations[0].true_pose.translation;
+  gui.moveTo(screenOf(before));
+  hold(true);
+  EXPECT_FALSE(heldStation(editor));
+  hold(false);
+  gui.settle();
+  EXPECT_EQ(job().stations[0].true_pose.translation, before);
+  EXPECT_EQ(editor.survey.station, 0);
+}
+
+TEST_F(Placing, WhatTheVerbRefusesIsSaidInTheViewAndNotInADialog) {
+  ASSERT_TRUE(editor.session.start("station", {{"add", "S9"}, {"at", {500000.1, 5800002, 51.6}}}, "Add station S9"));
+  gui.settle();
+  gui.frames(3);
+  EXPECT_TRUE(editor.session.errors().empty());
+  EXPECT_EQ(ImGui::GetCurrentContext()->OpenPopupStack.Size, 0);
+  ASSERT_TRUE(editor.view.refused_place);
+  EXPECT_NE(editor.view.refused_place->reason.find("cannot place station S9"), std::string::npos);
+}
+
+TEST_F(Placing, CtrlDPutsACopyBesideAStationWhereItCanStand) {
+  EXPECT_FALSE(invoke(editor, "duplicate-station"));
+  EXPECT_EQ(whyNot(*findAction("duplicate-station"), editor), "Select a station in the Survey panel or the view first");
+  editor.survey.station = 0;
+  gui.frames(2);
+  gui.key('D', true);
+  gui.settle();
+  ASSERT_EQ(job().stations.size(), 3U);
+  const auto& copy = job().stations[2];
+  EXPECT_EQ(copy.name, "S3");
+  EXPECT_NEAR((copy.true_pose.translation - job().stations[0].true_pose.translation).norm(), 1, 0.01);
+  EXPECT_NEAR(copy.true_pose.translation.z(), job().stations[0].true_pose.translation.z(), 1e-6);
+  EXPECT_TRUE(copy.scans.empty());
+  EXPECT_EQ(editor.survey.station, 2) << "the copy is chosen";
+  EXPECT_EQ(editor.session.history().undoDescription(), "Added station S3");
+  gui.key('Z', true);
+  gui.frames(2);
+  EXPECT_EQ(job().stations.size(), 2U);
+}
+
+TEST_F(Placing, LooksFromWhereTheInstrumentIsAndAltLeftGoesBack) {
+  editor.survey.station = 0;
+  gui.frames(2);
+  const auto before = editor.view.camera;
+  gui.key('V');
+  gui.frames(2);
+  const auto& camera = editor.view.camera;
+  EXPECT_LT((camera.eye() - job().stations[0].true_pose.translation).norm(), 1e-9);
+  const double yaw = yawOf(job().stations[0].true_pose.rotation);
+  EXPECT_LT((camera.forward() - Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0)).norm(), 1e-9) << "along its X axis";
+  EXPECT_FALSE(camera.orthographic);
+  const auto azimuth = camera.azimuth_rad;
+  drag({4.5, 2.2, 1.5}, {4.5, 1.8, 1.5});
+  hold(false);
+  EXPECT_NE(camera.azimuth_rad, azimuth) << "a drag looks around";
+  EXPECT_LT((camera.eye() - job().stations[0].true_pose.translation).norm(), 1e-6) << "and stays there";
+  ASSERT_TRUE(invoke(editor, "view-before"));
+  gui.frames(2);
+  EXPECT_EQ(editor.view.camera.target, before.target);
+  EXPECT_EQ(editor.view.camera.view_angle_rad, before.view_angle_rad);
+}
+
+// Above the house's corner, so that what stands over a station does not lie on it.
+class StationHandles : public Placing {
+ protected:
+  void SetUp() override {
+    Placing::SetUp();
+    editor.view.camera.orthographic = false;
+    editor.view.camera.target = {3.2, 2, 1};
+    editor.view.camera.distance_m = 7;
+    editor.view.camera.elevation_rad = 0.7;
+    editor.view.camera.azimuth_rad = 0.2;
+    editor.survey.station = 0;
+    gui.frames(3);
+    centre = job().stations[0].true_pose.translation;
+  }
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+};
+
+TEST_F(StationHandles, TheOneOnTheFloorTurnsTheStation) {
+  const Eigen::Vector3d floor = centre - Eigen::Vector3d(0, 0, 1.6);
+  drag(floor + Eigen::Vector3d(0.75, 0, 0), floor + Eigen::Vector3d(0, 0.75, 0));
+  EXPECT_EQ(editor.view.handle, StationHandle::heading);
+  EXPECT_FALSE(heldStation(editor)) << "it is not moved";
+  hold(false);
+  gui.settle();
+  EXPECT_NEAR(yawOf(job().stations[0].true_pose.rotation) / kRadPerDeg, 90, 1.01);
+  EXPECT_LT((job().stations[0].true_pose.translation - centre).norm(), 1e-6);
+  gui.key('Z', true);
+  gui.frames(2);
+  EXPECT_NEAR(yawOf(job().stations[0].true_pose.rotation), 0, 1e-9);
+}
+
+TEST_F(StationHandles, TheOneAboveTheInstrumentRaisesIt) {
+  drag(centre + Eigen::Vector3d(0, 0, 0.42), centre + Eigen::Vector3d(0, 0, 0.57));
+  EXPECT_EQ(editor.view.handle, StationHandle::height);
+  hold(false);
+  gui.settle();
+  EXPECT_NEAR(job().stations[0].instrument_height_m, 1.75, 0.011);
+  EXPECT_NEAR(job().stations[0].true_pose.translation.z(), 1.75, 0.011);
+}
+
+TEST_F(StationHandles, TheTopOneTiltsIt) {
+  drag(centre + Eigen::Vector3d(0, 0, 0.8), centre + Eigen::Vector3d(0.08, 0, 0.8));
+  EXPECT_EQ(editor.view.handle, StationHandle::tilt);
+  hold(false);
+  gui.settle();
+  const auto tilt = tiltOf(job().stations[0].true_pose.rotation);
+  EXPECT_NEAR(tilt.angle_rad / kRadPerDeg, std::atan(0.1) / kRadPerDeg, 0.5);
+  EXPECT_LT((job().stations[0].true_pose.translation - centre).norm(), 1e-6);
+}
+
+TEST_F(StationHandles, EscLetsGoOfThem) {
+  drag(centre + Eigen::Vector3d(0, 0, 0.42), centre + Eigen::Vector3d(0, 0, 0.57));
+  gui.key(kKeyEscape);
+  hold(false);
+  gui.settle();
+  EXPECT_EQ(job().stations[0].instrument_height_m, 1.6);
+}
+
+TEST_F(Placing, AScanThatIsOlderThanATargetSaysSo) {
+  Job with_record = job();
+  with_record.stations[1].scans[0].as_scanned = AsScanned{with_record.stations[1].true_pose, with_record.targets};
+  Outcome outcome;
+  outcome.document = editor.session.document();
+  outcome.document.job = std::make_shared<const Job>(with_record);
+  ASSERT_TRUE(editor.session.adopt(std::move(outcome)));
+  editor.survey.station = 1;
+  gui.frames(4);
+  EXPECT_EQ(gui.find("###older-S2"), nullptr);
+  EXPECT_EQ(gui.find("###scan-again"), nullptr);
+  ASSERT_TRUE(editor.session.start("target", {{"move", "T1"}, {"at", {500001.5, 5800001, 51.2}}}));
+  gui.settle();
+  gui.frames(4);
+  EXPECT_NE(gui.find("###older-S2"), nullptr) << "in the list";
+  EXPECT_NE(gui.find("###scan-again"), nullptr) << "and in the inspector";
+}
+
+}  // namespace
+}  // namespace standpoint
