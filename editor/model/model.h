@@ -37,12 +37,13 @@
 #include "editor/model/view_state.h"
 #include "editor/model/visibility.h"
 #include "editor/model/walking.h"
+#include "project/survey/station_row.h"
 #include "survey/stations/levelling.h"
 
 namespace standpoint {
 
 // What the next click in the viewport does.
-enum class Tool { select, placeStation, placeTarget, measure, walk, takeMaterial, paintMaterial, layWay };
+enum class Tool { select, placeStation, placeRow, placeTarget, measure, walk, takeMaterial, paintMaterial, layWay };
 
 // Which of the two models is looked at; there is one only until it has been optimised.
 enum class ModelSide { lighter, original, both };
@@ -63,6 +64,12 @@ struct HandledStation {
   double height_m = 0, yaw_rad = 0;
   Tilt tilt;
   bool operator==(const HandledStation&) const = default;
+};
+
+// What of the view is another one while one looks from a station.
+struct ViewBeforeStation {
+  double view_angle_rad = 0;
+  std::optional<double> cut_height_m;
 };
 
 struct ViewportState {
@@ -88,9 +95,11 @@ struct ViewportState {
   int dragged_station = -1;         // by the pointer
   bool station_drag_begun = false;  // it has left the place where it was taken
   std::optional<RefusedPlace> refused_place;
+  std::optional<Eigen::Vector3d> row_from;  // where a row of stations begins, on the floor
+  RowSteps row{.count = 3, .spacing_m = {}};
   StationHandle handle = StationHandle::none, hovered_handle = StationHandle::none;
-  std::optional<HandledStation> handled_station;   // the chosen one, as its handle was dragged
-  std::optional<double> angle_before_station_rad;  // of the camera, while it is where an instrument is
+  std::optional<HandledStation> handled_station;    // the chosen one, as its handle was dragged
+  std::optional<ViewBeforeStation> before_station;  // while the camera is where an instrument is
   bool frame_wanted = false;
 };
 

@@ -9,6 +9,7 @@
 
 #include "core/units.h"
 #include "editor/model/model.h"
+#include "project/survey/station_row.h"
 #include "project/survey/survey_verbs.h"
 #include "survey/stations/levelling.h"
 #include "survey/stations/station_places.h"
@@ -33,13 +34,7 @@ std::string whyNoStation(const Model& model) {
   return chosenStation(model) != nullptr ? "" : "Select a station in the Survey panel or the view first";
 }
 
-std::string freeStationName(const Job& job) {
-  for (int i = 1;; ++i) {
-    auto name = fmt::format("S{}", i);
-    if (std::none_of(job.stations.begin(), job.stations.end(), [&](const Station& s) { return s.name == name; }))
-      return name;
-  }
-}
+std::string freeStationName(const Job& job) { return nextStationName(job, "S0"); }
 
 void duplicateStation(Model& model) {
   const auto* station = chosenStation(model);
@@ -61,13 +56,31 @@ void duplicateStation(Model& model) {
   model.survey_wanted = name;
 }
 
+std::vector<Eigen::Vector3d> rowUnderPointer(const Model& model) {
+  const auto& view = model.view;
+  if (view.tool != Tool::placeRow || !view.row_from || !view.hover) return {};
+  return rowPlaces(*view.row_from, view.hover->position, view.row);
+}
+
+void addRow(Model& model, const Eigen::Vector3d& to) {
+  const auto& view = model.view;
+  const Eigen::Vector3d a = *view.row_from + model.shift_m(), b = to + model.shift_m();
+  StationOptions options{.add = freeStationName(*model.session.document().job), .on = FloorPlace{a.x(), a.y(), a.z()}};
+  options.row_to = FloorPlace{b.x(), b.y(), b.z()};
+  options.row_count = view.row.count;
+  options.row_spacing_m = view.row.spacing_m;
+  model.session.start(options, "Add row of stations");
+}
+
 void lookFromStation(Model& model) {
   const auto* station = chosenStation(model);
-  if (station == nullptr || looksFromStation(model)) return;
   auto& camera = model.view.camera;
+  auto& before = model.view.before_station;
+  if (station == nullptr || (before && (station->true_pose.translation - camera.eye()).norm() < kSameEye_m)) return;
   model.views.push({camera, model.walk.active() ? std::optional(model.walk.feet()) : std::nullopt});
   stopWalking(model);
-  model.view.angle_before_station_rad = camera.view_angle_rad;
+  if (!before) before = {camera.view_angle_rad, model.visibility.cut_height_m};
+  model.visibility.cut_height_m.reset();  // an instrument sees all
   camera.orthographic = false;
   camera.view_angle_rad = kStationViewAngle_rad;
   camera.azimuth_rad = yawOf(station->true_pose.rotation) - std::numbers::pi / 2;
@@ -78,16 +91,17 @@ void lookFromStation(Model& model) {
 
 bool looksFromStation(const Model& model) {
   const auto& job = model.session.document().job;
-  if (!model.view.angle_before_station_rad || !job) return false;
+  if (!model.view.before_station || !job) return false;
   const Eigen::Vector3d eye = model.view.camera.eye();
   return std::any_of(job->stations.begin(), job->stations.end(),
                      [&](const Station& s) { return (s.true_pose.translation - eye).norm() < kSameEye_m; });
 }
 
 void followStationView(Model& model) {
-  auto& before = model.view.angle_before_station_rad;
+  auto& before = model.view.before_station;
   if (!before || looksFromStation(model)) return;
-  model.view.camera.view_angle_rad = *before;
+  model.view.camera.view_angle_rad = before->view_angle_rad;
+  if (!model.visibility.cut_height_m) model.visibility.cut_height_m = before->cut_height_m;
   before.reset();
 }
 

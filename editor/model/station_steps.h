@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/survey.h"
 
@@ -18,10 +19,14 @@ std::string freeStationName(const Job& job);
 // Another one of its height and heading, on the nearest place beside it where one can stand.
 void duplicateStation(Model& model);
 
+// The floor under each station of the row that is laid, from its first end to the pointer; empty while there is none.
+std::vector<Eigen::Vector3d> rowUnderPointer(const Model& model);
+void addRow(Model& model, const Eigen::Vector3d& to);
+
 // The camera goes where the instrument is, and looks where that does. The view before can be gone back to.
 void lookFromStation(Model& model);
 bool looksFromStation(const Model& model);
-// To be called once a frame: away from the instrument the view is as wide as before.
+// To be called once a frame: away from the instrument the view is as wide, and cut, as before.
 void followStationView(Model& model);
 
 }  // namespace standpoint

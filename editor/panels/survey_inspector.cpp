@@ -90,7 +90,7 @@ void drawRefusal(const Model& model, const Station& station) {
   const auto& refused = model.view.refused_place;
   if (!refused || refused->station != station.name) return;
   ImGui::PushStyleColor(ImGuiCol_Text, tone::kBad);
-  ui::wrapped(fmt::format(ICON_BAN "  {}: {} stays where it was", refused->brief, station.name));
+  ui::wrapped(fmt::format(ICON_BAN "  {}. {} stays where it was", refused->brief, station.name));
   ImGui::PopStyleColor();
   ui::dimWrapped(refused->reason);
 }

@@ -361,6 +361,16 @@ const std::array kActions = {
              showWorkspace(e, Workspace::survey);
            },
            whyStationNot},
+    Action{"add-row",
+           "Add row of stations by clicking both ends",
+           ICON_STATION,
+           {'T', true, true},
+           [](Editor& e) {
+             e.view.row_from.reset();
+             e.view.tool = Tool::placeRow;
+             showWorkspace(e, Workspace::survey);
+           },
+           whyStationNot},
     Action{"duplicate-station",
            "Duplicate selected station",
            ICON_COPY,

@@ -122,6 +122,7 @@ void leaveTool(Editor& editor) {
   if (editor.view.tool != Tool::select) {
     stopWalking(editor);
     editor.view.tool = Tool::select;
+    editor.view.row_from.reset();
     editor.view.measured_from.reset();
     editor.view.measured_to.reset();
     return;

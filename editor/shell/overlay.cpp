@@ -7,10 +7,12 @@
 
 #include <fmt/format.h>
 
+#include "editor/model/station_steps.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/coverage_overlay.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/expected_overlay.h"
+#include "editor/shell/row_overlay.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
@@ -220,9 +222,15 @@ void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
                                                     : "Click where to stand   Esc to cancel";
     return drawBanner(editor, origin, size, words, 26, kHint);
   }
+  if (editor.view.tool == Tool::select && looksFromStation(editor))
+    return drawBanner(editor, origin, size, "Drag to look around   Alt+Left to go back", 26, kHint);
   const char* hint = nullptr;
   switch (editor.view.tool) {
     case Tool::placeStation: hint = "Click the floor to add a station   Esc to leave"; break;
+    case Tool::placeRow:
+      hint = editor.view.row_from ? "Click the floor where the row ends   Esc to leave"
+                                  : "Click the floor where the row begins   Esc to leave";
+      break;
     case Tool::placeTarget: hint = "Click to place a target   Esc to leave"; break;
     case Tool::measure: hint = "Click two points to measure   Esc to leave"; break;
     case Tool::takeMaterial: hint = "Click a surface to pick its material   Esc to leave"; break;
@@ -376,6 +384,7 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   toggle(editor, ICON_EYE, "show-all", false);
   expectedChips(editor);
   coverageChips(editor);
+  rowChips(editor);
   ImGui::EndGroup();
   const ImVec2 drawn = ImGui::GetItemRectSize();
   editor.overlay_size = {drawn.x, drawn.y};

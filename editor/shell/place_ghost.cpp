@@ -112,7 +112,10 @@ void drawFigures(const Editor& editor, const HeldStation& held, ImVec2 origin, I
   if (forecast != nullptr) rows = figureRows(editor, *forecast);
   const float pad = editor.px(10), line = ImGui::GetTextLineHeight() + editor.px(5), width = editor.px(236);
   const float height = 2 * pad + line * static_cast<float>(rows.size() + 1) - editor.px(2);
-  const ImVec2 low(origin.x + size.x - width - editor.px(10), origin.y + editor.px(124));
+  const float right_x = origin.x + size.x - width - editor.px(10), y_from = origin.y + editor.px(124);
+  const ImVec2 pointer = ImGui::GetIO().MousePos;  // it and the tripod over it are not to be covered
+  const bool covered = pointer.x > right_x - editor.px(90) && pointer.y < y_from + height + editor.px(170);
+  const ImVec2 low(covered ? origin.x + editor.px(10) : right_x, y_from);
   auto& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(low, {low.x + width, low.y + height}, IM_COL32(20, 23, 28, 225), editor.px(5));
   float y = low.y + pad;
@@ -151,7 +154,7 @@ void drawRefused(const Editor& editor, const ViewPen& pen, ImVec2 origin, ImVec2
   drawCross(pen, *refused->floor, tone);
   const auto place = pen.at(*refused->floor);
   if (!place) return;
-  const auto stays = refused->station.empty() ? std::string() : "  " + refused->station + " stays where it was";
+  const auto stays = refused->station.empty() ? std::string() : ". " + refused->station + " stays where it was";
   pen.plate({place->x + editor.px(18), place->y + editor.px(14)}, verdictSign(Verdict::bad), tone,
             refused->brief + stays);
 }
@@ -171,7 +174,8 @@ std::optional<HeldStation> heldStation(const Editor& editor) {
   const auto& view = editor.view;
   const auto& job = editor.session.document().job;
   if (!job || !view.hover || view.dragging) return std::nullopt;
-  if (view.tool == Tool::placeStation) return HeldStation{"", kUsualHeight_m, Eigen::Quaterniond::Identity()};
+  if (view.tool == Tool::placeStation || (view.tool == Tool::placeRow && !view.row_from))
+    return HeldStation{"", kUsualHeight_m, Eigen::Quaterniond::Identity()};
   if (view.dragged_station < 0 || view.dragged_station >= static_cast<int>(job->stations.size()) ||
       !view.station_drag_begun)
     return std::nullopt;
@@ -203,6 +207,20 @@ void takePlaceRefusals(Editor& editor) {
   }
 }
 
+void drawHeldStation(const Editor& editor, const ViewPen& pen, const HeldStation& held, const Vector3d& floor,
+                     Verdict verdict) {
+  const Pose pose{held.rotation, floor + Vector3d(0, 0, held.height_m)};
+  const ImU32 tone = verdictTone(verdict);
+  if (const auto settings = editor.plannedSettings(); settings && verdict != Verdict::bad) {
+    const auto rim = blindRim(editor, pose, held.height_m, settings->elevation_from_rad);
+    pen.fan(floor, rim, withAlpha(tone, 70));
+    pen.ring(rim, tone, 1.5F);
+  }
+  if (verdict == Verdict::bad) drawCross(pen, floor, tone);
+  drawLegs(editor, pen, pose, held.height_m, tone);
+  drawHead(pen, pose, tone);
+}
+
 void drawPlaceGhost(Editor& editor, ImVec2 origin, ImVec2 size) {
   const ViewPen pen(editor, origin);
   const auto held = heldStation(editor);
@@ -219,19 +237,12 @@ void drawPlaceGhost(Editor& editor, ImVec2 origin, ImVec2 size) {
     wantFigures(editor, *held, pose.translation);
     const auto* forecast = editor.place_figures.forecast();
     if (forecast != nullptr && !editor.place_figures.old()) verdict = withForecast(std::move(verdict), *forecast);
-    drawFigures(editor, *held, origin, size);
   }
-  const ImU32 tone = verdictTone(verdict.verdict);
-  if (const auto settings = editor.plannedSettings(); settings && verdict.verdict != Verdict::bad) {
-    const auto rim = blindRim(editor, pose, held->height_m, settings->elevation_from_rad);
-    pen.fan(floor, rim, withAlpha(tone, 70));
-    pen.ring(rim, tone, 1.5F);
-  }
-  if (verdict.verdict == Verdict::bad) drawCross(pen, floor, tone);
-  drawLegs(editor, pen, pose, held->height_m, tone);
-  drawHead(pen, pose, tone);
+  drawHeldStation(editor, pen, *held, floor, verdict.verdict);
+  if (verdict.verdict != Verdict::bad) drawFigures(editor, *held, origin, size);
   const ImVec2 pointer = ImGui::GetIO().MousePos;
-  pen.plate({pointer.x + editor.px(20), pointer.y + editor.px(16)}, verdictSign(verdict.verdict), tone, verdict.brief);
+  pen.plate({pointer.x + editor.px(20), pointer.y + editor.px(16)}, verdictSign(verdict.verdict),
+            verdictTone(verdict.verdict), verdict.brief);
 }
 
 }  // namespace standpoint

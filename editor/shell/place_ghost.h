@@ -11,6 +11,7 @@
 namespace standpoint {
 
 struct Editor;
+class ViewPen;
 
 // A station that the pointer holds over the scene.
 struct HeldStation {
@@ -27,6 +28,9 @@ void refusePlace(Editor& editor, const HeldStation& held, const PlaceVerdict& ve
 // What the verb `station` refused, which no panel has said yet, is said in the view instead of in a dialog.
 void takePlaceRefusals(Editor& editor);
 
+// Tripod and instrument on a floor, with what they cannot see of it, in a verdict.
+void drawHeldStation(const Editor& editor, const ViewPen& pen, const HeldStation& held, const Eigen::Vector3d& floor,
+                     Verdict verdict);
 // Asks for the figures of the place under the pointer, and draws tripod, instrument, what it cannot see of the floor,
 // verdict and figures.
 void drawPlaceGhost(Editor& editor, ImVec2 origin, ImVec2 size);

@@ -50,7 +50,7 @@ Vector3d knobOf(const HandledStation& s, StationHandle handle) {
 std::optional<ImVec2> knobOnScreen(const Editor& editor, const ViewPen& pen, const HandledStation& s,
                                    StationHandle handle) {
   const auto knob = pen.at(knobOf(s, handle)), centre = pen.at(s.centre);
-  if (!knob || !centre || std::hypot(knob->x - centre->x, knob->y - centre->y) < editor.px(2 * kHandleGrip_pt))
+  if (!knob || !centre || std::hypot(knob->x - centre->x, knob->y - centre->y) < editor.px(1.5F * kHandleGrip_pt))
     return std::nullopt;
   return knob;
 }
@@ -104,7 +104,7 @@ void setUp(Editor& editor, const Station& station, const HandledStation& s) {
   }
   const auto* placement = editor.placement.placement();
   if (const auto why = placement != nullptr ? placement->whyNot(s.centre) : std::nullopt) {
-    editor.view.refused_place = RefusedPlace{station.name, why->brief, why->reason + "; " + why->remedy, floorOf(s)};
+    editor.view.refused_place = RefusedPlace{station.name, why->brief, sentenceOf(*why), floorOf(s)};
     return;
   }
   editor.session.start(options, "Move station " + station.name);

@@ -14,6 +14,7 @@
 #include "editor/shell/material_brush.h"
 #include "editor/shell/overlay.h"
 #include "editor/shell/place_ghost.h"
+#include "editor/shell/row_overlay.h"
 #include "editor/shell/shell.h"
 #include "editor/shell/station_drag.h"
 #include "editor/shell/station_handles.h"
@@ -80,6 +81,20 @@ void placeStation(Editor& editor, const RayHit& hit) {
   editor.session.start(StationOptions{.add = name, .on = FloorPlace{p.x(), p.y(), p.z()}}, "Add station " + name);
 }
 
+// The first click is one end, the second the other.
+void layRow(Editor& editor, const RayHit& hit) {
+  auto& from = editor.view.row_from;
+  if (from) {
+    addRow(editor, hit.position);
+    from.reset();
+    return;
+  }
+  const HeldStation held{"", kUsualHeight_m, Eigen::Quaterniond::Identity()};
+  if (const auto verdict = verdictUnderPointer(editor, held); verdict.verdict == Verdict::bad)
+    return refusePlace(editor, held, verdict);
+  from = hit.position;
+}
+
 void placeTarget(Editor& editor, const RayHit& hit) {
   std::vector<std::string> names;
   if (const auto& job = editor.session.document().job)
@@ -112,6 +127,7 @@ void click(Editor& editor) {
   void (*act)(Editor&, const RayHit&) = nullptr;
   switch (editor.view.tool) {
     case Tool::placeStation: act = placeStation; break;
+    case Tool::placeRow: act = layRow; break;
     case Tool::placeTarget: act = placeTarget; break;
     case Tool::measure: act = measure; break;
     case Tool::takeMaterial: act = takeMaterial; break;
@@ -289,6 +305,7 @@ void drawViewport(Editor& editor) {
   drawMarkers(editor, both ? right : origin);
   drawOverlay(editor, origin, whole);
   drawStationHandles(editor, both ? right : origin);
+  drawRow(editor, both ? right : origin);
   drawPlaceGhost(editor, both ? right : origin, size);
   drawTeleport(editor, both ? right : origin);
   drawTour(editor, origin, whole);

@@ -8,6 +8,7 @@
 
 #include "core/units.h"
 #include "project/answers.h"
+#include "project/survey/station_row.h"
 #include "project/survey/survey_verbs.h"
 #include "survey/instruments.h"
 #include "survey/stations/levelling.h"
@@ -124,19 +125,18 @@ tl::unexpected<Error> refused(const std::string& name, const Refusal& why) {
 }
 
 // `before` is what moves: where no place is said but a tilt is, it stays where it is.
-Result<Station> place(const Document& document, const std::string& name, const StationOptions& options,
-                      const Station* before, Report& report, Progress& progress) {
+Result<Station> place(const Document& document, const RayScene& scene, const std::string& name,
+                      const StationOptions& options, const Station* before, Report& report, Progress& progress) {
   if (options.at && options.on)
     return failure(ErrorKind::usage, "specify either --at X,Y,Z (instrument centre) or --on X,Y[,Z] (floor)");
   TRY_ASSIGN(const auto setup, setupFrom(options));
-  TRY_ASSIGN(auto scene, RayScene::build(document.environment(), progress));
-  const StationPlacement placement(*scene, setup.stand, setup.trunnion_m);
+  const StationPlacement placement(scene, setup.stand, setup.trunnion_m);
   const bool somewhere = options.at || options.on;
   const bool stays = !somewhere && before != nullptr && saysLevel(options);
   if (!setup.free && !options.at && !stays)
     if (auto why = placement.badHeight(setup.height_m)) return refused(name, *why);
   TRY_ASSIGN(auto centre, stays       ? Result<Eigen::Vector3d>(before->true_pose.translation)
-                          : somewhere ? centreFrom(*scene, *document.georeference, options, setup.height_m)
+                          : somewhere ? centreFrom(scene, *document.georeference, options, setup.height_m)
                                       : bestPlace(document, placement, setup.height_m, report, progress));
   if (auto why = setup.free ? placement.tooNear(centre) : placement.whyNot(centre)) return refused(name, *why);
   if (const auto odd = placement.remark(centre)) report.warn(name, *odd);
@@ -173,6 +173,46 @@ Result<void> checkStationName(Job& job, const std::string& name) {
   if (find(job, name) != job.stations.end())
     return failure(ErrorKind::usage, fmt::format("station '{}' already exists; use --move, or another name", name));
   return {};
+}
+
+Result<void> checkRow(const StationOptions& options) {
+  if (!options.row_to) {
+    if (options.row_count || options.row_spacing_m)
+      return failure(ErrorKind::usage, "a row needs both ends: --on X,Y[,Z] and --row-to X,Y[,Z]");
+    return {};
+  }
+  if (!options.add || !options.on)
+    return failure(ErrorKind::usage, "--row-to continues what --add NAME --on X,Y[,Z] begins");
+  if (options.row_count.has_value() == options.row_spacing_m.has_value())
+    return failure(ErrorKind::usage, "specify either --row-count or --row-spacing");
+  return {};
+}
+
+// Those of a row that can stand; what is left out is in the report. Refused where none can.
+Result<std::string> addRow(const Document& document, const RayScene& scene, Job& job, const StationOptions& options,
+                           Answered<StationAnswer>& outcome, Progress& progress) {
+  const auto &on = *options.on, &to = *options.row_to;
+  const Eigen::Vector3d from(on.x_m, on.y_m, on.z_m.value_or(0)), end(to.x_m, to.y_m, to.z_m.value_or(from.z()));
+  std::string name = *options.add, first, last;
+  std::optional<Error> why;
+  std::size_t added = 0;
+  for (const auto& floor : rowPlaces(from, end, {options.row_count, options.row_spacing_m})) {
+    StationOptions one = options;
+    one.on = FloorPlace{floor.x(), floor.y(), on.z_m ? std::optional(floor.z()) : std::nullopt};
+    auto station = place(document, scene, name, one, nullptr, outcome.report, progress);
+    if (!station && station.error().kind != ErrorKind::unusable) return tl::unexpected(station.error());
+    if (!station) {
+      outcome.report.warn(name, "left out of the row: " + station.error().message);
+      if (!why) why = station.error();
+      continue;
+    }
+    if (added++ == 0) first = name, outcome.answer.placed = stationRow(*station, *document.georeference);
+    last = name;
+    job.stations.push_back(*std::move(station));
+    name = nextStationName(job, name);
+  }
+  if (added == 0) return tl::unexpected(*why);
+  return added == 1 ? "Added station " + first : fmt::format("Added {} stations: {} to {}", added, first, last);
 }
 
 }  // namespace
@@ -218,7 +258,13 @@ const Fields<StationOptions>& stationFields() {
       {"yaw-deg",
        &O::yaw_deg,
        "direction of the instrument's X axis, counter-clockwise from the file's X",
-       {.unit = "deg", .minimum = -360, .maximum = 360}}};
+       {.unit = "deg", .minimum = -360, .maximum = 360}},
+      {"row-to", &O::row_to, "X,Y[,Z] of the floor at the other end of a row that begins at `on`", {.unit = "m"}},
+      {"row-count", &O::row_count, "number of stations of the row, both ends included", {.minimum = 2, .maximum = 100}},
+      {"row-spacing",
+       &O::row_spacing_m,
+       "distance of the stations of the row, instead of their number",
+       {.unit = "m", .minimum = 0.5, .maximum = 1000}}};
   return fields;
 }
 
@@ -255,13 +301,21 @@ Result<Answered<StationAnswer>> runStation(const Document& document, const Stati
     return failure(ErrorKind::usage, "specify one of --add NAME, --move NAME, --rename NAME, --remove NAME");
   if (options.tilt_deg && options.levelling_error_deg)
     return failure(ErrorKind::usage, "use either --tilt-deg, or --levelling-error-deg for a random tilt");
+  TRY(checkRow(options));
   Answered<StationAnswer> outcome{document};
   Job job = *document.job;
   const auto& g = *document.georeference;
-  if (options.add) {
+  std::shared_ptr<const RayScene> scene;
+  if (options.add || options.move) {
+    TRY_ASSIGN(scene, RayScene::build(document.environment(), progress));
+  }
+  if (options.row_to) {
+    TRY(checkStationName(job, *options.add));
+    TRY_ASSIGN(outcome.description, addRow(document, *scene, job, options, outcome, progress));
+  } else if (options.add) {
     const auto& name = *options.add;
     TRY(checkStationName(job, name));
-    TRY_ASSIGN(auto station, place(document, name, options, nullptr, outcome.report, progress));
+    TRY_ASSIGN(auto station, place(document, *scene, name, options, nullptr, outcome.report, progress));
     outcome.answer.placed = stationRow(station, g);
     outcome.description = "Added station " + name;
     job.stations.push_back(std::move(station));
@@ -269,7 +323,7 @@ Result<Answered<StationAnswer>> runStation(const Document& document, const Stati
     const auto& name = *options.move;
     const auto at = find(job, name);
     if (at == job.stations.end()) return noStation(job, name);
-    TRY_ASSIGN(auto station, place(document, name, options, &*at, outcome.report, progress));
+    TRY_ASSIGN(auto station, place(document, *scene, name, options, &*at, outcome.report, progress));
     const double distance = (station.true_pose.translation - at->true_pose.translation).norm();
     station.scans = at->scans;
     *at = std::move(station);

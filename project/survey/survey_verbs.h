@@ -40,6 +40,9 @@ struct StationOptions {
   std::optional<double> levelling_error_deg;
   std::uint64_t seed = 1;
   double yaw_deg = 0;
+  std::optional<FloorPlace> row_to;  // of what is added: a row from `on` to there
+  std::optional<std::uint32_t> row_count;
+  std::optional<double> row_spacing_m;
 };
 const Fields<StationOptions>& stationFields();
 

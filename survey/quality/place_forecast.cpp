@@ -121,7 +121,9 @@ PlaceForecast PlaceForecaster::at(const Pose& place, std::span<const Station* co
   if (counted.all.exposed > 0)
     forecast.model_seen = counted.seen_m2.front() / (samples_.each_m2() * static_cast<double>(counted.all.exposed));
   for (const auto& pair : counted.pairs)
-    if (pair.a == 0) forecast.overlaps.push_back({nearby[pair.b - 1]->name, pair.overlap()});
+    if (pair.a == 0)
+      forecast.overlaps.push_back({nearby[pair.b - 1]->name, pair.overlap(),
+                                   (nearby[pair.b - 1]->true_pose.translation - place.translation).norm()});
   measure(forecast, place, seen);
   return forecast;
 }

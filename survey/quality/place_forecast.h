@@ -20,6 +20,7 @@ struct PlaceForecast {
   struct Overlap {
     std::string station;
     double fraction = 0;  // of the one that sees less
+    double distance_m = 0;
   };
   std::optional<std::uint32_t> room;    // the IfcSpace around the instrument
   std::string storey;                   // of what it stands on; where there is no room, its surface counts

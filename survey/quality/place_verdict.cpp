@@ -29,9 +29,15 @@ std::string doubtOf(const StationPlacement& placement, const RayHit& hit, double
 
 }  // namespace
 
+std::string sentenceOf(const Refusal& refusal) {
+  auto text = refusal.reason + "; " + refusal.remedy + ".";
+  if (text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
 PlaceVerdict judgePlace(const StationPlacement& placement, const RayHit& hit, double height_m, double nearest_m) {
   if (const auto refusal = placement.whyNotOn(hit, height_m))
-    return {Verdict::bad, refusal->brief, refusal->reason + "; " + refusal->remedy};
+    return {Verdict::bad, refusal->brief, sentenceOf(*refusal)};
   if (auto doubt = doubtOf(placement, hit, height_m, nearest_m); !doubt.empty())
     return {Verdict::warn, std::move(doubt), {}};
   return {Verdict::good, "Good place", {}};
@@ -46,6 +52,9 @@ Verdict placeFigureVerdict(const char* limit_id, double value) {
 
 PlaceVerdict withForecast(PlaceVerdict verdict, const PlaceForecast& forecast) {
   if (verdict.verdict != Verdict::good || forecast.overlaps.empty()) return verdict;
+  constexpr double kApart_m = 0.5;  // two tripods there would stand in each other's way
+  if (const auto& nearest = forecast.overlaps.front(); nearest.distance_m < kApart_m)
+    return {Verdict::warn, fmt::format("{:.0f} cm from {}", nearest.distance_m * 100, nearest.station), {}};
   const auto best = std::max_element(forecast.overlaps.begin(), forecast.overlaps.end(),
                                      [](const auto& a, const auto& b) { return a.fraction < b.fraction; });
   if (placeFigureVerdict("overlap", best->fraction * 100) == Verdict::good) return verdict;

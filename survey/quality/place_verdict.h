@@ -16,6 +16,9 @@ struct PlaceVerdict {
   std::string reason;  // of a refusal, in full, with what helps
 };
 
+// Reason and remedy.
+std::string sentenceOf(const Refusal& refusal);
+
 // On a surface that was pointed at. `nearest_m` is the shortest range that the instrument measures: what is nearer
 // stays unseen.
 PlaceVerdict judgePlace(const StationPlacement& placement, const RayHit& hit, double height_m, double nearest_m);

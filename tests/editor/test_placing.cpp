@@ -182,6 +182,29 @@ TEST_F(Placing, CtrlDPutsACopyBesideAStationWhereItCanStand) {
   EXPECT_EQ(job().stations.size(), 2U);
 }
 
+TEST_F(Placing, TwoClicksAddARowOfStationsInOneStep) {
+  ASSERT_TRUE(invoke(editor, "add-row"));
+  gui.frames(3);
+  ASSERT_NE(gui.find("###row-count"), nullptr);
+  gui.moveTo(screenOf({1.2, 1.2, 0}));
+  gui.press();
+  EXPECT_EQ(job().stations.size(), 2U) << "one end is no row";
+  gui.moveTo(screenOf({1.2, 6.8, 0}));
+  EXPECT_EQ(rowUnderPointer(editor).size(), 3U);
+  editor.view.row = {.count = {}, .spacing_m = 1.5};
+  EXPECT_EQ(rowUnderPointer(editor).size(), 4U);
+  editor.view.row = {.count = 3, .spacing_m = {}};
+  gui.press();
+  gui.settle();
+  ASSERT_TRUE(editor.session.errors().empty()) << describe(editor.session.errors().front().error);
+  ASSERT_EQ(job().stations.size(), 5U);
+  EXPECT_EQ(job().stations[4].name, "S5");
+  EXPECT_NEAR(job().stations[3].true_pose.translation.y(), 4, 0.05) << "in the middle";
+  gui.key('Z', true);
+  gui.frames(2);
+  EXPECT_EQ(job().stations.size(), 2U);
+}
+
 TEST_F(Placing, LooksFromWhereTheInstrumentIsAndAltLeftGoesBack) {
   editor.survey.station = 0;
   gui.frames(2);
@@ -193,15 +216,22 @@ TEST_F(Placing, LooksFromWhereTheInstrumentIsAndAltLeftGoesBack) {
   const double yaw = yawOf(job().stations[0].true_pose.rotation);
   EXPECT_LT((camera.forward() - Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0)).norm(), 1e-9) << "along its X axis";
   EXPECT_FALSE(camera.orthographic);
+  EXPECT_FALSE(editor.visibility.cut_height_m) << "an instrument sees all";
   const auto azimuth = camera.azimuth_rad;
   drag({4.5, 2.2, 1.5}, {4.5, 1.8, 1.5});
   hold(false);
   EXPECT_NE(camera.azimuth_rad, azimuth) << "a drag looks around";
   EXPECT_LT((camera.eye() - job().stations[0].true_pose.translation).norm(), 1e-6) << "and stays there";
+  editor.survey.station = 1;
+  gui.key('V');
+  gui.frames(2);
+  EXPECT_LT((camera.eye() - job().stations[1].true_pose.translation).norm(), 1e-6) << "from one to the next";
+  ASSERT_TRUE(invoke(editor, "view-before"));
   ASSERT_TRUE(invoke(editor, "view-before"));
   gui.frames(2);
   EXPECT_EQ(editor.view.camera.target, before.target);
   EXPECT_EQ(editor.view.camera.view_angle_rad, before.view_angle_rad);
+  EXPECT_EQ(editor.visibility.cut_height_m, 1.5);
 }
 
 // Above the house's corner, so that what stands over a station does not lie on it.

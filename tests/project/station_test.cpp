@@ -49,6 +49,58 @@ TEST(Station, PlacesItselfWhereItSeesMostAndApartFromTheOthers) {
   EXPECT_GE((stations[0].true_pose.translation - stations[1].true_pose.translation).norm(), 2.5);
 }
 
+TEST(StationRow, StandsEvenlyBetweenTwoPlacesInOneStep) {
+  const auto row =
+      run("station", twoStoreyDocument(),
+          {{"add", "S1"}, {"on", {500000.5, 5600001, 0}}, {"row-to", {500005.5, 5600001, 0}}, {"row-count", 3}});
+  ASSERT_TRUE(row) << describe(row.error());
+  EXPECT_EQ(row->description, "Added 3 stations: S1 to S3");
+  const auto& stations = row->document.job->stations;
+  ASSERT_EQ(stations.size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(stations[k].name, "S" + std::to_string(k + 1));
+    EXPECT_NEAR(stations[k].true_pose.translation.x(), 0.5 + 2.5 * static_cast<double>(k), 1e-5);
+    EXPECT_NEAR(stations[k].true_pose.translation.z(), 1.6, 1e-5);
+  }
+}
+
+TEST(StationRow, AtASpacingGoesAsFarAsItReaches) {
+  const auto row =
+      run("station", twoStoreyDocument(),
+          {{"add", "K7"}, {"on", {500000.5, 5600001, 0}}, {"row-to", {500005.5, 5600001, 0}}, {"row-spacing", 2}});
+  ASSERT_TRUE(row) << describe(row.error());
+  const auto& stations = row->document.job->stations;
+  ASSERT_EQ(stations.size(), 3U);
+  EXPECT_EQ(stations[2].name, "K9");
+  EXPECT_NEAR(stations[2].true_pose.translation.x(), 4.5, 1e-5);
+}
+
+TEST(StationRow, LeavesOutWhatCannotStandAndSaysSo) {
+  const json through_the_table = {
+      {"add", "S1"}, {"on", {500001, 5600003, 0}}, {"row-to", {500004.5, 5600003, 0}}, {"row-count", 2}};
+  const auto row = run("station", twoStoreyDocument(), through_the_table);
+  ASSERT_TRUE(row) << describe(row.error());
+  EXPECT_EQ(row->document.job->stations.size(), 1U);
+  EXPECT_EQ(row->description, "Added station S1");
+  EXPECT_NE(said(row->report).find("left out of the row"), std::string::npos);
+  json nowhere = through_the_table;
+  nowhere["on"] = {600000, 5600003, 0};
+  nowhere["row-to"] = {600004, 5600003, 0};
+  EXPECT_FALSE(run("station", twoStoreyDocument(), nowhere));
+}
+
+TEST(StationRow, NeedsBothEndsAndEitherANumberOrASpacing) {
+  const json one = {{"add", "S1"}, {"on", {500001, 5600001, 0}}};
+  for (json more : {json{{"row-count", 3}}, json{{"row-to", {500004, 5600001, 0}}},
+                    json{{"row-to", {500004, 5600001, 0}}, {"row-count", 3}, {"row-spacing", 1}}}) {
+    json options = one;
+    options.update(more);
+    const auto row = run("station", twoStoreyDocument(), options);
+    ASSERT_FALSE(row) << more;
+    EXPECT_EQ(row.error().kind, ErrorKind::usage) << more;
+  }
+}
+
 TEST(Station, IsRenamedAndKeepsWhatItHas) {
   Document d = run("station", twoStoreyDocument(), {{"add", "S1"}, {"at", {500002, 5600002, 1.5}}})->document;
   d = run("station", d, {{"add", "S2"}, {"at", {500004, 5600002, 1.5}}})->document;

@@ -100,12 +100,14 @@ TEST(PlaceBrief, NamesAProductAsPeopleDo) {
 TEST(PlaceVerdictWithForecast, WarnsOfALowOverlapWithAllStations) {
   PlaceForecast forecast;
   EXPECT_EQ(withForecast({Verdict::good, "Good place", {}}, forecast).verdict, Verdict::good) << "the first station";
-  forecast.overlaps = {{"K1", 0.05}, {"K2", 0.12}};
+  forecast.overlaps = {{"K1", 0.05, 4}, {"K2", 0.12, 5}};
   const auto low = withForecast({Verdict::good, "Good place", {}}, forecast);
   EXPECT_EQ(low.verdict, Verdict::warn);
   EXPECT_EQ(low.brief, "Overlaps K2 by 12 %");
-  forecast.overlaps.push_back({"K3", 0.6});
+  forecast.overlaps.push_back({"K3", 0.6, 6});
   EXPECT_EQ(withForecast({Verdict::good, "Good place", {}}, forecast).verdict, Verdict::good) << "one is enough";
+  forecast.overlaps[0] = {"K1", 1, 0.2};
+  EXPECT_EQ(withForecast({Verdict::good, "Good place", {}}, forecast).brief, "20 cm from K1");
   EXPECT_EQ(withForecast({Verdict::bad, "In a wall", {}}, forecast).brief, "In a wall");
 }
 
