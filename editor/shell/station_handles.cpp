@@ -123,12 +123,22 @@ std::string handleText(const HandledStation& s, StationHandle handle) {
   return {};
 }
 
+// Nothing stands before it. In a parallel projection the eye is nowhere: one looks from straight before it.
+bool isInSight(const Editor& editor, const Vector3d& centre) {
+  const auto& camera = editor.view.camera;
+  constexpr double kBefore_m = 200;
+  const Vector3d eye = camera.orthographic ? Vector3d(centre - kBefore_m * camera.forward()) : camera.eye();
+  return editor.picker.sees(eye, centre, editor.viewState());
+}
+
 // The chosen station, where handles of it are wanted.
 const Station* handledStation(const Editor& editor) {
   if (editor.view.tool != Tool::select || editor.view.dragged_station >= 0 || looksFromStation(editor) ||
       editor.cloud() || !editor.session.whyNot("station").empty())
     return nullptr;
-  return chosenStation(editor);
+  const auto* station = chosenStation(editor);
+  const bool held = editor.view.handle != StationHandle::none;
+  return station != nullptr && (held || isInSight(editor, station->true_pose.translation)) ? station : nullptr;
 }
 
 StationHandle handleUnderPointer(const Editor& editor, const ViewPen& pen, const HandledStation& s) {

@@ -284,6 +284,14 @@ TEST_F(StationHandles, TheTopOneTiltsIt) {
   EXPECT_LT((job().stations[0].true_pose.translation - centre).norm(), 1e-6);
 }
 
+TEST_F(StationHandles, CannotBeTakenThroughARoof) {
+  editor.visibility.cut_height_m.reset();
+  gui.frames(2);
+  drag(centre + Eigen::Vector3d(0, 0, 0.42), centre + Eigen::Vector3d(0, 0, 0.57));
+  EXPECT_EQ(editor.view.handle, StationHandle::none);
+  hold(false);
+}
+
 TEST_F(StationHandles, EscLetsGoOfThem) {
   drag(centre + Eigen::Vector3d(0, 0, 0.42), centre + Eigen::Vector3d(0, 0, 0.57));
   gui.key(kKeyEscape);
