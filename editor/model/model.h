@@ -23,8 +23,6 @@
 #include "editor/model/live_cloud.h"
 #include "editor/model/outliner_rows.h"
 #include "editor/model/picker.h"
-#include "editor/model/place_figures.h"
-#include "editor/model/placement_view.h"
 #include "editor/model/scan_outlook.h"
 #include "editor/model/scan_readiness.h"
 #include "editor/model/selection.h"
@@ -37,6 +35,8 @@
 #include "editor/model/view_state.h"
 #include "editor/model/visibility.h"
 #include "editor/model/walking.h"
+#include "editor/placing/place_figures.h"
+#include "editor/placing/placement_view.h"
 #include "project/survey/station_row.h"
 #include "survey/stations/levelling.h"
 

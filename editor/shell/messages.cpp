@@ -158,6 +158,7 @@ constexpr std::array kMouse = {
     Hint{"Wheel", "Zoom to pointer"},
     Hint{"W A S D", "Walk (W to start, Shift to run, C to crouch, wheel for the speed, Esc to leave)"},
     Hint{"T (hold)", "Teleport: aim with the pointer, release to stand there; Esc or right button cancels"},
+    Hint{"Left drag on a station", "Move it; its handles turn, raise and tilt it"},
     Hint{"Right click", "Context menu"},
 };
 

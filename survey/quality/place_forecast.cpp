@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "survey/stations/surfaces_seen.h"
+#include "survey/stations/survey_plan.h"
 
 namespace standpoint {
 
 namespace {
 
-constexpr std::size_t kSamples = 12000;
 constexpr std::size_t kNearby = 4;  // stations whose overlap is asked for
 constexpr double kNearby_m = 40;
 constexpr double kIntoRoom_m = 0.08;  // from a surface: spaces end a little before the plaster, or in it
@@ -43,7 +42,8 @@ PlaceForecaster::PlaceForecaster(std::shared_ptr<const Expectation> expectation)
 Result<std::unique_ptr<PlaceForecaster>> PlaceForecaster::make(std::shared_ptr<const Expectation> expectation,
                                                                Progress& progress) {
   std::unique_ptr<PlaceForecaster> made(new PlaceForecaster(std::move(expectation)));
-  TRY_ASSIGN(made->samples_, sampleSurfaces(made->expectation_->scene(), kSamples, 1, progress));
+  TRY_ASSIGN(made->samples_,
+             sampleSurfaces(made->expectation_->scene(), PlanRequest().samples, PlanRequest().seed, progress));
   return made;
 }
 

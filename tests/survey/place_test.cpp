@@ -198,8 +198,7 @@ TEST_F(PlaceInRoom, AgreesWithTheSurveyPlan) {
                             .settings = settings,
                             .stations = {0, 1},
                             .channels = {},
-                            .wanted = {},
-                            .samples = 12000};
+                            .wanted = {}};
   const auto plan = planSurvey(job, scene, std::make_shared<const MaterialAssignment>(), request, progress);
   ASSERT_TRUE(plan);
   const auto forecast = forecaster->at(b.true_pose, std::array<const Station*, 1>{&a});

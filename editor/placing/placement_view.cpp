@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/model/placement_view.h"
+#include "editor/placing/placement_view.h"
 
 #include "survey/instruments.h"
 #include "survey/stations/station_places.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/model/place_figures.h"
+#include "editor/placing/place_figures.h"
 
 namespace standpoint {
 
