@@ -234,10 +234,11 @@ void measureGraphics(Editor& editor, ImVec2 size) {
 }
 
 void drawCaption(const Editor& editor, ImVec2 origin, ImVec2 size, const std::string& text) {
-  const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
+  const float room = size.x - editor.px(16);
+  const ImVec2 extent = ImGui::CalcTextSize(text.c_str(), nullptr, false, room);
   const ImVec2 at(origin.x + (size.x - extent.x) / 2, origin.y + size.y - extent.y - editor.px(8));
   drawPlate(editor, at, extent);
-  ImGui::GetWindowDrawList()->AddText(at, tone::kDim, text.c_str());
+  ImGui::GetWindowDrawList()->AddText(nullptr, 0, at, tone::kDim, text.c_str(), nullptr, room);
 }
 
 // The original on the left, what was made of it on the right, through one camera. The half under the pointer is turned.

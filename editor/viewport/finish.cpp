@@ -93,6 +93,11 @@ void main() {
 }
 )";
 
+Finish::Finish() : no_shading_(occluder_.problem().empty() ? composer_.problem() : occluder_.problem()) {
+  const PlainDrawing drawing;
+  if (no_shading_.empty() && !occlusion_.bind(8, 8)) no_shading_ = "OpenGL cannot draw to floating-point textures";
+}
+
 GLuint Finish::smooth(const DrawnScene& scene) {
   const PlainDrawing drawing;
   if (!smoothed_.bind(scene.width, scene.height)) return 0;

@@ -24,11 +24,10 @@ struct DrawnScene {
 // What is done to the picture of a scene once it is drawn.
 class Finish {
  public:
+  Finish();
   // Why these do not work here; empty where they do.
   const std::string& noSmoothing() const { return smoother_.problem(); }
-  const std::string& noShading() const {
-    return occluder_.problem().empty() ? composer_.problem() : occluder_.problem();
-  }
+  const std::string& noShading() const { return no_shading_; }
 
   // Softens the steps of edges by their contrast (in the manner of FXAA). 0 where the picture cannot be drawn.
   GLuint smooth(const DrawnScene& scene);
@@ -46,6 +45,7 @@ class Finish {
   FullScreenProgram smoother_{kSmoother}, occluder_{kOccluder}, composer_{kComposer};
   DrawnTexture smoothed_{GL_RGBA8}, occlusion_{GL_R16F}, shaded_{GL_RGBA8};
   int parts_ = 0;
+  std::string no_shading_;
 
   static const char* const kSmoother;
   static const char* const kOccluder;

@@ -15,6 +15,7 @@ namespace {
 constexpr int kSide = GroundShadow::kSide;
 // Of a shadow, for each metre of height: seen from the usual corner, to the right.
 const Eigen::Vector2d kSunShift(0.52, 0.18);
+constexpr std::uint64_t kMostTriangles = 4000000;  // half a second
 constexpr double kPenumbra_m = 0.35, kSkyBlur_m = 1.6;
 constexpr double kSunPart = 0.5, kSkyPart = 0.45;
 
@@ -128,7 +129,7 @@ double groundOf(const ViewState& state, const MergedScene& standing) {
 
 GroundShadow castShadow(const ViewState& state) {
   GroundShadow shadow;
-  if (!state.environment) return shadow;
+  if (!state.environment || triangleCount(*state.environment) > kMostTriangles) return shadow;
   const auto scene = mergeVisible(withoutTerrain(state));
   const double cut_m = state.cut_height_m.value_or(std::numeric_limits<double>::max());
   const double ground_m = groundOf(state, scene);

@@ -16,7 +16,7 @@ struct GroundShadow {
 };
 
 // Of all that is opaque below the cut, but the terrain, in light that comes along the sun of the view. It falls on the
-// height of the terrain, else on what it stands on.
+// height of the terrain, else on what it stands on. Of more than four million triangles there is none.
 GroundShadow castShadow(const ViewState& state);
 
 }  // namespace standpoint
