@@ -78,7 +78,8 @@ void main() {
 }
 )";
 
-// Four samples between the pixels are a mean of nine that weighs the middle most.
+// Four samples between the pixels are a mean of nine that weighs the middle most. A little noise keeps the slow change
+// along a wall from showing steps.
 const char* const Finish::kComposer = R"(#version 150
 uniform sampler2D colours, occlusion;
 uniform vec2 pixel;
@@ -89,7 +90,8 @@ void main() {
   vec2 here = gl_FragCoord.xy * pixel, half_x = vec2(0.5 * pixel.x, 0.0), half_y = vec2(0.0, 0.5 * pixel.y);
   float sum = at(here - half_x - half_y) + at(here + half_x - half_y);
   sum += at(here - half_x + half_y) + at(here + half_x + half_y);
-  result = vec4(texture(colours, here).rgb * max(0.3, 1.0 - strength * sum), 1.0);
+  float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) - 0.5;
+  result = vec4(texture(colours, here).rgb * max(0.3, 1.0 - strength * sum) + noise / 255.0, 1.0);
 }
 )";
 
