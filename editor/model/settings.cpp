@@ -102,7 +102,10 @@ Settings settingsFrom(const json& object, std::vector<std::string>& wrong) {
   if (const auto* recent = reader.find("recent", json::value_t::array))
     for (const auto& r : *recent)
       if (r.is_string() && result.recent.size() < kRecent) result.recent.push_back(r.get<std::string>());
-  if (const auto* areas = reader.find("areas", json::value_t::object))
+  const auto stored =
+      object.find("areas");  // an array, by number, before the workspaces had names: it says nothing now
+  const bool by_number = stored != object.end() && stored->is_array();
+  if (const auto* areas = by_number ? nullptr : reader.find("areas", json::value_t::object))
     for (std::size_t i = 0; i < result.areas.size(); ++i) {
       const auto found = areas->find(nameOf(static_cast<Workspace>(i)));
       if (found == areas->end() || !found->is_object()) continue;

@@ -83,6 +83,13 @@ TEST(Scale, NeverOutgrowsTheWindow) {
   EXPECT_DOUBLE_EQ(fittingScale(1, 2.5, 300, 200), 0.75);
 }
 
+TEST_F(Folder, ReadsSettingsOfTheTimeWhenWorkspacesHadNoNames) {
+  write("editor.json", R"({"areas": [{"left": 444, "right": 300, "bottom": 100}], "user_scale": 1})");
+  const auto stored = readSettings(root / "editor.json");
+  EXPECT_EQ(stored.problem, "");
+  EXPECT_EQ(stored.settings.areas, Settings().areas);
+}
+
 TEST_F(Folder, StartsWithDefaultsWhenTheSettingsAreBroken) {
   for (const char* text :
        {"", "{", "[1,2]",
