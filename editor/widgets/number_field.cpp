@@ -143,6 +143,8 @@ bool putBack(ImGuiID id, double& value) {
 
 bool dragUnit(const char* id, double& value, const NumberFormat& format, const ImRect& frame) {
   const ImVec2 after = ImGui::GetCursorScreenPos();
+  auto& extent = ImGui::GetCurrentWindow()->DC.CursorMaxPos;
+  const ImVec2 extent_before = extent;  // the way back to the next line would make the field higher than others
   const float width = unitWidth(format);
   ImGui::SetCursorScreenPos({frame.Max.x - width, frame.Min.y});
   ImGui::InvisibleButton((std::string(id) + "-drag").c_str(), {width, frame.GetHeight()});
@@ -155,6 +157,7 @@ bool dragUnit(const char* id, double& value, const NumberFormat& format, const I
     value = to;
   }
   ImGui::SetCursorScreenPos(after);
+  extent = extent_before;
   return changed;
 }
 
