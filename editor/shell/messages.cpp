@@ -167,7 +167,7 @@ void hintRow(const char* keys, const char* meaning) {
   ImGui::TableNextColumn();
   ImGui::TextUnformatted(keys);
   ImGui::TableNextColumn();
-  ui::dimText(meaning);
+  ui::dimWrapped(meaning);
 }
 
 void drawShortcuts(Editor& editor) {

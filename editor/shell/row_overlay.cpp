@@ -53,7 +53,7 @@ void rowChips(Editor& editor) {
   ImGui::SameLine();
   ImGui::SetNextItemWidth(editor.px(120));
   if (ui::numberField("###row-spacing", spacing,
-                      {.kind = {.unit = "m", .least = 0.5, .most = 1000}, .decimals = 2, .zero = "even"},
+                      {.kind = {.unit = "m", .least = 0.5, .most = 1000}, .decimals = 2, .zero = "even spacing"},
                       "Distance between stations, instead of their number"))
     row = {.count = {}, .spacing_m = spacing};
 }

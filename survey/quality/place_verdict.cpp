@@ -58,6 +58,8 @@ PlaceVerdict withForecast(PlaceVerdict verdict, const PlaceForecast& forecast) {
   const auto best = std::max_element(forecast.overlaps.begin(), forecast.overlaps.end(),
                                      [](const auto& a, const auto& b) { return a.fraction < b.fraction; });
   if (placeFigureVerdict("overlap", best->fraction * 100) == Verdict::good) return verdict;
+  constexpr double kNone = 0.005;  // 0 % as it would be shown
+  if (best->fraction < kNone) return {Verdict::warn, "Overlaps no other station", {}};
   return {Verdict::warn, fmt::format("Overlaps {} by {:.0f} %", best->station, best->fraction * 100), {}};
 }
 

@@ -100,6 +100,8 @@ TEST(PlaceBrief, NamesAProductAsPeopleDo) {
 TEST(PlaceVerdictWithForecast, WarnsOfALowOverlapWithAllStations) {
   PlaceForecast forecast;
   EXPECT_EQ(withForecast({Verdict::good, "Good place", {}}, forecast).verdict, Verdict::good) << "the first station";
+  forecast.overlaps = {{"K1", 0.001, 4}};
+  EXPECT_EQ(withForecast({Verdict::good, "Good place", {}}, forecast).brief, "Overlaps no other station");
   forecast.overlaps = {{"K1", 0.05, 4}, {"K2", 0.12, 5}};
   const auto low = withForecast({Verdict::good, "Good place", {}}, forecast);
   EXPECT_EQ(low.verdict, Verdict::warn);
