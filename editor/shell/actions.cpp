@@ -42,6 +42,7 @@ void openProject(Editor& e) {
   whenSaved(e, [&e] { askForProject(e); });
 }
 void importModel(Editor& e) { askForModel(e); }
+void openSampleHouse(Editor& e) { openSample(e, "house.ifc"); }
 void save(Editor& e) {
   if (e.session.folder().empty())
     askWhereToSave(e);
@@ -167,7 +168,7 @@ const std::array kActions = {
     Action{"new", "New project", ICON_FILE_NEW, {'N', true}, newProject, whyOpenNot},
     Action{"open", "Open project…", ICON_FOLDER_OPEN, {'O', true}, openProject, whyOpenNot},
     Action{"import", "Import model…", ICON_IMPORT, {'I', true}, importModel, whyImportNot},
-    Action{"sample", "Open sample house", ICON_BUILDING, {}, [](Editor& e) { openSample(e, "house.ifc"); }, whyImportNot},
+    Action{"sample", "Open sample house", ICON_BUILDING, {}, openSampleHouse, whyImportNot},
     Action{"first-steps", "First steps in the sample house", ICON_FLAG, {}, beginTour, whyImportNot},
     Action{"update", "Update from a changed model…", "", {}, askForChangedModel, whyUpdateNot},
     Action{"save", "Save", ICON_SAVE, {'S', true}, save, whySaveNot},
