@@ -16,7 +16,7 @@ constexpr double kWorthListing_m = 1e-6;
 constexpr double kLoss_m = 1e-5;
 
 bool usable(const FoundPoints& p, std::size_t i) {
-  constexpr double kMost = std::numeric_limits<float>::max();
+  constexpr double kMost = std::numeric_limits<float>::max() / 2.0;  // so is the distance of two such a float
   // No short cuts: a loop of this has no branches.
   return (std::abs(p.x[i]) <= kMost) & (std::abs(p.y[i]) <= kMost) & (std::abs(p.z[i]) <= kMost) &
          (std::abs(p.columns.intensity[i]) <= std::numeric_limits<float>::max());

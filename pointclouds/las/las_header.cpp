@@ -111,9 +111,7 @@ Result<void> HeaderReader::readScale() {
     header_.offset[k] = loadAt<double>(block_, 155 + 8 * k);
     header_.high[k] = loadAt<double>(block_, 179 + 16 * k);
     header_.low[k] = loadAt<double>(block_, 187 + 16 * k);
-    // Points are floats about a whole-metre shift: what the largest integer would become has to be one.
-    const double farthest = std::abs(header_.scale[k]) * 0x1p31 + std::abs(header_.offset[k]);
-    if (header_.scale[k] == 0 || !(farthest < 1e30))
+    if (!std::isfinite(header_.scale[k]) || header_.scale[k] == 0 || !std::isfinite(header_.offset[k]))
       return broken(std::string("the scale or offset of ") + "xyz"[k] + " is not a valid number");
   }
   return {};

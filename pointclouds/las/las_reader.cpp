@@ -153,7 +153,7 @@ void RecordTaker::takeTruth(const std::uint8_t* record, FoundPoints& to) {
         load<std::int32_t>(record + *h_.extras.at[static_cast<std::size_t>(Extra::true_x) + k]) * h_.true_scale[k] +
         h_.true_offset[k];
   place = local(place);
-  constexpr double kMost = std::numeric_limits<float>::max();
+  constexpr double kMost = std::numeric_limits<float>::max() / 2.0;  // as LocalPoints takes coordinates
   const auto sensible = [&](double v) {
     const bool good = std::abs(v) <= kMost;
     senseless_truth += !good;

@@ -79,6 +79,19 @@ TEST_F(Placing, AClickOnARefusedPlaceAddsNothingAndOpensNothing) {
   EXPECT_EQ(editor.view.tool, Tool::placeStation) << "to try another place";
 }
 
+TEST_F(Placing, EscTakesARefusalAwayAndTheFirstEndOfARowBeforeItsTool) {
+  editor.view.tool = Tool::placeRow;
+  editor.view.row_from = Eigen::Vector3d(1, 1, 0);
+  editor.view.refused_place = RefusedPlace{};
+  gui.key(kKeyEscape);
+  gui.frames(2);
+  EXPECT_FALSE(editor.view.row_from || editor.view.refused_place);
+  EXPECT_EQ(editor.view.tool, Tool::placeRow);
+  gui.key(kKeyEscape);
+  gui.frames(2);
+  EXPECT_EQ(editor.view.tool, Tool::select);
+}
+
 TEST_F(Placing, FiguresFollowThePointerAndBelongToTheNewestPlaceInTheEnd) {
   invoke(editor, "add-station");
   gui.moveTo(screenOf({1.5, 6, 0}));
