@@ -119,10 +119,11 @@ void closeTopmost(Editor& editor) {
 
 void leaveTool(Editor& editor) {
   if (editor.walk_ground.preparing()) return editor.walk_ground.cancel();
+  editor.view.refused_place.reset();
+  if (editor.view.row_from) return editor.view.row_from.reset();  // the first end is chosen anew
   if (editor.view.tool != Tool::select) {
     stopWalking(editor);
     editor.view.tool = Tool::select;
-    editor.view.row_from.reset();
     editor.view.measured_from.reset();
     editor.view.measured_to.reset();
     return;
