@@ -40,7 +40,7 @@ class Host : public testing::Test {
     }
   }
   std::optional<Outcome> runUntilIdle(double seconds_a_step) {
-    for (int i = 0; i < 10000; ++i) {
+    for (int i = 0; i < kPatience; ++i) {
       if (auto stored = host_.update(document_, folder_.path() / "scans", seconds_a_step)) return stored;
       if (!host_.busy()) return std::nullopt;
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -48,7 +48,7 @@ class Host : public testing::Test {
     return std::nullopt;
   }
   void runOrder() {
-    for (int i = 0; i < 10000; ++i) {
+    for (int i = 0; i < kPatience; ++i) {
       (void)host_.update(document_, folder_.path() / "scans", 0.001);
       if (host_.task() == nullptr) return;
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -209,7 +209,7 @@ class SurveyHost : public testing::Test {
     }
   }
   std::optional<Outcome> runUntilIdle() {
-    for (int i = 0; i < 10000; ++i) {
+    for (int i = 0; i < kPatience; ++i) {
       if (auto stored = host_->update(document_, folder_.path() / "scans", 1)) return stored;
       if (!host_->busy()) return std::nullopt;
       std::this_thread::sleep_for(std::chrono::milliseconds(2));

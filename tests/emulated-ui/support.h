@@ -15,6 +15,10 @@
 
 namespace standpoint {
 
+// Turns of 2 ms and more to wait for a task: a watched build on a busy machine takes minutes. What hangs is ended by
+// ctest.
+constexpr int kPatience = 200'000;
+
 // For suites that go through the table of devices.
 inline std::vector<const EmulatedDevice*> everyDevice() {
   std::vector<const EmulatedDevice*> all;

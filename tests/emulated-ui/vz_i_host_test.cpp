@@ -36,7 +36,7 @@ class VzIHost : public testing::Test {
     }
   }
   void runUntilWaiting() {
-    for (int i = 0; i < 10000; ++i) {
+    for (int i = 0; i < kPatience; ++i) {
       if (auto stored = host_->update(document_, folder_.path() / "scans", 1)) document_ = stored->document;
       if (!host_->busy()) return;
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
