@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/readable_name.h"
 #include "optimizer/walk/spaces.h"
 
 namespace standpoint {
@@ -10,12 +11,6 @@ namespace standpoint {
 namespace {
 
 constexpr double kAboveFloor_m = 1.0;  // under the cut of a plan, over most furniture
-
-std::string longName(const Product& product) {
-  const auto property = std::find_if(product.properties.begin(), product.properties.end(),
-                                     [](const Property& p) { return p.set == "Attributes" && p.name == "LongName"; });
-  return property == product.properties.end() ? "" : property->value;
-}
 
 // Of a grid over the floor plan, a place whose nearest one outside of the room is about the farthest.
 Eigen::Vector3d middleOf(const SpaceBody& space) {
@@ -48,17 +43,11 @@ Eigen::Vector3d middleOf(const SpaceBody& space) {
 
 }  // namespace
 
-std::string readableName(const Product& product) {
-  const std::string longer = longName(product);
-  if (longer.empty() || longer == product.name) return product.name.empty() ? product.id : product.name;
-  return product.name.empty() ? longer : product.name + " " + longer;
-}
-
 std::vector<RoomLabel> roomLabels(const Environment& environment) {
   std::vector<RoomLabel> labels;
   for (const auto& space : spaceBodies(environment)) {
     const auto& product = environment.products[space.product];
-    const std::string longer = longName(product);
+    const std::string longer = longNameOf(product);
     const Eigen::Vector3d span = space.box.max - space.box.min;
     const bool both = !longer.empty() && longer != product.name;
     const std::string& name = both ? longer : product.name;

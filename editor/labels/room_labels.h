@@ -24,9 +24,6 @@ struct RoomLabel {
 // Of all spaces that have geometry and are not excluded, the largest first.
 std::vector<RoomLabel> roomLabels(const Environment& environment);
 
-// The name in the words of the model: IfcSpace's number and long name, any other product's name, else its id.
-std::string readableName(const Product& product);
-
 // Those of one environment, made when first asked for.
 class RoomLabels {
  public:

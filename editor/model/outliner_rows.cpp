@@ -6,8 +6,8 @@
 #include <map>
 #include <sstream>
 
+#include "core/readable_name.h"
 #include "editor/labels/alphabetical.h"
-#include "editor/labels/room_labels.h"
 
 namespace standpoint {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "editor/labels/room_labels.h"
+#include "core/readable_name.h"
 #include "editor/model/model.h"
 #include "optimizer/walk/landing.h"
 
@@ -29,7 +29,8 @@ void walkFrom(Model& model, WalkPlace place) {
   followWalking(model);
 }
 
-Error nowhere(const char* message, const std::string& what) { return {ErrorKind::unusable, message, what}; }
+// Without a source: there is no file to be repaired.
+Error nowhere(std::string message) { return {ErrorKind::unusable, std::move(message), {}}; }
 
 bool begin(Model& model, const std::shared_ptr<const WalkedGround>& ground, const StartPlace& place) {
   const auto before = viewNow(model);
@@ -66,7 +67,7 @@ void startWalking(Model& model) {
     const Onlooker onlooker{model.view.camera.eye(), lookedAt(model)};
     if (auto place = startPlace(*ground.environment, *ground.collision, ground.obstacles, body, onlooker))
       return *place;
-    return tl::unexpected(nowhere("There is no floor of 2 m² or more to walk on", "walk"));
+    return tl::unexpected(nowhere("There is no floor of 2 m² or more to walk on"));
   });
 }
 
@@ -80,7 +81,7 @@ void teleport(Model& model, const RayHit& hit) {
   walkFrom(model, [&model, hit, body = model.walker](const WalkedGround& ground) -> Result<StartPlace> {
     const auto landing = landingAt(ground.obstacles, body, hit.position, hit.normal);
     const auto why = whyNoLanding(landing, model);
-    if (!why.empty()) return tl::unexpected(nowhere("Nobody can stand there", why));
+    if (!why.empty()) return tl::unexpected(nowhere("Nobody can stand there: " + why));
     return StartPlace{landing.feet, {}};
   });
 }
@@ -90,7 +91,7 @@ void jumpToRoom(Model& model, std::uint32_t product) {
     if (auto place = placeInRoom(*ground.environment, product, *ground.collision, ground.obstacles, body))
       return *place;
     return tl::unexpected(
-        nowhere("The room has no floor to stand on", readableName(ground.environment->products[product])));
+        nowhere("No floor to stand on in room " + readableName(ground.environment->products[product])));
   });
 }
 
@@ -100,7 +101,7 @@ void jumpToStation(Model& model, std::size_t station) {
     Avatar avatar(ground.obstacles, body);
     if (avatar.stand(chosen.true_pose.translation, chosen.instrument_height_m + 1))
       return StartPlace{avatar.feet(), {}};
-    return tl::unexpected(nowhere("Nobody can stand at the station", chosen.name));
+    return tl::unexpected(nowhere("Nobody can stand at station " + chosen.name));
   });
 }
 
@@ -137,7 +138,7 @@ void followWalking(Model& model) {
   if (!place)
     model.session.errors().push_back({"Cannot walk there", place.error()});
   else if (!begin(model, ground, *place))
-    model.session.errors().push_back({"Cannot walk there", nowhere("There is no room to stand", "walk")});
+    model.session.errors().push_back({"Cannot walk there", nowhere("There is no room to stand")});
 }
 
 std::string walkPlaceName(const Model& model) {

@@ -7,8 +7,8 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "core/readable_name.h"
 #include "editor/labels/alphabetical.h"
-#include "editor/labels/room_labels.h"
 #include "editor/panels/panels.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "core/readable_name.h"
 #include "optimizer/walk/doors.h"
 #include "optimizer/walk/spaces.h"
 
@@ -147,9 +148,9 @@ std::vector<Room> checkRooms(const Environment& environment, const Walkable& wal
     room.position.z() = space.box.min.z();
     const auto& product = environment.products[space.product];
     if (space.area_m2 <= kLeast)
-      report.warn(product.id, fmt::format("room {} has no floor large enough to stand on", product.name));
+      report.warn(product.id, fmt::format("room {} has no floor large enough to stand on", readableName(product)));
     else if (!room.reached)
-      report.warn(product.id, fmt::format("room {} cannot be reached", product.name));
+      report.warn(product.id, fmt::format("room {} cannot be reached", readableName(product)));
     rooms.push_back(room);
   }
   return rooms;

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/readable_name.h"
 #include "demo_document.h"
 #include "demo_verbs.h"
 #include "editor/labels/alphabetical.h"
