@@ -16,6 +16,8 @@ export LSAN_OPTIONS="suppressions=$PWD/tests/leaks.supp:print_suppressions=0"
 
 run() {  # run PROGRAM: its last lines where it fails
   local log=$1.log since=$SECONDS
+  # Drivers of OpenGL are unloaded before the end: what they keep has no name left by which it could be suppressed.
+  [[ $1 != *editor_viewport ]] || ASAN_OPTIONS+=:detect_leaks=0
   "$1" --gtest_brief=1 --gtest_filter="$filter" >"$log" 2>&1 || { tail -n 60 "$log"; echo "$1: failed"; return 1; }
   echo "$(basename "$1"): $((SECONDS - since)) s"
 }
