@@ -12,6 +12,7 @@
 #include <vtkCellData.h>
 #include <vtkFloatArray.h>
 #include <vtkIdTypeArray.h>
+#include <vtkPlane.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkProperty.h>
@@ -49,6 +50,31 @@ vtkSmartPointer<vtkUnsignedCharArray> coloursOf(const std::vector<Rgba>& colours
 }
 
 }  // namespace
+
+void Layer::drawSurface(double offset) {
+  auto* property = actor->GetProperty();
+  property->SetInterpolationToFlat();
+  property->SetAmbient(0.34);
+  property->SetDiffuse(0.78);
+  property->SetSpecular(0);
+  mapper->SetColorModeToDirectScalars();
+  mapper->SetResolveCoincidentTopologyToPolygonOffset();
+  mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(offset, offset);
+}
+
+void Layer::drawLines(std::array<double, 3> colour, double opacity, double width) {
+  auto* property = actor->GetProperty();
+  property->SetLighting(false);
+  property->SetColor(colour.data());
+  property->SetOpacity(opacity);
+  property->SetLineWidth(static_cast<float>(width));
+}
+
+void Layer::drawPoints() {
+  actor->GetProperty()->SetLighting(false);
+  mapper->SetScalarModeToUsePointData();
+  mapper->SetColorModeToDirectScalars();
+}
 
 void Layer::show(const MergedTriangles& triangles) {
   vtkNew<vtkPolyData> data;
@@ -103,7 +129,19 @@ void Layer::show(const Cloud& cloud, std::size_t step) {
 void Layer::set(vtkPolyData* data, bool empty) {
   mapper->SetInputData(data);
   actor->SetMapper(mapper);
-  actor->SetVisibility(empty ? 0 : 1);
+  filled = !empty;
+  reveal(true);
+}
+
+void Layer::cut(std::optional<double> height_m) {
+  if (cut_height_m == height_m) return;
+  cut_height_m = height_m;
+  mapper->RemoveAllClippingPlanes();
+  if (!height_m) return;
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(0, 0, *height_m);
+  plane->SetNormal(0, 0, -1);
+  mapper->AddClippingPlane(plane);
 }
 
 void Layer::paint(const std::vector<Rgba>& colours) {

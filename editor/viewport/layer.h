@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <vtkActor.h>
@@ -22,6 +24,14 @@ namespace standpoint {
 struct Layer {
   vtkNew<vtkPolyDataMapper> mapper;
   vtkNew<vtkActor> actor;
+  bool filled = false;  // there is something to be drawn
+  std::optional<double> cut_height_m;
+
+  // How it is drawn, to be said once. Flat surfaces in the colours of their triangles; what has a smaller `offset` lies
+  // before what coincides with it.
+  void drawSurface(double offset);
+  void drawLines(std::array<double, 3> colour, double opacity, double width);
+  void drawPoints();
 
   void show(const MergedTriangles& triangles);
   void show(const PaintedTriangles& painted, vtkTexture* texture);
@@ -31,6 +41,9 @@ struct Layer {
   // The same triangles in other colours: their places stay where the graphics card has them.
   void paint(const std::vector<Rgba>& colours);
   void hide() { actor->SetVisibility(0); }
+  // What of it lies above that height is not drawn. Each change of a mapper's planes makes its buffers anew.
+  void cut(std::optional<double> height_m);
+  void reveal(bool shown) { actor->SetVisibility(shown && filled ? 1 : 0); }
 };
 
 // Squares of 1 m and, where the model is large, of 10 m; they fade towards the rim.

@@ -199,17 +199,25 @@ std::vector<Rgba> coloursOf(const DeviationField& field, std::size_t instance) {
 
 }  // namespace
 
+namespace {
+
+std::size_t endOf(InstanceRange range, const Environment& environment) {
+  return std::min(range.end, environment.instances.size());
+}
+
+}  // namespace
+
 bool isShown(const ViewState& state, std::uint32_t product) {
   if (!state.environment->products[product].inScene()) return false;
   return !state.hidden || product >= state.hidden->size() || (*state.hidden)[product] == 0;
 }
 
-MergedScene mergeVisible(const ViewState& state) {
+MergedScene mergeVisible(const ViewState& state, InstanceRange range) {
   MergedScene scene;
   const Painter painter(state);
   const bool deviations = state.colour == ColourMode::deviation && state.deviation;
   std::vector<Rgba> distances;
-  for (std::size_t i = 0; i < state.environment->instances.size(); ++i) {
+  for (std::size_t i = range.first; i < endOf(range, *state.environment); ++i) {
     const auto& instance = state.environment->instances[i];
     if (!isShown(state, instance.product)) continue;
     const Mesh& mesh = *state.environment->meshes[instance.mesh];
@@ -236,7 +244,7 @@ MergedScene mergeVisible(const ViewState& state) {
   return scene;
 }
 
-std::optional<MergedColours> mergeColours(const ViewState& state) {
+std::optional<MergedColours> mergeColours(const ViewState& state, InstanceRange range) {
   const auto& environment = *state.environment;
   if (state.colour == ColourMode::deviation && state.deviation) return std::nullopt;
   if (state.colour == ColourMode::model &&
@@ -253,7 +261,7 @@ std::optional<MergedColours> mergeColours(const ViewState& state) {
     if (opaque != (merged.runs.size() % 2 == 1)) merged.runs.push_back(0);
     merged.runs.back() += count;
   };
-  for (std::size_t i = 0; i < environment.instances.size(); ++i) {
+  for (std::size_t i = range.first; i < endOf(range, environment); ++i) {
     const auto& instance = environment.instances[i];
     if (!isShown(state, instance.product)) continue;
     const auto& of = environment.meshes[instance.mesh]->surface_of_triangle;
@@ -325,11 +333,14 @@ const std::vector<EdgeLine>& EdgeCache::edgesOf(const std::shared_ptr<const Mesh
   return entry.lines;
 }
 
-MergedLines EdgeCache::edges(const ViewState& state, const std::vector<std::uint32_t>* only, std::uint64_t most) {
+void EdgeCache::forgetLost() {
   std::erase_if(entries_, [](const auto& e) { return e.second.mesh.expired(); });
+}
+
+MergedLines EdgeCache::edges(const ViewState& state, const std::vector<std::uint32_t>* only, InstanceRange range) {
   MergedLines out;
-  if (only == nullptr && triangleCount(*state.environment) > most) return out;
-  for (const auto& instance : state.environment->instances) {
+  for (std::size_t i = range.first; i < endOf(range, *state.environment); ++i) {
+    const auto& instance = state.environment->instances[i];
     if (!isShown(state, instance.product)) continue;
     if (only != nullptr && !std::binary_search(only->begin(), only->end(), instance.product)) continue;
     const auto& mesh = state.environment->meshes[instance.mesh];

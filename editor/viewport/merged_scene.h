@@ -45,7 +45,12 @@ struct MergedScene {
 
 bool isShown(const ViewState& state, std::uint32_t product);  // in the scene and not hidden
 
-MergedScene mergeVisible(const ViewState& state);
+// Instances of the environment that are merged together, [first, end).
+struct InstanceRange {
+  std::size_t first = 0, end = static_cast<std::size_t>(-1);  // all there are
+};
+
+MergedScene mergeVisible(const ViewState& state, InstanceRange range = {});
 
 // The colours of mergeVisible() without the geometry, for a view that shows the same triangles in another paint.
 struct MergedColours {
@@ -55,7 +60,7 @@ struct MergedColours {
   bool operator==(const MergedColours&) const = default;
 };
 // Nothing where images or vertex colours are shown: their geometry depends on what is painted.
-std::optional<MergedColours> mergeColours(const ViewState& state);
+std::optional<MergedColours> mergeColours(const ViewState& state, InstanceRange range = {});
 
 MergedTriangles mergeProducts(const Environment& environment, const std::vector<std::uint32_t>& products, Rgba colour);
 MergedTriangles mergeShapes(const CollideResult& collision);
@@ -66,9 +71,9 @@ MergedTriangles mergeWalkable(const Mesh& mesh, Rgba colour);
 // Feature edges of meshes, kept as long as the mesh is.
 class EdgeCache {
  public:
-  // Of the visible products; `only` restricts them (sorted). Empty above `most` triangles: there the lines would be a
-  // grey fog and take long.
-  MergedLines edges(const ViewState& state, const std::vector<std::uint32_t>* only, std::uint64_t most);
+  // Of the visible products; `only` restricts them (sorted).
+  MergedLines edges(const ViewState& state, const std::vector<std::uint32_t>* only, InstanceRange range = {});
+  void forgetLost();  // the edges of meshes that are gone
 
  private:
   const std::vector<EdgeLine>& edgesOf(const std::shared_ptr<const Mesh>& mesh);

@@ -6,14 +6,12 @@
 #include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
-#include <vtkPlane.h>
 #include <vtkProperty.h>
 
 namespace standpoint {
 
 namespace {
 
-constexpr std::uint64_t kMostEdges = 1500000;
 constexpr double kShadowStrength = 0.62;
 
 // Black where the shadow is, else nothing.
@@ -37,71 +35,41 @@ vtkSmartPointer<vtkTexture> textureOf(const GroundShadow& shadow) {
 
 }  // namespace
 
-void SceneLayers::setUpSurface(Layer& layer, double offset) {
-  auto* property = layer.actor->GetProperty();
-  property->SetInterpolationToFlat();
-  property->SetAmbient(0.34);
-  property->SetDiffuse(0.78);
-  property->SetSpecular(0);
-  layer.mapper->SetColorModeToDirectScalars();
-  layer.mapper->SetResolveCoincidentTopologyToPolygonOffset();
-  layer.mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(offset, offset);
-  renderer_->AddActor(layer.actor);
-}
-
-void SceneLayers::setUpLines(Layer& layer, std::array<double, 3> colour, double opacity, double width) {
-  auto* property = layer.actor->GetProperty();
-  property->SetLighting(false);
-  property->SetColor(colour.data());
-  property->SetOpacity(opacity);
-  property->SetLineWidth(static_cast<float>(width));
-  renderer_->AddActor(layer.actor);
-}
-
-void SceneLayers::setUpPoints(Layer& layer) {
-  layer.actor->GetProperty()->SetLighting(false);
-  layer.mapper->SetScalarModeToUsePointData();
-  layer.mapper->SetColorModeToDirectScalars();
-  renderer_->AddActor(layer.actor);
-}
-
-SceneLayers::SceneLayers(vtkRenderer* renderer) : renderer_(renderer) {
-  setUpLines(grid_, {0.6, 0.6, 0.6}, 1, 1);  // what is translucent is blended in this order
-  grid_.actor->ForceTranslucentOn();
-  setUpSurface(opaque_, 1);
-  setUpSurface(shadow_, 0);
-  shadow_.actor->ForceTranslucentOn();
+SceneLayers::SceneLayers(vtkRenderer* renderer) : renderer_(renderer), model_(renderer, edge_cache_) {
+  grid_.drawLines({0.6, 0.6, 0.6}, 1, 1);
+  shadow_.drawSurface(0);
   shadow_.actor->GetProperty()->SetLighting(false);
-  setUpSurface(transparent_, 1);
-  transparent_.actor->ForceTranslucentOn();
-  setUpSurface(graded_, 1);
-  setUpSurface(graded_transparent_, 1);
-  graded_transparent_.actor->ForceTranslucentOn();
-  setUpSurface(shapes_, 1);
-  setUpSurface(selected_, -1);
-  selected_.actor->ForceTranslucentOn();
+  shapes_.drawSurface(1);
+  selected_.drawSurface(-1);
   selected_.actor->GetProperty()->SetAmbient(0.5);
-  setUpSurface(walkable_, -1);
-  walkable_.actor->ForceTranslucentOn();
+  walkable_.drawSurface(-1);
   walkable_.actor->GetProperty()->SetAmbient(0.8);
-  setUpLines(edges_, {0.07, 0.08, 0.10}, 0.55, 1);
-  setUpLines(outline_, {0.42, 0.71, 1.0}, 1, 2);
-  setUpPoints(cloud_);
-  for (Layer* layer : {&opaque_, &shadow_, &transparent_, &graded_, &graded_transparent_, &shapes_, &selected_,
-                       &walkable_, &edges_, &outline_, &grid_, &cloud_})
-    layer->hide();
+  outline_.drawLines({0.42, 0.71, 1.0}, 1, 2);
+  cloud_.drawPoints();
+  for (Layer* layer : {&grid_, &shadow_, &selected_, &walkable_}) layer->actor->ForceTranslucentOn();
+  for (Layer* layer : {&shadow_, &shapes_, &selected_, &walkable_, &outline_, &grid_, &cloud_}) layer->hide();
+  arrange();
+}
+
+// What is translucent is blended in this order.
+void SceneLayers::arrange() {
+  renderer_->RemoveAllViewProps();
+  renderer_->AddActor(grid_.actor);
+  model_.addSurfaces();
+  renderer_->AddActor(shadow_.actor);
+  model_.addTransparent();
+  for (Layer* layer : {&shapes_, &selected_, &walkable_}) renderer_->AddActor(layer->actor);
+  model_.addEdges();
+  for (Layer* layer : {&outline_, &cloud_}) renderer_->AddActor(layer->actor);
+  for (const auto& u : underlays_) renderer_->AddActor(u->layer.actor);
 }
 
 void SceneLayers::update(const ViewState& state, const ViewState* last) {
   const bool environment = last == nullptr || last->environment != state.environment;
-  const bool shown =
-      environment || last->hidden != state.hidden || last->shapes != state.shapes || last->cloud != state.cloud;
+  const bool shown = environment || last->hidden != state.hidden;
   const bool theme = last == nullptr || last->graphics.theme != state.graphics.theme;
   if (environment) bounds_ = state.environment ? standpoint::bounds(*state.environment) : Bounds();
-  const bool painted = shown || last->materials != state.materials || last->colour != state.colour ||
-                       last->wavelength_nm != state.wavelength_nm || last->deviation != state.deviation;
-  if (painted) updateSurfaces(state, !shown);
-  if (shown || last->edges != state.edges) updateEdges(state);
+  if (model_.update(state)) arrange();
   if (shown || last->selected != state.selected) updateSelection(state);
   if (last == nullptr || last->collision != state.collision || last->walkable != state.walkable ||
       last->shapes != state.shapes)
@@ -118,44 +86,11 @@ void SceneLayers::update(const ViewState& state, const ViewState* last) {
 }
 
 void SceneLayers::setPixels(int factor) {
-  for (Layer* layer : {&edges_, &grid_}) layer->actor->GetProperty()->SetLineWidth(static_cast<float>(factor));
+  model_.setLineWidth(static_cast<float>(factor));
+  grid_.actor->GetProperty()->SetLineWidth(static_cast<float>(factor));
   outline_.actor->GetProperty()->SetLineWidth(static_cast<float>(2 * factor));
   cloud_.actor->GetProperty()->SetPointSize(static_cast<float>(2 * factor));
   for (const auto& u : underlays_) u->layer.actor->GetProperty()->SetPointSize(static_cast<float>(2 * factor));
-}
-
-void SceneLayers::updateSurfaces(const ViewState& state, bool same_triangles) {
-  auto colours = state.environment && !state.shapes && !state.cloud ? mergeColours(state) : std::nullopt;
-  const bool repaint = same_triangles && colours && runs_ == colours->runs;
-  if (repaint) {
-    opaque_.paint(colours->opaque);
-    transparent_.paint(colours->transparent);
-    return;
-  }
-  runs_ = colours ? std::move(colours->runs) : std::vector<std::uint32_t>();
-  opaque_.hide();
-  transparent_.hide();
-  graded_.hide();
-  graded_transparent_.hide();
-  for (const auto& layer : painted_) renderer_->RemoveActor(layer->actor);
-  painted_.clear();
-  if (!state.environment || state.shapes || state.cloud) return;
-  const auto merged = mergeVisible(state);
-  opaque_.show(merged.opaque);
-  transparent_.show(merged.transparent);
-  graded_.show(merged.graded);
-  graded_transparent_.show(merged.graded_transparent);
-  for (const auto& [key, painted] : merged.painted) {
-    painted_.push_back(std::make_unique<Layer>());
-    setUpSurface(*painted_.back(), 1);
-    painted_.back()->show(painted, textures_.of(state.environment->images[static_cast<std::size_t>(key.first)]));
-  }
-}
-
-void SceneLayers::updateEdges(const ViewState& state) {
-  edges_.hide();
-  if (state.environment && state.edges && !state.shapes && !state.cloud)
-    edges_.show(edge_cache_.edges(state, nullptr, kMostEdges));
 }
 
 void SceneLayers::updateSelection(const ViewState& state) {
@@ -163,7 +98,7 @@ void SceneLayers::updateSelection(const ViewState& state) {
   outline_.hide();
   if (!state.environment || !state.selected || state.selected->empty()) return;
   selected_.show(mergeProducts(*state.environment, *state.selected, {64, 144, 247, 110}));
-  outline_.show(edge_cache_.edges(state, state.selected.get(), kMostEdges));
+  outline_.show(edge_cache_.edges(state, state.selected.get()));
 }
 
 void SceneLayers::updateCollision(const ViewState& state) {
@@ -186,7 +121,8 @@ void SceneLayers::updateUnderlays(const ViewState& state) {
   const auto step = static_cast<std::size_t>(points / kMostShownPoints + 1);
   while (underlays_.size() < state.underlays.size()) {
     underlays_.push_back(std::make_unique<UnderlayLayer>());
-    setUpPoints(underlays_.back()->layer);
+    underlays_.back()->layer.drawPoints();
+    renderer_->AddActor(underlays_.back()->layer.actor);
     underlays_.back()->layer.actor->GetProperty()->SetPointSize(cloud_.actor->GetProperty()->GetPointSize());
   }
   for (std::size_t i = 0; i < underlays_.size(); ++i) {
@@ -241,19 +177,10 @@ void SceneLayers::updateGrid(const ViewState& state) {
 }
 
 void SceneLayers::updateCut(const ViewState& state) {
-  std::vector<Layer*> layers = {&opaque_,  &transparent_, &graded_,   &graded_transparent_,
-                                &shapes_,  &selected_,    &walkable_, &edges_,
-                                &outline_, &cloud_};
-  for (const auto& u : underlays_) layers.push_back(&u->layer);
-  for (const auto& layer : painted_) layers.push_back(layer.get());
-  for (Layer* layer : layers) {
-    layer->mapper->RemoveAllClippingPlanes();
-    if (!state.cut_height_m) continue;
-    vtkNew<vtkPlane> plane;
-    plane->SetOrigin(0, 0, *state.cut_height_m);
-    plane->SetNormal(0, 0, -1);
-    layer->mapper->AddClippingPlane(plane);
-  }
+  const auto cut = [&](Layer& layer) { layer.cut(state.cut_height_m); };
+  model_.forEachLayer(cut);
+  for (Layer* layer : {&shapes_, &selected_, &walkable_, &outline_, &cloud_}) cut(*layer);
+  for (const auto& u : underlays_) cut(u->layer);
 }
 
 }  // namespace standpoint

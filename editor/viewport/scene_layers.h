@@ -11,7 +11,7 @@
 #include "editor/viewport/ground_shadow.h"
 #include "editor/viewport/layer.h"
 #include "editor/viewport/merged_scene.h"
-#include "editor/viewport/texture.h"
+#include "editor/viewport/model_pieces.h"
 
 namespace standpoint {
 
@@ -21,6 +21,7 @@ class SceneLayers {
   explicit SceneLayers(vtkRenderer* renderer);
   // From `last`, which was shown before; null: nothing was.
   void update(const ViewState& state, const ViewState* last);
+  bool building() const { return model_.building(); }  // more comes with another update to the same state
   // On the terrain of the model; an empty one takes it away.
   void cast(const ViewState& state, const GroundShadow& shadow);
   void setPixels(int factor);  // of the picture that is drawn, for each of the picture that is seen
@@ -33,11 +34,7 @@ class SceneLayers {
     std::shared_ptr<const Cloud> cloud;
     std::size_t step = 0;
   };
-  void setUpSurface(Layer& layer, double offset);
-  void setUpLines(Layer& layer, std::array<double, 3> colour, double opacity, double width);
-  void setUpPoints(Layer& layer);
-  void updateSurfaces(const ViewState& state, bool same_triangles);
-  void updateEdges(const ViewState& state);
+  void arrange();
   void updateSelection(const ViewState& state);
   void updateCollision(const ViewState& state);
   void updateCloud(const ViewState& state);
@@ -47,13 +44,9 @@ class SceneLayers {
   Bounds reachOf(const ViewState& state) const;
 
   vtkRenderer* renderer_;
-  Layer opaque_, shadow_, transparent_, graded_, graded_transparent_, shapes_, selected_, walkable_, edges_, outline_,
-      grid_, cloud_;
-  std::vector<std::unique_ptr<Layer>> painted_;  // one for each image in sight
-  std::vector<std::uint32_t>
-      runs_;  // of what opaque_ and transparent_ show; empty: their colours cannot be changed alone
-  TextureCache textures_;
   EdgeCache edge_cache_;
+  ModelPieces model_;
+  Layer shadow_, shapes_, selected_, walkable_, outline_, grid_, cloud_;
   std::vector<std::unique_ptr<UnderlayLayer>> underlays_;
   Bounds bounds_, reach_;
 };

@@ -101,8 +101,11 @@ class VtkSceneView : public SceneView {
     const int w = std::max(width, 8), h = std::max(height, 8);
     const bool resized = width_ != w || height_ != h;
     const bool changed = !drawn_ || !(*drawn_ == state);
+    // What is new is shown before it is made fine: its first picture has enough to make.
+    fine_wanted_ = fine;
+    if (layers_.building() || !drawn_ || drawn_->environment != state.environment) fine = false;
     // A picture that was made fine stays so until something changes.
-    if (changed || resized || (fine && !fine_)) {
+    if (changed || resized || (fine && !fine_) || layers_.building()) {
       const bool after_measuring = std::exchange(measured_, false);
       if (!fine && !resized && !after_measuring && drawn_ && onlyCameraDiffers(*drawn_, state)) ++moved_pictures_;
       width_ = w;
@@ -118,7 +121,9 @@ class VtkSceneView : public SceneView {
     return shown_;
   }
 
-  bool refining() const override { return shading_ && fine_ && !finish_->shaded(); }
+  bool refining() const override {
+    return layers_.building() || (fine_wanted_ && !fine_) || (shading_ && fine_ && !finish_->shaded());
+  }
 
   GraphicsMeans means() override {
     GraphicsMeans means{.by_processor = drawnByProcessor()};
@@ -395,7 +400,7 @@ class VtkSceneView : public SceneView {
     GLuint texture = 0;
   };
   std::vector<PixelTexture> pixels_;
-  bool fine_ = false;
+  bool fine_ = false, fine_wanted_ = false;
   int width_ = 0, height_ = 0;  // of the picture as it is shown
 };
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -177,6 +179,7 @@ TEST_F(Levels, SmoothTheEdgesInMotionFromMediumOn) {
 
 TEST_F(Levels, DropWhatIsRefinedAtOnceWhenTheCameraMoves) {
   state.graphics.level = GraphicsLevel::high;
+  draw(false);
   view().texture(state, kWidth, kHeight, true);
   EXPECT_TRUE(view().refining());
   state.camera.azimuth_rad += 0.1;
@@ -187,8 +190,99 @@ TEST_F(Levels, DropWhatIsRefinedAtOnceWhenTheCameraMoves) {
 TEST_F(Levels, MapsKeepTheirColours) {
   state.graphics.level = GraphicsLevel::high;
   state.colour = ColourMode::confidence;
+  draw(false);
   view().texture(state, kWidth, kHeight, true);
   EXPECT_FALSE(view().refining());
+}
+
+// `count` floors of 2 × 160 × 160 triangles beside each other, each an instance of its own, or all in one mesh.
+std::shared_ptr<const Environment> floors(int count, bool one_mesh) {
+  constexpr int kSide = 160;
+  Environment e;
+  e.surfaces = {{"plaster", {0.8F, 0.7F, 0.6F, 1}}};
+  Mesh mesh;
+  const auto close = [&] {
+    const auto index = static_cast<std::uint32_t>(e.meshes.size());
+    e.meshes.push_back(std::make_shared<Mesh>(std::exchange(mesh, Mesh())));
+    e.products.emplace_back();
+    e.instances.push_back({index, index, Eigen::Affine3d::Identity()});
+  };
+  for (int n = 0; n < count; ++n) {
+    for (int i = 0; i < kSide * kSide; ++i) {
+      const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+      const float side = 1.0F / kSide, x = static_cast<float>(2 * n) + side * static_cast<float>(i % kSide),
+                  y = side * static_cast<float>(i / kSide);
+      const float z = i % 2 == 0 ? 0.0F : 0.1F;  // faces that meet at an angle have an edge
+      mesh.positions.insert(mesh.positions.end(),
+                            {{x, y, 0}, {x + side, y, z}, {x + side, y + side, 0}, {x, y + side, z}});
+      mesh.triangles.push_back({first, first + 1, first + 2});
+      mesh.triangles.push_back({first, first + 2, first + 3});
+      mesh.surface_of_triangle.insert(mesh.surface_of_triangle.end(), 2, 0);
+    }
+    if (!one_mesh) close();
+  }
+  if (one_mesh) close();
+  return std::make_shared<const Environment>(e);
+}
+
+class LargeModel : public Levels {
+ protected:
+  void SetUp() override {
+    Levels::SetUp();
+    if (!offscreen) return;
+    state.edges = true;
+    state.camera.target = {3.5, 0.5, 0};
+    state.camera.distance_m = 6;
+    state.camera.elevation_rad = 0.8;
+  }
+  int picturesUntilWhole() {
+    int count = 1;
+    for (view().texture(state, kWidth, kHeight, false); view().refining(); ++count)
+      view().texture(state, kWidth, kHeight, false);
+    return count;
+  }
+};
+
+TEST_F(LargeModel, IsThereAfterSomePicturesAsIfItWereOneMesh) {
+  state.environment = floors(4, false);
+  EXPECT_EQ(picturesUntilWhole(), 4) << "one of 51200 triangles each";
+  const Drawn pieces = draw(false);
+  state.environment = floors(4, true);
+  EXPECT_EQ(picturesUntilWhole(), 1);
+  EXPECT_EQ(pieces.rgba, draw(false).rgba);
+}
+
+TEST_F(LargeModel, WhatIsHiddenIsGoneInTheNextPicture) {
+  const auto hiding = [](std::uint32_t product) {
+    HiddenProducts hidden(4, 0);
+    hidden[product] = 1;
+    return std::make_shared<const HiddenProducts>(hidden);
+  };
+  state.environment = floors(4, false);
+  const Drawn all = draw(false);
+  state.hidden = hiding(1);
+  EXPECT_EQ(picturesUntilWhole(), 1) << "the others stay as they are";
+  const Drawn without = draw(false);
+  EXPECT_NE(without.rgba, all.rgba);
+  state.hidden.reset();
+  EXPECT_EQ(draw(false).rgba, all.rgba);
+
+  state.hidden = hiding(1);
+  state.environment = floors(4, false);  // all of it anew
+  EXPECT_EQ(draw(false).rgba, without.rgba);
+}
+
+TEST_F(LargeModel, ComesBackAsItWasWhenAnotherPaintIsTakenOff) {
+  state.environment = floors(3, false);
+  const Drawn plain = draw(false);
+  state.colour = ColourMode::confidence;
+  EXPECT_EQ(picturesUntilWhole(), 1) << "its triangles stay";
+  EXPECT_NE(draw(false).rgba, plain.rgba);
+  state.colour = ColourMode::model;
+  state.edges = false;
+  EXPECT_NE(draw(false).rgba, plain.rgba);
+  state.edges = true;
+  EXPECT_EQ(draw(false).rgba, plain.rgba);
 }
 
 TEST_F(Levels, AnEmptySceneHasNoSky) {

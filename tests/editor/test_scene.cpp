@@ -6,6 +6,7 @@
 #include "demo_document.h"
 #include "editor/viewport/feature_edges.h"
 #include "editor/viewport/merged_scene.h"
+#include "editor/viewport/model_pieces.h"
 
 namespace standpoint {
 namespace {
@@ -226,11 +227,28 @@ TEST(MergedScene, DrawsTheCellsOfASlopeWithoutGapsAndTheStepsOfAStairAsTheyAre) 
   EXPECT_EQ(drawn.colours.size(), 6U);
 }
 
+TEST(ModelPieces, CoverEveryInstanceOnceInItsOrder) {
+  const Document document = demoHouse();
+  const auto& environment = *document.imported;
+  const auto ranges = rangesOf(environment, 20);
+  ASSERT_GT(ranges.size(), 2U);
+  EXPECT_EQ(ranges.front().first, 0U);
+  EXPECT_EQ(ranges.back().end, environment.instances.size());
+  for (std::size_t k = 0; k < ranges.size(); ++k) {
+    EXPECT_EQ(ranges[k].first, k > 0 ? ranges[k - 1].end : 0);
+    std::size_t triangles = 0;
+    for (auto i = ranges[k].first; i < ranges[k].end; ++i)
+      triangles += environment.meshes[environment.instances[i].mesh]->triangles.size();
+    EXPECT_TRUE(triangles <= 20 || ranges[k].end - ranges[k].first == 1) << triangles;
+  }
+  EXPECT_TRUE(rangesOf(Environment(), 20).empty());
+}
+
 TEST(EdgeCache, PlacesTheEdgesOfEveryInstance) {
   Document document = demoHouse();
   EdgeCache cache;
   const std::vector<std::uint32_t> column = {10};
-  const auto lines = cache.edges(demoState(document), &column, 1000);
+  const auto lines = cache.edges(demoState(document), &column);
   EXPECT_EQ(document.imported->products[10].ifc_class, "IfcColumn");
   EXPECT_EQ(lines.ends.size(), 24U);
 }
