@@ -20,6 +20,8 @@ find_package(ZLIB REQUIRED)
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(ICU REQUIRED COMPONENTS i18n uc)  # names in the order of people
+find_package(Boost REQUIRED COMPONENTS locale)  # texts in other languages
+find_program(MSGFMT msgfmt REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_package(draco REQUIRED)
 find_path(TINYGLTF_INCLUDE tiny_gltf.h REQUIRED)  # its library is built with images and a file system: ours is not

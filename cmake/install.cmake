@@ -37,6 +37,7 @@ foreach(file ${data_files})
   get_filename_component(folder ${file} DIRECTORY)
   install(FILES ${file} DESTINATION ${data}/${folder})
 endforeach()
+install(DIRECTORY ${built_data}/editor/words/ DESTINATION ${data}/editor/words FILES_MATCHING PATTERN "*.mo")
 install(FILES ${CMAKE_BINARY_DIR}/samples/house.ifc ${CMAKE_BINARY_DIR}/samples/street.ifc
   DESTINATION ${data}/samples)
 install(FILES ${sample_pictures} DESTINATION ${data}/sample-pictures)

@@ -9,6 +9,7 @@
 
 #include "core/part_file.h"
 #include "editor/model/interface_scale.h"
+#include "editor/words/words.h"
 
 namespace standpoint {
 
@@ -58,6 +59,12 @@ class Reader {
   std::vector<std::string>& wrong_;
 };
 
+std::optional<std::string> languageChoice(std::string_view code) {
+  const auto known = languages();
+  const bool valid = code.empty() || std::any_of(known.begin(), known.end(), [&](auto& l) { return code == l.code; });
+  return valid ? std::optional<std::string>(code) : std::nullopt;
+}
+
 }  // namespace
 
 const char* nameOf(Workspace workspace) {
@@ -89,7 +96,7 @@ json toJson(const Settings& settings) {
   return {{"recent", settings.recent},           {"areas", std::move(areas)},
           {"last_folder", settings.last_folder}, {"user_scale", settings.user_scale},
           {"recovery", settings.recovery},       {"graphics", graphicsKey(settings.graphics)},
-          {"theme", themeKey(settings.theme)}};
+          {"theme", themeKey(settings.theme)},   {"language", settings.language}};
 }
 
 Settings settingsFrom(const json& object, std::vector<std::string>& wrong) {
@@ -122,6 +129,7 @@ Settings settingsFrom(const json& object, std::vector<std::string>& wrong) {
   if (const auto* recovery = reader.find("recovery", json::value_t::boolean)) result.recovery = recovery->get<bool>();
   reader.choice("graphics", result.graphics, graphicsChoice);
   reader.choice("theme", result.theme, themeOf);
+  reader.choice("language", result.language, languageChoice);
   return result;
 }
 
@@ -140,12 +148,12 @@ StoredSettings readSettings(const std::filesystem::path& file) {
   StoredSettings stored{settingsFrom(json::parse(in, nullptr, false), wrong), {}};
   if (wrong.empty()) return stored;
   if (wrong.front().empty()) {
-    stored.problem = "Preferences cannot be read, defaults are used: " + file.string();
+    stored.problem = trf("Preferences cannot be read, defaults are used: {}", file.string());
     return stored;
   }
   std::string keys;
   for (const auto& key : wrong) keys += (keys.empty() ? "" : ", ") + key;
-  stored.problem = "Preferences without a valid value, changed to what is valid: " + keys;
+  stored.problem = trf("Preferences without a valid value, changed to what is valid: {}", keys);
   return stored;
 }
 

@@ -39,7 +39,7 @@ void jobBar(const Style& style, const Progress& progress, float width) {
 }
 
 std::string jobText(const Progress& progress, double seconds_so_far) {
-  std::string text = progress.stageName();
+  std::string text = tr(progress.stageName());
   const auto add = [&](const std::string& part) {
     if (!part.empty()) text += (text.empty() ? "" : "   ") + part;
   };

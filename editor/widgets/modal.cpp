@@ -7,6 +7,7 @@
 #include <imgui_internal.h>
 
 #include "editor/model/style.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint::ui {
 
@@ -41,7 +42,8 @@ float shakeOffset(const Style& style, ImGuiID popup) {
 
 }  // namespace
 
-bool beginModal(const Style& style, const char* title, bool wanted, float width, float height) {
+bool beginModal(const Style& style, const char* english, bool wanted, float width, float height) {
+  const Label title(english);
   if (wanted && !ImGui::IsPopupOpen(title) && !anyModal()) ImGui::OpenPopup(title);
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float shift = shakeOffset(style, ImGui::GetID(title));

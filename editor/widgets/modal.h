@@ -11,7 +11,7 @@ namespace ui {
 
 // A modal that is open as long as `wanted`; false when there is nothing to draw. It waits while another one is open:
 // Dear ImGui would close that one. Centred and as high as what is in it; with a height it can be moved and resized.
-bool beginModal(const Style& style, const char* title, bool wanted, float width, float height = 0);
+bool beginModal(const Style& style, const char* english, bool wanted, float width, float height = 0);
 
 // In an open modal: whether it has just been asked to go, by Esc or by a click beside it. One that would lose what was
 // entered, or asks what must be decided, shakes at a click instead; Esc always means Cancel.

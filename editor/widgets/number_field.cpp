@@ -13,6 +13,7 @@
 #include "editor/widgets/keyboard.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/sentences.h"
 
 namespace standpoint::ui {
 
@@ -57,7 +58,7 @@ Draft* draftOf(ImGuiID id, double value) {
 }
 
 std::string shownText(double value, const NumberFormat& format) {
-  if (value == 0 && format.zero != nullptr) return format.zero;
+  if (value == 0 && format.zero != nullptr) return tr(format.zero);
   if (format.kind.whole) return exactText(value);
   const bool lost = value != 0 && std::abs(value) < std::pow(10.0, -format.decimals) / 2;  // 0.00 would be wrong
   return format.decimals < 0 || lost ? fmt::format("{:.6g}", value) : fmt::format("{:.{}f}", value, format.decimals);
@@ -70,8 +71,8 @@ Result<double> typedNumber(const std::string& text, const NumberFormat& format) 
 
 float unitWidth(const NumberFormat& format) {
   if (format.kind.unit.empty()) return 0;
-  const char* unit = format.kind.unit.data();
-  return ImGui::CalcTextSize(unit, unit + format.kind.unit.size()).x + ImGui::GetStyle().FramePadding.x;
+  const std::string unit = tr(format.kind.unit);
+  return ImGui::CalcTextSize(unit.c_str()).x + ImGui::GetStyle().FramePadding.x;
 }
 
 // Begins, goes on with and ends an edit by what has become of the field. True when the text is to be taken over.
@@ -112,11 +113,11 @@ bool takeOver(ImGuiID id, Draft*& draft, double& value, const NumberFormat& form
 // Over the frame, so that the unit is no part of what is edited.
 void drawUnit(const NumberFormat& format, const ImRect& frame, double value, bool editing) {
   if (format.kind.unit.empty() || (!editing && value == 0 && format.zero != nullptr)) return;
-  const char* unit = format.kind.unit.data();
+  const std::string unit = tr(format.kind.unit);
   const auto padding = ImGui::GetStyle().FramePadding;
   const float x = frame.Max.x - unitWidth(format);
-  ImGui::GetWindowDrawList()->AddText({x, frame.Min.y + padding.y}, ImGui::GetColorU32(ImGuiCol_TextDisabled), unit,
-                                      unit + format.kind.unit.size());
+  ImGui::GetWindowDrawList()->AddText({x, frame.Min.y + padding.y}, ImGui::GetColorU32(ImGuiCol_TextDisabled),
+                                      unit.c_str());
 }
 
 void drawShown(const std::string& text, const ImRect& input) {
@@ -240,7 +241,7 @@ bool numberField(const char* id, double& value, const NumberFormat& format, cons
   if (draft != nullptr && !draft->problem.empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, tone::kBad);
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width + buttons);
-    ImGui::TextUnformatted(draft->problem.c_str());
+    ImGui::TextUnformatted(trSentence(draft->problem).c_str());
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
   }
@@ -254,7 +255,7 @@ bool textField(const char* id, std::string& value, const char* hint) {
   const double version = static_cast<double>(std::hash<std::string>()(value) >> 12);  // stands for the value
   Draft* draft = draftOf(item, version);
   std::string text = draft != nullptr ? draft->text : value;
-  ImGui::InputTextWithHint(id, hint, &text, ImGuiInputTextFlags_AutoSelectAll);
+  ImGui::InputTextWithHint(id, tr(hint).c_str(), &text, ImGuiInputTextFlags_AutoSelectAll);
   if (!followEdit(item, draft, value, text, version, {})) return false;
   drafts().of.erase(item);
   value = text;

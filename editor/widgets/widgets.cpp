@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include <fmt/format.h>
 #include <imgui_internal.h>
@@ -16,6 +17,10 @@ namespace standpoint {
 
 namespace ui {
 
+Label::Label(const char* english) : text_(tr(english)) {
+  if (text_ != english && std::strstr(english, "###") == nullptr) text_ += std::string("###") + english;
+}
+
 void filterButton(const Style& style, const char* list, const char* icon, const char* name, std::size_t count,
                   ImU32 shade, bool& shown) {
   ImGui::PushStyleColor(ImGuiCol_Button, shown ? colour(tone::kLit) : ImVec4(0, 0, 0, 0));
@@ -23,17 +28,17 @@ void filterButton(const Style& style, const char* list, const char* icon, const 
                         shown && count > 0 ? colour(shade) : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   if (ImGui::Button(fmt::format("{}  {}###{}-{}", icon, groupedDigits(count), list, name).c_str())) shown = !shown;
   ImGui::PopStyleColor(2);
-  ui::tooltip(fmt::format("{} {}", shown ? "Hide" : "Show", name));
+  ui::tooltip(trf("{}: {}", tr(shown ? "Hide" : "Show"), tr(name)));
   ImGui::SameLine(0, style.px(4));
 }
 
 void listEach(const char* list, bool& each) {
-  ImGui::Checkbox(fmt::format("List all###{}-each", list).c_str(), &each);
-  ui::tooltip("List each issue, also those alike");
+  ImGui::Checkbox(fmt::format("{}###{}-each", tr("List all"), list).c_str(), &each);
+  ui::tooltip("List every issue, including similar ones");
   ImGui::SameLine(0, ImGui::GetStyle().ItemSpacing.x);
 }
 
-void tooltip(const std::string& text) {
+void tooltip(const Text& text) {
   if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1.0F);  // also inside a disabled block
   ImGui::BeginTooltip();
@@ -46,9 +51,12 @@ void tooltip(const std::string& text) {
 
 bool button(const char* label, const std::string& why, ImVec2 size, const char* tip) {
   ImGui::BeginDisabled(!why.empty());
-  const bool pressed = ImGui::Button(label, size);
+  const Label said(label);
+  if (size.x > 0)  // in another language a text may be longer
+    size.x = std::max(size.x, ImGui::CalcTextSize(said, nullptr, true).x + 2 * ImGui::GetStyle().FramePadding.x);
+  const bool pressed = ImGui::Button(said, size);
   ImGui::EndDisabled();
-  tooltip(why.empty() && tip != nullptr ? tip : why);
+  tooltip(tr(why.empty() && tip != nullptr ? tip : why));
   return pressed;
 }
 
@@ -62,7 +70,7 @@ bool primaryButton(const char* label, const std::string& why, ImVec2 size) {
   return pressed;
 }
 
-bool wideButton(const char* id, const std::string& text, const std::string& why, const char* tip) {
+bool wideButton(const char* id, const Text& text, const std::string& why, const char* tip) {
   const ImVec2 padding = ImGui::GetStyle().FramePadding, at = ImGui::GetCursorScreenPos();
   const float width = std::max(1.0F, ImGui::GetContentRegionAvail().x), room = std::max(1.0F, width - 2 * padding.x);
   const float height = ImGui::CalcTextSize(text.c_str(), nullptr, false, room).y + 2 * padding.y;
@@ -76,29 +84,29 @@ bool wideButton(const char* id, const std::string& text, const std::string& why,
 bool iconButton(const char* label, const char* tip, const std::string& why, bool lit) {
   ImGui::PushStyleColor(ImGuiCol_Button, lit ? ImVec4(0.25F, 0.56F, 0.97F, 0.30F) : ImVec4(0, 0, 0, 0));
   ImGui::BeginDisabled(!why.empty());
-  const bool pressed = ImGui::Button(label);
+  const bool pressed = ImGui::Button(Label(label));
   ImGui::EndDisabled();
   ImGui::PopStyleColor();
-  tooltip(why.empty() ? std::string(tip) : std::string(tip) + "\n" + why);
+  tooltip(why.empty() ? tr(tip) : tr(tip) + "\n" + tr(why));
   return pressed;
 }
 
 void heading(const Style& style, const char* text) {
   ImGui::Dummy({0, style.px(3)});
   if (style.fonts.bold != nullptr) ImGui::PushFont(style.fonts.bold);
-  ImGui::TextUnformatted(text);
+  ImGui::TextUnformatted(tr(text).c_str());
   if (style.fonts.bold != nullptr) ImGui::PopFont();
 }
 
-void dimText(const std::string& text) { ImGui::TextDisabled("%s", text.c_str()); }
+void dimText(const Text& text) { ImGui::TextDisabled("%s", text.c_str()); }
 
-void wrapped(const std::string& text) {
+void wrapped(const Text& text) {
   ImGui::PushTextWrapPos(0);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
 }
 
-void dimWrapped(const std::string& text) {
+void dimWrapped(const Text& text) {
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   wrapped(text);
   ImGui::PopStyleColor();
@@ -118,12 +126,13 @@ void emptyState(const Style& style, const char* icon, const char* title, const c
   centred(icon);
   ImGui::TextColored(colour(tone::kFaint), "%s", icon);
   if (style.fonts.huge != nullptr) ImGui::PopFont();
-  centred(title);
-  ImGui::TextUnformatted(title);
+  const Text said(title);
+  centred(said.c_str());
+  ImGui::TextUnformatted(said.c_str());
   const float inset = std::min(width * 0.08F, style.px(40));
   ImGui::SetCursorPosX(left + inset);
   ImGui::PushTextWrapPos(left + width - inset);
-  ImGui::TextDisabled("%s", text);
+  ImGui::TextDisabled("%s", tr(text).c_str());
   ImGui::PopTextWrapPos();
   gap(style, 6);
 }
@@ -135,16 +144,16 @@ bool beginProperties(const char* id, float label_fraction) {
   return true;
 }
 
-void propertyLabel(const char* label) {
+void propertyLabel(const Text& label) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
-  fitted(std::string(label), ImGui::GetContentRegionAvail().x);
+  fitted(label, ImGui::GetContentRegionAvail().x);
   ImGui::TableNextColumn();
   ImGui::SetNextItemWidth(-FLT_MIN);
 }
 
-void property(const char* label, const std::string& value) {
+void property(const Text& label, const Text& value) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
@@ -184,7 +193,7 @@ bool searchField(const char* id, const char* hint, std::string& text) {
   ImGui::PushID(id);
   const float clear_width = text.empty() ? 0 : ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x / 2;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - clear_width);
-  bool changed = ImGui::InputTextWithHint("###search", fmt::format("{}  {}", ICON_SEARCH, hint).c_str(), &text);
+  bool changed = ImGui::InputTextWithHint("###search", fmt::format("{}  {}", ICON_SEARCH, tr(hint)).c_str(), &text);
   if (clear_width > 0) {
     ImGui::SameLine(0, ImGui::GetStyle().ItemSpacing.x / 2);
     if (iconButton(ICON_CLOSE "###clear", "Clear search")) {
@@ -196,22 +205,22 @@ bool searchField(const char* id, const char* hint, std::string& text) {
   return changed;
 }
 
-void textRightAligned(const std::string& text) {
+void textRightAligned(const Text& text) {
   const float free = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
   if (free > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + free);
   ImGui::TextUnformatted(text.c_str());
 }
 
 std::string fittingLabel(const char* icon, const char* text, const char* id, float width) {
-  const std::string whole = std::string(icon) + "  " + text;
+  const std::string said = tr(text), whole = std::string(icon) + "  " + said;
   const float room = width - 2 * ImGui::GetStyle().FramePadding.x;
-  return (ImGui::CalcTextSize(whole.c_str()).x <= room ? whole
-          : ImGui::CalcTextSize(text).x <= room        ? std::string(text)
-                                                       : std::string(icon)) +
+  return (ImGui::CalcTextSize(whole.c_str()).x <= room  ? whole
+          : ImGui::CalcTextSize(said.c_str()).x <= room ? said
+                                                        : std::string(icon)) +
          "###" + id;
 }
 
-void fitted(const std::string& text, float width) {
+void fitted(const Text& text, float width) {
   if (ImGui::CalcTextSize(text.c_str()).x <= width) {
     ImGui::TextUnformatted(text.c_str());
     return;

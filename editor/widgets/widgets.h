@@ -9,6 +9,7 @@
 
 #include "core/environment.h"
 #include "core/number_text.h"
+#include "editor/words/words.h"
 
 namespace standpoint {
 
@@ -17,12 +18,37 @@ struct Style;
 // The few widgets that all panels are made of, so that they look and behave alike.
 namespace ui {
 
-// A button that says why it cannot be pressed. `why` empty = it can.
+// A text to be shown. A literal is the program's own and is said in the user's language (words.h); a string was made
+// by whoever gives it, and may be a name in a model: it is shown as it is.
+class Text {
+ public:
+  Text(const char* english) : text_(tr(english)) {}
+  Text(std::string made) : text_(std::move(made)) {}
+  operator const std::string&() const { return text_; }
+  const char* c_str() const { return text_.c_str(); }
+  bool empty() const { return text_.empty(); }
+
+ private:
+  std::string text_;
+};
+
+// The label of a widget in the user's language. Its id for Dear ImGui stays that of the English text, so that what is
+// open or chosen stays so when the language changes.
+class Label {
+ public:
+  explicit Label(const char* english);
+  operator const char*() const { return text_.c_str(); }
+
+ private:
+  std::string text_;
+};
+
+// A button that says why it cannot be pressed. `why` empty = it can. Reasons and tooltips are translated here.
 bool button(const char* label, const std::string& why = {}, ImVec2 size = {0, 0}, const char* tooltip = nullptr);
 // The one button of a panel that does what the panel is for.
 bool primaryButton(const char* label, const std::string& why = {}, ImVec2 size = {0, 0});
 // As wide as there is room, with all of its text, in as many lines as that takes.
-bool wideButton(const char* id, const std::string& text, const std::string& why = {}, const char* tooltip = nullptr);
+bool wideButton(const char* id, const Text& text, const std::string& why = {}, const char* tooltip = nullptr);
 // An icon without a frame, for rows and bars.
 bool iconButton(const char* label, const char* tooltip, const std::string& why = {}, bool lit = false);
 // Shows or hides rows of one kind, and says how many there are. `list` tells apart those of several lists.
@@ -30,30 +56,30 @@ void filterButton(const Style& style, const char* list, const char* icon, const 
                   ImU32 shade, bool& shown);
 // Whether a list shows each issue, also those alike.
 void listEach(const char* list, bool& each);
-void tooltip(const std::string& text);  // of the last item, also when it is disabled
+void tooltip(const Text& text);  // of the last item, also when it is disabled
 
 void heading(const Style& style, const char* text);
-void dimText(const std::string& text);
-void wrapped(const std::string& text);
-void dimWrapped(const std::string& text);
+void dimText(const Text& text);
+void wrapped(const Text& text);
+void dimWrapped(const Text& text);
 // An empty panel: what would be here, and how to get it.
 void emptyState(const Style& style, const char* icon, const char* title, const char* text);
 void gap(const Style& style, float points = 4);
 
 // Rows of label and value with aligned columns. Values can be selected by a double click: it copies them.
 bool beginProperties(const char* id, float label_fraction = 0.40F);
-void property(const char* label, const std::string& value);
-void propertyLabel(const char* label);  // then draw a widget in the value's column
+void property(const Text& label, const Text& value);
+void propertyLabel(const Text& label);  // then draw a widget in the value's column
 void endProperties();
 
 void meter(const Style& style, double fraction, ImU32 tone, float width = 0);  // 0 = all there is
 void swatch(const Style& style, const Colour& colour);
 bool searchField(const char* id, const char* hint, std::string& text);
-void textRightAligned(const std::string& text);
+void textRightAligned(const Text& text);
 // The label of a button of this width: icon and text, or only what of them fits.
 std::string fittingLabel(const char* icon, const char* text, const char* id, float width);
 // Cuts the text with … to what fits; the tooltip then has all of it.
-void fitted(const std::string& text, float width);
+void fitted(const Text& text, float width);
 
 }  // namespace ui
 
