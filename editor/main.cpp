@@ -16,6 +16,7 @@
 #include "editor/shell/editor.h"
 #include "editor/viewport/offscreen.h"
 #include "editor/viewport/window.h"
+#include "editor/words/words.h"
 #include "pointclouds/formats.h"
 #include "project/model/import_verb.h"
 
@@ -25,7 +26,8 @@ using namespace standpoint;
 
 constexpr const char* kUsage =
     "standpoint-editor [PROJECT or MODEL...]\nstandpoint-editor --pictures OUTDIR [--size 1280x800] [--scale 1] "
-    "PROJECT or MODEL\nstandpoint-editor --devices OUTDIR [--language en] [--scale 1]\n  --pictures  render the editor "
+    "[--language en] PROJECT or MODEL\nstandpoint-editor --devices OUTDIR [--language en] [--scale 1]\n  --pictures  "
+    "render the editor "
     "without a display and save screenshots as PNG files\n  --devices   render every screen of every emulated device, "
     "one folder per device\n";
 
@@ -109,6 +111,8 @@ int makePictures(const Arguments& arguments) {
   auto offscreen = Offscreen::create(arguments.width, arguments.height, arguments.scale);
   if (!offscreen) return fail(offscreen.error());
   Editor editor(allVerbs(), [] {});
+  editor.settings.language = arguments.language;
+  speak(arguments.language);
   attachInstrument(editor);
   openAll(editor, arguments.paths);
   editor.session.wait();
@@ -135,6 +139,7 @@ int openWindow(const Arguments& arguments) {
   attachInstrument(editor);
   auto stored = readSettings(settingsFile());
   editor.settings = std::move(stored.settings);
+  speak(editor.settings.language);
   if (!stored.problem.empty()) editor.say(std::move(stored.problem));
   editor.dialogs.recovery = findRecoveryCopies(recoveryRoot());
   openAll(editor, arguments.paths);

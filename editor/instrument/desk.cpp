@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "editor/instrument/preview_picture.h"
+#include "editor/words/words.h"
 #include "emulated-ui/rehearsal/marks.h"
 #include "project/storage/project_files.h"
 #include "survey/instruments.h"
@@ -99,8 +100,11 @@ void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& de
   }
   desk.scanners = scannersOf(**type);
   desk.host = std::make_unique<DeviceHost>(*std::move(type), editor.session.document(), editor.wake);
+  // A device that remembers no choice begins in the editor's language; in an exercise in that of the exercise.
+  auto& state = desk.host->device().change();
+  if (state.values.contains("language")) state.values["language"] = state.language = spoken();
   if (auto recalled = desk.host->remember(scansFolder(editor)); !recalled)
-    desk.refused = "The device memory was lost: " + describe(recalled.error());
+    desk.refused = trf("The device memory was lost: {}", describe(recalled.error()));
   desk.last = std::chrono::steady_clock::now();
 }
 
@@ -131,7 +135,7 @@ void advance(InstrumentDesk& desk, Editor& editor) {
       editor.session.adopt({desk.rehearsal->document(),
                             nlohmann::json::object(),
                             {},
-                            "Scanned in exercise " + desk.rehearsal->exercise().id,
+                            trf("Scanned in exercise {}", desk.rehearsal->exercise().id),
                             {}});
     }
   } else {
@@ -160,7 +164,7 @@ std::string whyForbidden(const InstrumentDesk& desk, const Session& session, std
     return desk.rehearsal->host().busy() ? "The instrument is busy. Wait until it has finished." : "";
   const auto* row = session.verb(verb);
   const bool reads = row != nullptr && (row->scope == VerbScope::reads || row->scope == VerbScope::files);
-  return reads ? "" : fmt::format("Exercise {} is running. Finish or leave it first.", desk.rehearsal->exercise().id);
+  return reads ? "" : trf("Exercise {} is running. Finish or leave it first.", desk.rehearsal->exercise().id);
 }
 
 void takeFieldWork(InstrumentDesk& desk, const Session& session, std::string_view verb, const nlohmann::json& options) {

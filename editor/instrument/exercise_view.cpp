@@ -59,8 +59,8 @@ void list(InstrumentDesk& desk, Editor& editor) {
   const bool unsaved = editor.session.modified();
   if (unsaved) {
     const auto folder = editor.session.folder();
-    ui::wrapped(std::string("Exercises open their own environment. Save your project first") +
-                (folder.empty() ? ": Ctrl S." : "."));
+    ui::wrapped(tr(folder.empty() ? "Exercises open their own environment. Save your project first: Ctrl+S."
+                                  : "Exercises open their own environment. Save your project first."));
     if (!folder.empty() && ui::button("Save the project###save-first", {}, {-1, 0})) editor.session.save(folder);
     ui::gap(editor);
   }
@@ -83,7 +83,7 @@ void list(InstrumentDesk& desk, Editor& editor) {
 
 void record(InstrumentDesk& desk, Editor& editor) {
   ui::gap(editor);
-  if (!ImGui::CollapsingHeader("Record an exercise")) return;
+  if (!ImGui::CollapsingHeader(ui::Label("Record an exercise"))) return;
   ui::dimWrapped(
       "Perform the task once. Your actions become the solution of a new exercise; tick the criteria to mark.");
   if (ui::button(desk.recording ? "Stop###record" : "Record###record")) {
@@ -92,12 +92,12 @@ void record(InstrumentDesk& desk, Editor& editor) {
   }
   if (desk.recorded.empty()) return;
   ImGui::SameLine();
-  ui::dimText(fmt::format("{} actions", desk.recorded.size()));
+  ui::dimText(trf("{} actions", desk.recorded.size()));
   if (ui::button("Save as exercise",
                  editor.session.folder().empty() ? "Save the project first. The file is stored next to it." : "")) {
     const auto file = editor.session.folder() / "recorded-exercise.json";
     const auto written = writeWholeText(file, recordedExercise(*desk.shown(), desk.recorded).dump(2) + '\n');
-    desk.refused = written ? "Written: " + file.string() : describe(written.error());
+    desk.refused = written ? trf("Written: {}", file.string()) : describe(written.error());
   }
 }
 
@@ -130,7 +130,7 @@ void steps(InstrumentDesk& desk, const std::string& language) {
     if (!current) continue;
     if (state.hinted)
       marked("", step.hint.in(language), ImGui::GetColorU32(ImGuiCol_TextDisabled));
-    else if (!desk.ended() && !step.hint.texts.empty() && ui::button(("Hint###hint" + step.id).c_str())) {
+    else if (!desk.ended() && !step.hint.texts.empty() && ui::button((tr("Hint") + "###hint" + step.id).c_str())) {
       act(desk, {Kind::hint, step.id, "", 0, {}});
       desk.view.pointed = step.widget;
     }
@@ -153,9 +153,10 @@ void questions(InstrumentDesk& desk, const std::string& language) {
 // What will be marked besides the steps; in a test that is told at the end.
 void demands(const InstrumentDesk& desk, const std::string& language) {
   const auto& rules = desk.rehearsal->exercise().rules;
-  if (rules.empty() || !ImGui::CollapsingHeader("Other marking criteria###demands")) return;
+  if (rules.empty() || !ImGui::CollapsingHeader(ui::Label("Other marking criteria###demands"))) return;
   const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
-  for (const auto& rule : rules) marked("·", rule.text.in(language) + (rule.must ? "  (required to pass)" : ""), dim);
+  for (const auto& rule : rules)
+    marked("·", rule.text.in(language) + (rule.must ? tr("  (required to pass)") : ""), dim);
 }
 
 void certificate(InstrumentDesk& desk, Editor& editor) {
@@ -170,18 +171,18 @@ void certificate(InstrumentDesk& desk, Editor& editor) {
 
 void marks(InstrumentDesk& desk, Editor& editor) {
   const auto& m = *desk.marks;
-  ui::wrapped(fmt::format("{}: score {}, {} required", m.passed ? "Passed" : "Not passed", percentText(m.score),
-                          percentText(m.pass_mark)));
-  if (const auto broken = brokenDemands(m); !broken.empty()) ui::wrapped("Required criterion not met: " + broken);
+  ui::wrapped(trf("{}: score {}, {} required", tr(m.passed ? "Passed" : "Not passed"), percentText(m.score),
+                  percentText(m.pass_mark)));
+  if (const auto broken = brokenDemands(m); !broken.empty()) ui::wrapped(trf("Required criterion not met: {}", broken));
   certificate(desk, editor);
   for (const auto& rule : m.rules) {
     marked(rule.held ? ICON_CHECK : "×", rule.text, rule.held ? kHeld : kBroken);
     if (rule.held) continue;
     const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
-    marked("", "found: " + rule.found_text, dim);
+    marked("", trf("found: {}", rule.found_text), dim);
     if (rule.because) marked("", *rule.because, dim);
     if (!rule.proof || rule.proof->value == MarkedProof::Value("")) continue;
-    marked("", fmt::format("Measured in the data: {} = {}", rule.proof->fact, rule.proof->text), dim);
+    marked("", trf("Measured in the data: {} = {}", rule.proof->fact, rule.proof->text), dim);
   }
   ui::gap(editor);
 }
@@ -204,8 +205,7 @@ void task(InstrumentDesk& desk, Editor& editor, const std::string& language) {
   ui::wrapped(e.goal.in(language));
   ui::gap(editor);
   const double seconds = desk.rehearsal->seconds();
-  ui::dimText(e.time_limit_s > 0 ? fmt::format("{} of {}", clockText(seconds), clockText(e.time_limit_s))
-                                 : clockText(seconds));
+  ui::dimText(e.time_limit_s > 0 ? trf("{} of {}", clockText(seconds), clockText(e.time_limit_s)) : clockText(seconds));
   if (desk.guidance != Guidance::tested) steps(desk, language);
   questions(desk, language);
   if (!desk.ended() && asksForAWay(e)) drawWay(desk, editor);

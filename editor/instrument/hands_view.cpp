@@ -30,7 +30,7 @@ void stationChoice(InstrumentDesk& desk, const Document& document) {
   const auto& now = desk.shown()->state().around.station;
   ui::propertyLabel("Station");
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::BeginCombo("##station", now.empty() ? "nowhere" : now.c_str())) {
+  if (ImGui::BeginCombo("##station", now.empty() ? tr("not set up").c_str() : now.c_str())) {
     if (document.job)
       for (const auto& s : document.job->stations)
         if (ImGui::Selectable(s.name.c_str(), s.name == now)) act(desk, {Kind::hand, "stand_at", s.name, 0, {}});
@@ -84,7 +84,7 @@ void drawHands(InstrumentDesk& desk, Editor& editor) {
   }
   if (desk.rehearsal && desk.guidance == Guidance::tested) return;
   ui::gap(editor);
-  if (!ImGui::CollapsingHeader("Simulate a fault")) return;
+  if (!ImGui::CollapsingHeader(ui::Label("Simulate a fault"))) return;
   first = true;
   for (const auto& trouble : troubleRows()) {
     const std::string id = trouble.id;

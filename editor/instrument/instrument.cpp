@@ -82,15 +82,15 @@ class InstrumentPanel {
 
   void tabs(Editor& editor) {
     if (!ImGui::BeginTabBar("desk")) return;
-    if (ImGui::BeginTabItem("Equipment")) {
+    if (ImGui::BeginTabItem(ui::Label("Equipment"))) {
       drawHands(desk_, editor);
       ImGui::EndTabItem();
     }
-    if (ImGui::BeginTabItem("Exercise")) {
+    if (ImGui::BeginTabItem(ui::Label("Exercise"))) {
       drawExercises(desk_, editor);
       ImGui::EndTabItem();
     }
-    if (desk_.shown() != nullptr && ImGui::BeginTabItem("Help")) {
+    if (desk_.shown() != nullptr && ImGui::BeginTabItem(ui::Label("Help"))) {
       drawHelp(desk_, editor);
       ImGui::EndTabItem();
     }
@@ -160,9 +160,7 @@ class InstrumentPanel {
   }
 
  private:
-  static std::string clockName(double factor) {
-    return factor == 1 ? "real time" : fmt::format("{:.0f}× speed", factor);
-  }
+  static std::string clockName(double factor) { return factor == 1 ? tr("real time") : trf("{:.0f}× speed", factor); }
 
   Ticker ticker_;
   InstrumentDesk desk_;

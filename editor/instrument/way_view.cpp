@@ -56,7 +56,7 @@ std::string whyNoWay(const std::vector<WayPoint>& way) {
   if (way.size() < 2) return "A path needs at least two waypoints.";
   for (std::size_t i = 1; i < way.size(); ++i)
     if (std::hypot(way[i].x_m - way[i - 1].x_m, way[i].y_m - way[i - 1].y_m) < 1e-3)
-      return fmt::format("Waypoints {} and {} coincide. Remove one of them.", i + 1, i);
+      return trf("Waypoints {} and {} coincide. Remove one of them.", i + 1, i);
   return {};
 }
 
@@ -69,7 +69,7 @@ void drawWay(InstrumentDesk& desk, Editor& editor) {
   if (!desk.way.empty())
     if (const int removed = places(desk.way); removed >= 0) desk.way.erase(desk.way.begin() + removed);
   const auto timed = timedWay(desk.way);
-  if (!timed.empty()) ui::dimText("Takes " + clockText(timed.back()[2].get<double>()));
+  if (!timed.empty()) ui::dimText(trf("Duration: {}", clockText(timed.back()[2].get<double>())));
   const bool laying = editor.view.tool == Tool::layWay;
   if (ui::button(laying ? "Done###lay-way" : "Draw in the view###lay-way"))
     editor.view.tool = laying ? Tool::select : Tool::layWay;

@@ -19,13 +19,17 @@ std::unique_ptr<const icu::Collator> numericCollator() {
   return collator;
 }
 
+icu::UnicodeString unicode(std::string_view text) {
+  return icu::UnicodeString::fromUTF8({text.data(), static_cast<std::int32_t>(text.size())});
+}
+
 }  // namespace
 
 std::string alphabeticalKey(std::string_view name) {
   static const auto collator = numericCollator();
   std::string key;
   if (collator) {
-    const auto text = icu::UnicodeString::fromUTF8({name.data(), static_cast<std::int32_t>(name.size())});
+    const auto text = unicode(name);
     std::vector<std::uint8_t> bytes(64);
     auto needed =
         static_cast<std::size_t>(collator->getSortKey(text, bytes.data(), static_cast<std::int32_t>(bytes.size())));
@@ -36,6 +40,11 @@ std::string alphabeticalKey(std::string_view name) {
     key.assign(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(needed));  // it ends with a zero
   }
   return key + std::string(name);
+}
+
+std::string withoutCase(std::string_view text) {
+  std::string folded;
+  return unicode(text).foldCase().toUTF8String(folded);
 }
 
 }  // namespace standpoint

@@ -11,4 +11,7 @@ namespace standpoint {
 // order by their own bytes.
 std::string alphabeticalKey(std::string_view name);
 
+// The text (UTF-8) without the difference of capitals and small letters, in any script: for a search.
+std::string withoutCase(std::string_view text);
+
 }  // namespace standpoint

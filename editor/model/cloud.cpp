@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "editor/words/words.h"
 #include "pointclouds/formats.h"
 
 namespace standpoint {
@@ -96,7 +97,7 @@ Result<Cloud> sampleCloud(const std::filesystem::path& file, const Eigen::Vector
 void CloudLoader::start(const std::filesystem::path& file, const Eigen::Vector3d& shift_m, std::function<void()> wake) {
   task_.reset();
   task_ = std::make_unique<Task<Cloud>>(
-      "Show " + file.filename().string(),
+      trf("Show {}", file.filename().string()),
       [file, shift_m](Progress& progress) { return sampleCloud(file, shift_m, kMostShownPoints, progress); },
       std::move(wake));
 }

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "editor/words/words.h"
+
 extern char** environ;
 
 namespace standpoint {
@@ -35,27 +37,26 @@ void DesktopOpener::open(const std::filesystem::path& path, std::function<void()
   task_.reset();
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
-    problem_ = fmt::format("{} does not exist", path.string());
+    problem_ = trf("{} does not exist", path.string());
     return;
   }
   std::string program = program_, argument = std::filesystem::absolute(path, error).string();
   char* const words[] = {program.data(), argument.data(), nullptr};  // no shell reads them
   pid_t child = 0;
   if (const int failed = posix_spawnp(&child, program_.c_str(), nullptr, nullptr, words, environ); failed != 0) {
-    problem_ = fmt::format("Cannot start '{}' ({}). File: {}", program_, std::strerror(failed), path.string());
+    problem_ = trf("Cannot start '{}' ({}). File: {}", program_, std::strerror(failed), path.string());
     return;
   }
   task_ = std::make_unique<Task<int>>(
-      fmt::format("Open {}", path.filename().string()),
-      [child](Progress& progress) { return exitStatusOf(child, progress); }, std::move(wake));
+      trf("Open {}", path.filename().string()), [child](Progress& progress) { return exitStatusOf(child, progress); },
+      std::move(wake));
 }
 
 const std::string& DesktopOpener::problem() {
   if (task_ && task_->done()) {
     const auto status = std::exchange(task_, nullptr)->take();
     if (status && *status != 0)
-      problem_ =
-          fmt::format("'{}' could not open the file (exit code {}). File: {}", program_, *status, path_.string());
+      problem_ = trf("'{}' could not open the file (exit code {}). File: {}", program_, *status, path_.string());
   }
   return problem_;
 }

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "editor/words/words.h"
+
 namespace standpoint {
 
 namespace {
@@ -126,8 +128,9 @@ std::string GraphicsPace::change(int steps, double frame_s) {
   if (steps > 0) taken_back_[index(level_)] = true;
   frames_s_.clear();
   sum_s_ = calm_s_ = 0;
-  return fmt::format("Graphics {} to {}: {:.0f} frames per second", steps < 0 ? "lowered" : "raised",
-                     graphicsName(level_), 1 / frame_s);
+  const auto name = tr(graphicsName(level_));
+  return steps < 0 ? trf("Graphics lowered to {}: {:.0f} frames per second", name, 1 / frame_s)
+                   : trf("Graphics raised to {}: {:.0f} frames per second", name, 1 / frame_s);
 }
 
 std::optional<GraphicsLevel> GraphicsPace::notMeasured() const {
@@ -137,29 +140,29 @@ std::optional<GraphicsLevel> GraphicsPace::notMeasured() const {
 }
 
 std::string GraphicsPace::about(GraphicsChoice choice) const {
+  if (choice == GraphicsChoice::automatic && choice_ == choice)
+    return trf("The highest level that keeps 25 frames per second, now {}", tr(graphicsName(level())));
   if (choice == GraphicsChoice::automatic)
-    return fmt::format("The highest that keeps 25 frames per second, {} {}",
-                       choice_ == choice ? "now" : "beginning with",
-                       graphicsName(choice_ == choice ? level() : most()));
+    return trf("The highest level that keeps 25 frames per second, starting at {}", tr(graphicsName(most())));
   const auto level = levelOf(choice);
   const GraphicsMeans means = means_.value_or(GraphicsMeans());
   std::string has, lacks;
   const auto list = [&](const std::string& why_not, const char* feature) {
-    append(why_not.empty() ? has : lacks, why_not.empty() ? feature : fmt::format("{} ({})", feature, why_not));
+    append(why_not.empty() ? has : lacks,
+           why_not.empty() ? tr(feature) : fmt::format("{} ({})", tr(feature), tr(why_not)));
   };
   list({}, level == GraphicsLevel::low || !means.no_smoothing.empty()
-               ? "anti-aliasing 4× at rest"
-               : "anti-aliasing 4× at rest, by contrast in motion");
+               ? "Anti-aliasing 4× at rest"
+               : "Anti-aliasing 4× at rest, by contrast in motion");
   if (level >= GraphicsLevel::medium && !means.no_smoothing.empty())
     list(means.no_smoothing, "anti-aliasing in motion");
   if (level >= GraphicsLevel::medium) list(means.no_sky, "sky and horizon");
   if (level >= GraphicsLevel::high) list(means.no_sky, "soft shadow on the ground");
   if (level >= GraphicsLevel::high)
     list(means.no_shading, means.by_processor ? "ambient occlusion at rest" : "ambient occlusion");
-  has[0] = static_cast<char>(has[0] - 'a' + 'A');
-  if (!lacks.empty()) has += "; without " + lacks;
+  if (!lacks.empty()) has += trf("; without {}", lacks);
   if (const auto& cost_s = cost_s_[index(level)])
-    has += fmt::format("; about {:.0f} ms a picture here", *cost_s * 1000);
+    has += trf("; about {:.0f} ms per frame on this computer", *cost_s * 1000);
   return has;
 }
 

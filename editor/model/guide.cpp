@@ -7,6 +7,7 @@
 
 #include "core/number_text.h"
 #include "editor/model/model.h"
+#include "editor/words/words.h"
 #include "project/materials/material_findings.h"
 #include "project/survey/assess_verb.h"
 
@@ -25,15 +26,15 @@ GuideStep environmentStep(const Model& model) {
   if (!document.imported) return step;
   step.state = State::done;
   step.advice = "";
-  step.status = fmt::format("{} products, {} triangles", groupedDigits(document.imported->products.size()),
-                            groupedDigits(triangleCount(*document.imported)));
+  step.status = trf("{} products, {} triangles", groupedDigits(document.imported->products.size()),
+                    groupedDigits(triangleCount(*document.imported)));
   const auto losses = document.import_report
                           ? std::count_if(document.import_report->issues.begin(), document.import_report->issues.end(),
                                           [](const Issue& i) { return i.severity == Severity::loss; })
                           : 0;
   if (losses > 0) {
     step.state = State::attention;
-    step.status += fmt::format("; {} lost on import", losses);
+    step.status += trf("; {} lost on import", losses);
     step.advice = "Read the log";
   }
   return step;
@@ -46,15 +47,14 @@ GuideStep optimiseStep(const Model& model) {
   const auto triangles = sceneTriangleCount(*document.imported);
   if (document.simplified) {
     step.state = State::done;
-    step.status =
-        fmt::format("{} of {} triangles", groupedDigits(sceneTriangleCount(*document.simplified->environment)),
-                    groupedDigits(triangles));
+    step.status = trf("{} of {} triangles", groupedDigits(sceneTriangleCount(*document.simplified->environment)),
+                      groupedDigits(triangles));
     step.advice = "";
   } else if (triangles > kLightModel_triangles) {
     step.state = State::attention;
-    step.status = fmt::format("{} triangles, no budget", groupedDigits(triangles));
+    step.status = trf("{} triangles, no budget", groupedDigits(triangles));
   } else {
-    step.status = "The model is light already";
+    step.status = "The model is already light";
   }
   return step;
 }
@@ -68,7 +68,7 @@ GuideStep materialStep(const Model& model) {
     return f.because.empty() && f.severity == "warning";
   });
   step.state = open > 0 ? State::attention : State::done;
-  step.status = open > 0 ? fmt::format("{} open warnings", open) : "Assigned";
+  step.status = open > 0 ? trf("{} open warnings", open) : tr("Assigned");
   step.advice = open > 0 ? "Review open findings" : "";
   return step;
 }
@@ -93,7 +93,7 @@ GuideStep surveyStep(const Model& model) {
   step.status = fmt::format("{} {}", job->stations.size(), job->stations.size() == 1 ? "station" : "stations");
   step.state = unscanned > 0 ? State::open : State::done;
   step.advice = unscanned > 0 ? "Scan" : "";
-  if (unscanned > 0) step.status += fmt::format(", {} not scanned", unscanned);
+  if (unscanned > 0) step.status += trf(", {} not scanned", unscanned);
   return step;
 }
 

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "editor/words/words.h"
+
 namespace standpoint {
 
 namespace {
@@ -113,7 +115,7 @@ bool ImportPreview::hasIfc() const {
 std::string ImportPreview::fileNames() const {
   if (files_.empty()) return {};
   const auto first = files_.front().filename().string();
-  return files_.size() == 1 ? first : fmt::format("{} and {} more", first, files_.size() - 1);
+  return files_.size() == 1 ? first : trf("{} and {} more", first, files_.size() - 1);
 }
 
 void ImportPreview::start() {
@@ -123,7 +125,7 @@ void ImportPreview::start() {
   }
   read_with_ = overrides;
   task_ = std::make_unique<Task<Outcome>>(
-      "Read " + fileNames(),
+      trf("Read {}", fileNames()),
       [verb = verb_, options = importOptions(files_, overrides)](Progress& progress) {
         return runVerb(*verb, Document(), options, progress);
       },

@@ -6,6 +6,7 @@
 #include <ctime>
 
 #include "core/alike_issues.h"
+#include "editor/words/words.h"
 
 namespace standpoint {
 
@@ -64,7 +65,7 @@ std::vector<LogEntry> entriesOf(const Report& report) {
   for (const auto& alike : alikeIssues(report)) {
     for (const auto other : alike.others) entries[other].follows = true;
     if (!alike.others.empty())
-      entries[alike.first].message += " (the first of " + std::to_string(alike.count()) + " alike)";
+      entries[alike.first].message += trf(" (first of {} similar)", std::to_string(alike.count()));
   }
   return entries;
 }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "editor/words/words.h"
 
 namespace standpoint {
 
@@ -41,11 +42,11 @@ std::string flawOfIndex(const std::vector<ComplexIndex>& index) {
   for (std::size_t i = 0; i < index.size(); ++i) {
     const auto& [wavelength, n, k] = index[i];
     if (!(wavelength >= 200 && wavelength <= 20000))
-      return fmt::format("Row {}: wavelength must be from 200 to 20 000 nm", i + 1);
+      return trf("Row {}: wavelength must be from 200 to 20 000 nm", i + 1);
     if (i > 0 && !(wavelength > index[i - 1].wavelength_nm))
-      return fmt::format("Row {}: wavelengths must increase from row to row", i + 1);
-    if (!(n >= 0.001 && n <= 1000)) return fmt::format("Row {}: n must be from 0.001 to 1000", i + 1);
-    if (!(k >= 0 && k <= 1000)) return fmt::format("Row {}: k must be from 0 to 1000", i + 1);
+      return trf("Row {}: wavelengths must increase from row to row", i + 1);
+    if (!(n >= 0.001 && n <= 1000)) return trf("Row {}: n must be from 0.001 to 1000", i + 1);
+    if (!(k >= 0 && k <= 1000)) return trf("Row {}: k must be from 0 to 1000", i + 1);
   }
   return {};
 }

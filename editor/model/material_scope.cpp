@@ -8,6 +8,7 @@
 #include "core/face_normal.h"
 #include "core/face_patches.h"
 #include "core/presentation_layers.h"
+#include "editor/words/words.h"
 #include "materials/materials.h"
 #include "materials/pattern.h"
 
@@ -30,32 +31,31 @@ std::vector<MaterialScope> materialScopes(const Environment& environment, const 
   const Eigen::Vector3d point = hit.position + shift_m;
   const auto looking = fmt::format("{}@{:.3f},{:.3f},{:.3f}", own, outwards.x(), outwards.y(), outwards.z());
   std::vector<MaterialScope> scopes = {
-      {fmt::format("This face of '{}'", label),
+      {trf("This face of '{}'", label),
        fmt::format("{}@{:.4f},{:.4f},{:.4f}", looking, point.x(), point.y(), point.z()), 1},
-      {fmt::format("Faces of '{}' with this orientation", label), looking, 1},
-      {fmt::format("All of '{}'", label), own, 1}};
+      {trf("Faces of '{}' with this orientation", label), looking, 1},
+      {trf("All of '{}'", label), own, 1}};
   const auto add = [&](std::string title, std::string selector) {
     const auto products = select(environment, selector).size();
     if (products > scopes.back().products) scopes.push_back({std::move(title), std::move(selector), products});
   };
   const auto in_class = "class:" + product.ifc_class;
   if (!product.type_name.empty())
-    add(fmt::format("All of type '{}'", product.type_name), "type:" + literalPattern(product.type_name));
+    add(trf("All of type '{}'", product.type_name), "type:" + literalPattern(product.type_name));
   if (!product.ifc_class.empty() && !product.storey.empty())
-    add(fmt::format("All {} on storey '{}'", product.ifc_class, product.storey),
+    add(trf("All {} on storey '{}'", product.ifc_class, product.storey),
         in_class + "&storey:" + literalPattern(product.storey));
-  if (!product.ifc_class.empty()) add(fmt::format("All {}", product.ifc_class), in_class);
+  if (!product.ifc_class.empty()) add(trf("All {}", product.ifc_class), in_class);
   // a layer may hold fewer products than a class, and others
   anyPresentationLayer(product, [&](const std::string& layer) {
     const auto selector = "layer:" + literalPattern(layer);
     if (const auto products = select(environment, selector).size(); products > 1)
-      scopes.push_back({fmt::format("All on layer '{}'", layer), selector, products});
+      scopes.push_back({trf("All on layer '{}'", layer), selector, products});
     return false;
   });
   if (!surface.name.empty()) {  // single surfaces of many products: never the same as whole products
     const auto selector = "material:" + literalPattern(surface.name);
-    scopes.push_back(
-        {fmt::format("Every surface of '{}'", surface.name), selector, select(environment, selector).size()});
+    scopes.push_back({trf("Every surface of '{}'", surface.name), selector, select(environment, selector).size()});
   }
   return scopes;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "editor/model/station_steps.h"
+#include "editor/words/words.h"
 #include "project/model/product_match.h"
 #include "project/model/treatments.h"
 #include "project/survey/underlays.h"
@@ -163,7 +164,7 @@ void Model::startWaitingCloud() {
   if (!session.whyNot("underlay").empty()) return;
   const auto file = waiting_clouds.front();
   waiting_clouds.pop_front();
-  session.start(UnderlayOptions{.add = file}, "Lay " + file.filename().string() + " under the model");
+  session.start(UnderlayOptions{.add = file}, trf("Add {} as an underlay", file.filename().string()));
 }
 
 bool Model::followModel(const Environment& before, const Environment& after) {

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "editor/words/words.h"
+
 namespace standpoint {
 
 namespace {
@@ -62,15 +64,15 @@ bool isText(ParameterKind kind) {
 std::string problemOf(const OptionField& field) {
   const auto& p = *field.parameter;
   const std::string name = readableOption(p.name);
-  if (p.required && isText(p.kind) && field.text.empty()) return name + " is missing";
+  if (p.required && isText(p.kind) && field.text.empty()) return trf("{} is missing", name);
   if (!field.given) return {};
   const bool numeric = p.kind == ParameterKind::number || p.kind == ParameterKind::integer;
   if (numeric && (field.number < p.minimum || field.number > p.maximum))
-    return fmt::format("{} must be from {} to {} {}", name, p.minimum, p.maximum, p.unit);
+    return trf("{} must be from {} to {} {}", name, p.minimum, p.maximum, p.unit);
   if (p.kind == ParameterKind::pairs)
     for (const auto& line : linesOf(field.text))
       if (line.get_ref<const std::string&>().find('=') == std::string::npos)
-        return fmt::format("{}: '{}' is not in the form key=value", name, line.get<std::string>());
+        return trf("{}: '{}' is not in the form key=value", name, line.get<std::string>());
   return {};
 }
 
@@ -78,6 +80,7 @@ std::string problemOf(const OptionField& field) {
 
 std::string readableOption(const char* name) {
   std::string result = name;
+  if (result.ends_with("-deg")) result.resize(result.size() - 4);  // the unit stands beside the value
   std::replace(result.begin(), result.end(), '-', ' ');
   if (!result.empty()) result[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(result[0])));
   return result;

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "editor/words/words.h"
+
 namespace standpoint {
 
 namespace {
@@ -23,23 +25,22 @@ void chooseInstrument(ScanChoice& asked, const Instrument& instrument) {
 }
 
 std::string effectsSummary(Effects effects) {
-  if (effects == Effects()) return "all effects";
+  if (effects == Effects()) return tr("all effects");
   if (effects == Effects::none()) return "ideal";
   const auto left_out = leftOut(effects);
   const auto count = static_cast<std::size_t>(std::count(left_out.begin(), left_out.end(), ',')) + 1;
-  if (count <= 2) return "without " + left_out;
-  return fmt::format("{} of {} effects", effectNames().size() - count, effectNames().size());
+  if (count <= 2) return trf("without {}", left_out);
+  return trf("{} of {} effects", effectNames().size() - count, effectNames().size());
 }
 
 std::string weatherSummary(const Weather& w) {
   std::string text;
-  if (w.rain_mm_h > 0) text = fmt::format("rain {} mm/h", w.rain_mm_h);
-  if (w.snow_mm_h > 0) text = joined(text, fmt::format("snow {} mm/h", w.snow_mm_h), ", ");
-  if (w.fog_mor_m > 0) text = joined(text, fmt::format("fog {} m", w.fog_mor_m), ", ");
-  if (w.dust_mor_m > 0) text = joined(text, fmt::format("dust {} m", w.dust_mor_m), ", ");
-  if (w.visibility_km != Weather().visibility_km)
-    text = joined(text, fmt::format("visibility {} km", w.visibility_km), ", ");
-  return text.empty() ? "clear air" : text;
+  if (w.rain_mm_h > 0) text = trf("rain {} mm/h", w.rain_mm_h);
+  if (w.snow_mm_h > 0) text = joined(text, trf("snow {} mm/h", w.snow_mm_h), ", ");
+  if (w.fog_mor_m > 0) text = joined(text, trf("fog {} m", w.fog_mor_m), ", ");
+  if (w.dust_mor_m > 0) text = joined(text, trf("dust {} m", w.dust_mor_m), ", ");
+  if (w.visibility_km != Weather().visibility_km) text = joined(text, trf("visibility {} km", w.visibility_km), ", ");
+  return text.empty() ? tr("clear air") : text;
 }
 
 std::string readableEffect(const EffectName& effect) {

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "editor/model/settings.h"
+#include "editor/words/sentences.h"
+#include "editor/words/words.h"
 #include "project/fields.h"
 #include "project/model/import_verb.h"
 #include "project/storage/project_files.h"
@@ -79,8 +81,7 @@ std::string stateOnDisk(const std::filesystem::path& folder) {
 Result<Answered<ProjectAnswer>> saved(const Document& document, const std::filesystem::path& folder,
                                       Progress& progress) {
   TRY(saveProject(document, folder, progress));
-  return Answered<ProjectAnswer>{
-      document, {folder, {}, {}, stateOnDisk(folder)}, {}, fmt::format("Saved {}", folder.string())};
+  return Answered<ProjectAnswer>{document, {folder, {}, {}, stateOnDisk(folder)}, {}, "Saved " + folder.string()};
 }
 
 Result<Answered<ProjectAnswer>> runSave(const Document& document, const SaveOptions& options, Progress& progress) {
@@ -102,7 +103,7 @@ Result<Answered<ProjectAnswer>> opened(ProjectAnswer answer, Progress& progress)
   answer.on_disk = stateOnDisk(answer.folder);
   Report dropped;
   TRY_ASSIGN(auto document, loadProject(answer.folder, progress, &dropped));
-  auto description = fmt::format("Opened {}", answer.folder.string());
+  auto description = "Opened " + answer.folder.string();
   return Answered<ProjectAnswer>{std::move(document), std::move(answer), std::move(dropped), std::move(description)};
 }
 Result<Answered<ProjectAnswer>> runOpen(const Document&, const OpenOptions& options, Progress& progress) {
@@ -142,7 +143,7 @@ std::string Session::name() const {
 
 std::string Session::whyNot(std::string_view name) const {
   const Verb* wanted = verb(name);
-  if (wanted == nullptr) return fmt::format("'{}' is not available in this build", name);
+  if (wanted == nullptr) return trf("'{}' is not available in this build", name);
   const bool needs_model = wanted->scope == VerbScope::changes || wanted->scope == VerbScope::reads;
   if (needs_model && !document().imported) return "Import a model first (Ctrl+I)";
   if (auto why = whyForbidden(name); !why.empty()) return why;
@@ -153,7 +154,7 @@ std::string Session::whyForbidden(std::string_view name) const { return forbids 
 
 std::string Session::whyHeld() const {
   for (const auto& task : running_)
-    if (holdsDocument(task->verb())) return fmt::format("Wait for '{}' to finish, or cancel it", task->title());
+    if (holdsDocument(task->verb())) return trf("Wait for '{}' to finish, or cancel it", task->title());
   return {};
 }
 
@@ -174,7 +175,7 @@ std::string Session::whyNotAdopt() const { return whyHeld(); }
 std::string Session::whyNotSave() const { return whyNot("save-project"); }
 
 void Session::launch(const Verb& wanted, json options, std::string title, Task<Outcome>::Work work) {
-  running_.push_back(std::make_unique<VerbTask>(std::move(title), wanted, std::move(options), std::move(work), wake_));
+  running_.push_back(std::make_unique<VerbTask>(tr(title), wanted, std::move(options), std::move(work), wake_));
 }
 
 bool Session::start(std::string_view name, json options, std::string title) {
@@ -211,7 +212,8 @@ bool Session::start(const VerbOptions& options, std::string title, Work work) {
 }
 
 bool Session::save(const std::filesystem::path& folder) {
-  return start(SaveOptions{folder, folder == folder_ ? on_disk_ : std::string()}, "Save " + folder.filename().string());
+  return start(SaveOptions{folder, folder == folder_ ? on_disk_ : std::string()},
+               trf("Save {}", folder.filename().string()));
 }
 
 bool Session::changedOnDisk() {
@@ -232,7 +234,7 @@ void Session::keepOverDisk() {
 }
 
 bool Session::open(const std::filesystem::path& folder) {
-  return start(OpenOptions{folder}, "Open " + folder.filename().string());
+  return start(OpenOptions{folder}, trf("Open {}", folder.filename().string()));
 }
 
 bool Session::saveRecovery(const std::filesystem::path& folder) {
@@ -252,7 +254,7 @@ bool Session::keepsRecovery() const {
 }
 
 bool Session::recover(const RecoveryCopy& copy) {
-  return start(OpenRecoveryOptions{copy.project, copy.name, copy.saved_in}, "Recover " + copy.name);
+  return start(OpenRecoveryOptions{copy.project, copy.name, copy.saved_in}, trf("Recover {}", copy.name));
 }
 
 void Session::clear() {
@@ -263,14 +265,14 @@ void Session::clear() {
 
 void Session::undo() {
   if (!whyNotUndo().empty()) return;
-  say(LogLevel::note, "", "Undone: " + history_.undoDescription());
+  say(LogLevel::note, "", trf("Undone: {}", trSentence(history_.undoDescription())));
   history_.undo();
   ++revision_;
 }
 
 void Session::redo() {
   if (!whyNotRedo().empty()) return;
-  say(LogLevel::note, "", "Redone: " + history_.redoDescription());
+  say(LogLevel::note, "", trf("Redone: {}", trSentence(history_.redoDescription())));
   history_.redo();
   ++revision_;
 }
@@ -411,12 +413,12 @@ void Session::fail(const VerbTask& task, const Error& error) {
                         task.verb().name,
                         false,
                         cancelled,
-                        cancelled ? "Cancelled" : describe(error),
+                        cancelled ? tr("Cancelled") : describe(error),
                         timeOfDay(),
                         task.seconds(),
                         {}});
   if (cancelled) {
-    say(LogLevel::note, "", task.title() + " cancelled");
+    say(LogLevel::note, "", trf("{} cancelled", task.title()));
     return;
   }
   say(LogLevel::error, error.source, error.message);

@@ -9,6 +9,7 @@
 
 #include "core/units.h"
 #include "editor/model/model.h"
+#include "editor/words/words.h"
 #include "project/survey/station_row.h"
 #include "project/survey/survey_verbs.h"
 #include "survey/stations/levelling.h"
@@ -45,14 +46,14 @@ void duplicateStation(Model& model) {
   const auto name = freeStationName(job);
   if (!place) {
     model.view.refused_place =
-        RefusedPlace{station->name, "No room beside " + station->name,
-                     "Within 5 m in its sight there is no place where a tripod can stand.",
+        RefusedPlace{station->name, trf("No room beside {}", station->name),
+                     "There is no place within 5 m and in sight where a tripod can stand.",
                      station->true_pose.translation - Eigen::Vector3d(0, 0, station->instrument_height_m)};
     return;
   }
   StationOptions options{.add = name, .at = *place + model.shift_m()};
   options.yaw_deg = yawOf(station->true_pose.rotation) / kRadPerDeg;
-  model.session.start(options, fmt::format("Duplicate station {} as {}", station->name, name));
+  model.session.start(options, trf("Duplicate station {} as {}", station->name, name));
   model.survey_wanted = name;
 }
 

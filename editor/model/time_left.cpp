@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "editor/words/words.h"
+
 namespace standpoint {
 
 std::optional<double> timeLeft(double fraction, double seconds_so_far) {
@@ -18,7 +20,7 @@ std::string timeLeftText(double fraction, double seconds_so_far) {
   const auto left = timeLeft(fraction, seconds_so_far);
   if (!left) return {};
   const auto whole = static_cast<long>(std::ceil(*left));
-  return whole < 60 ? fmt::format("{} s left", whole) : fmt::format("{}:{:02} min left", whole / 60, whole % 60);
+  return whole < 60 ? trf("{} s left", whole) : trf("{}:{:02} min left", whole / 60, whole % 60);
 }
 
 }  // namespace standpoint

@@ -34,10 +34,12 @@ constexpr std::array kSteps = {
     Tour::Step{"See the floor plan", "Press 9. Press 9 again for the upper floor, and 0 for the isometric view.",
                [](const Tour&, const Model& model) { return model.visibility.cut_height_m.has_value(); }},
     Tour::Step{"Walk through the house",
-               "Press W, then walk with W A S D and look around by dragging. Stairs are climbed. Esc leaves.",
+               "Press W, then walk with W A S D and look around by dragging. Walk up to stairs to climb them. Press "
+               "Esc to stop.",
                [](const Tour& tour, const Model& model) { return tour.walked() && !model.walk.active(); }},
     Tour::Step{"Add a station",
-               "Press Shift+T and click a floor: the instrument stands there. Red means that it cannot, and says why.",
+               "Press Shift+T and click a floor to set up the instrument there. Red means that it cannot stand there, "
+               "and why.",
                [](const Tour& tour, const Model& model) { return stationsOf(model) > tour.stations(); }},
     Tour::Step{"Scan",
                "Press Scan at the top right, choose a coarse resolution, then Scan in the panel. The points appear as "

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "editor/words/words.h"
+
 namespace standpoint {
 
 namespace {
@@ -61,9 +63,9 @@ void Walk::go(const WalkKeys& keys, double seconds, Camera& camera) {
 }
 
 std::string Walk::note() const {
-  if (walker_->wasBroughtBack()) return "fell: back on the last firm floor";
+  if (walker_->wasBroughtBack()) return tr("Fell; returned to the last floor");
   if (const auto& headroom = walker_->headroom())
-    return fmt::format("headroom {:.2f} m, body {:.2f} m", *headroom, body_.height_m);
+    return trf("headroom {:.2f} m, body {:.2f} m", *headroom, body_.height_m);
   return {};
 }
 

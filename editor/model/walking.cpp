@@ -7,6 +7,7 @@
 
 #include "core/readable_name.h"
 #include "editor/model/model.h"
+#include "editor/words/words.h"
 #include "optimizer/walk/landing.h"
 
 namespace standpoint {
@@ -67,7 +68,7 @@ void startWalking(Model& model) {
     const Onlooker onlooker{model.view.camera.eye(), lookedAt(model)};
     if (auto place = startPlace(*ground.environment, *ground.collision, ground.obstacles, body, onlooker))
       return *place;
-    return tl::unexpected(nowhere("There is no floor of 2 m² or more to walk on"));
+    return tl::unexpected(nowhere("No floor of at least 2 m² to walk on"));
   });
 }
 
@@ -81,7 +82,7 @@ void teleport(Model& model, const RayHit& hit) {
   walkFrom(model, [&model, hit, body = model.walker](const WalkedGround& ground) -> Result<StartPlace> {
     const auto landing = landingAt(ground.obstacles, body, hit.position, hit.normal);
     const auto why = whyNoLanding(landing, model);
-    if (!why.empty()) return tl::unexpected(nowhere("Nobody can stand there: " + why));
+    if (!why.empty()) return tl::unexpected(nowhere(trf("Cannot stand there: {}", why)));
     return StartPlace{landing.feet, {}};
   });
 }
@@ -91,7 +92,7 @@ void jumpToRoom(Model& model, std::uint32_t product) {
     if (auto place = placeInRoom(*ground.environment, product, *ground.collision, ground.obstacles, body))
       return *place;
     return tl::unexpected(
-        nowhere("No floor to stand on in room " + readableName(ground.environment->products[product])));
+        nowhere(trf("No floor to stand on in room {}", readableName(ground.environment->products[product]))));
   });
 }
 
@@ -101,7 +102,7 @@ void jumpToStation(Model& model, std::size_t station) {
     Avatar avatar(ground.obstacles, body);
     if (avatar.stand(chosen.true_pose.translation, chosen.instrument_height_m + 1))
       return StartPlace{avatar.feet(), {}};
-    return tl::unexpected(nowhere("Nobody can stand at station " + chosen.name));
+    return tl::unexpected(nowhere(trf("No room to stand at station {}", chosen.name)));
   });
 }
 
@@ -138,7 +139,7 @@ void followWalking(Model& model) {
   if (!place)
     model.session.errors().push_back({"Cannot walk there", place.error()});
   else if (!begin(model, ground, *place))
-    model.session.errors().push_back({"Cannot walk there", nowhere("There is no room to stand")});
+    model.session.errors().push_back({"Cannot walk there", nowhere("Not enough room to stand")});
 }
 
 std::string walkPlaceName(const Model& model) {

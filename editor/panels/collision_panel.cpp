@@ -40,8 +40,8 @@ void selectable(const Model& model, Actions& actions, std::uint32_t product) {
 bool beginRows(const Model& model, const char* id, const char* title, std::size_t rows) {
   const float height = ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(std::min<std::size_t>(rows, 8) + 1);
   if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg, {0, height})) return false;
-  ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("State", ImGuiTableColumnFlags_WidthFixed, model.px(128));
+  ImGui::TableSetupColumn(ui::Label(title), ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn(ui::Label("State"), ImGuiTableColumnFlags_WidthFixed, model.px(128));
   return true;
 }
 
@@ -74,11 +74,11 @@ void drawDoors(const Model& model, CollisionState& state, Actions& actions, cons
                       : !door.floor || (door.passable && !door.led_through) ? tone::kWarning
                       : door.passable                                       ? tone::kGood
                                                                             : tone::kBad;
-    const auto text = door.closed                          ? std::string(ICON_STOP "  closed")
-                      : !door.floor                        ? std::string(ICON_INFO "  no floor")
-                      : door.passable && !door.led_through ? std::string(ICON_INFO "  not connected")
-                      : door.passable ? fmt::format("{}  {:.2f} m clear", ICON_CHECK, door.clear_width_m)
-                                      : fmt::format("{}  {:.2f} m clear", ICON_BAN, door.clear_width_m);
+    const auto text = door.closed                          ? tr(ICON_STOP "  closed")
+                      : !door.floor                        ? tr(ICON_INFO "  no floor")
+                      : door.passable && !door.led_through ? tr(ICON_INFO "  not connected")
+                      : door.passable                      ? trf("{}  {:.2f} m clear", ICON_CHECK, door.clear_width_m)
+                                                           : trf("{}  {:.2f} m clear", ICON_BAN, door.clear_width_m);
     ImGui::TextColored(colour(tone), "%s", text.c_str());
     ImGui::PopID();
   }
@@ -100,7 +100,7 @@ void drawRooms(const Model& model, Actions& actions, const CollideResult& result
     ImGui::TextColored(colour(room.reached           ? tone::kGood
                               : room.walkable_m2 > 0 ? tone::kBad
                                                      : tone::kWarning),
-                       "%s", text);
+                       "%s", tr(text).c_str());
     ImGui::PopID();
   }
   ImGui::EndTable();
@@ -127,7 +127,13 @@ void draw(const Model& model, CollisionState& state, Actions& actions) {
     actions.set(walker);
     ui::propertyLabel("Doors");
     auto doors = static_cast<int>(state.doors);
-    if (ImGui::Combo("###doors", &doors, "open\0closed\0individual\0")) state.doors = static_cast<DoorState>(doors);
+    const std::array<std::string, 3> states = {tr("open"), tr("closed"), tr("individual")};
+    if (ImGui::BeginCombo("###doors", states[static_cast<std::size_t>(doors)].c_str())) {
+      for (int i = 0; i < 3; ++i)
+        if (ImGui::Selectable(states[static_cast<std::size_t>(i)].c_str(), i == doors))
+          state.doors = static_cast<DoorState>(i);
+      ImGui::EndCombo();
+    }
     ui::endProperties();
   }
   if (ui::primaryButton(ICON_CUBES "  Compute collision shapes###collide", model.session.whyNot("collide"),
@@ -149,14 +155,13 @@ void draw(const Model& model, CollisionState& state, Actions& actions) {
   for (const auto& s : result.shapes) triangles += s.mesh.triangles.size();
   if (ui::beginProperties("result", 0.5F)) {
     ui::property("Walkable area", fmt::format("{:.1f} m²", result.walkable_area_m2));
-    ui::property("Doors passable", fmt::format("{} of {}", passable, result.doors.size()));
-    ui::property("Shapes",
-                 fmt::format("{}, {} triangles", groupedDigits(result.shapes.size()), groupedDigits(triangles)));
+    ui::property("Doors passable", trf("{} of {}", passable, result.doors.size()));
+    ui::property("Shapes", trf("{}, {} triangles", groupedDigits(result.shapes.size()), groupedDigits(triangles)));
     ui::endProperties();
   }
   bool walkable = model.view.walkable, shapes = model.view.shapes;
-  if (ImGui::Checkbox("Show the walkable area", &walkable)) actions.showWalkable(walkable);
-  if (ImGui::Checkbox("Show the shapes instead of the model", &shapes)) actions.showShapes(shapes);
+  if (ImGui::Checkbox(ui::Label("Show the walkable area"), &walkable)) actions.showWalkable(walkable);
+  if (ImGui::Checkbox(ui::Label("Show the shapes instead of the model"), &shapes)) actions.showShapes(shapes);
   drawDoors(model, state, actions, result);
   drawRooms(model, actions, result);
 }

@@ -71,7 +71,8 @@ void drawRemedy(const Model& model, Actions& actions, const Remedy& remedy, cons
   const auto* known = model.offeredMaterial(material);
   const std::string blocked = !why.empty() ? why : known == nullptr ? "Select a material in the list first" : "";
   const std::string text =
-      open ? fmt::format("{}: {}", remedy.text, known == nullptr ? "Select a material" : known->label) : remedy.text;
+      open ? fmt::format("{}: {}", remedy.text, known == nullptr ? tr("Select a material") : known->label)
+           : remedy.text;
   if (ui::button(fmt::format("{}  {}###{}{}", ICON_MAGIC, text, remedy.selector, remedy.material).c_str(), blocked,
                  {-FLT_MIN, 0}))
     actions.start(MaterialsOptions{{.assign = overridesBy(remedy, material)}}, remedy.text);
@@ -80,14 +81,14 @@ void drawRemedy(const Model& model, Actions& actions, const Remedy& remedy, cons
 void drawAcceptance(const Model& model, FindingsState& state, Actions& actions, const MaterialFinding& finding,
                     const std::string& why) {
   if (!finding.because.empty()) {
-    ui::wrapped("Accepted: " + finding.because);
+    ui::wrapped(trf("Accepted: {}", finding.because));
     if (ui::button(ICON_UNDO "  Reopen###reopen", why, {-FLT_MIN, 0}))
       actions.start(MaterialsOptions{{.reopen = {finding.id}}}, "Reopen finding");
     return;
   }
   const float button = model.px(84);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x);
-  ImGui::InputTextWithHint("###because", "Reason for accepting", &state.because);
+  ImGui::InputTextWithHint("###because", tr("Reason for accepting").c_str(), &state.because);
   ImGui::SameLine();
   const std::string blocked = !why.empty() ? why : state.because.empty() ? "Enter a reason" : "";
   if (ui::button(ICON_CHECK "  Accept###accept", blocked, {button, 0}))
@@ -122,14 +123,13 @@ void draw(const Model& model, FindingsState& state, Actions& actions) {
   if (findings.empty()) {
     ImGui::TextColored(colour(tone::kGood), "%s", ICON_CHECK);
     ImGui::SameLine();
-    return ImGui::TextUnformatted("No findings");
+    return ImGui::TextUnformatted(tr("No findings").c_str());
   }
   const auto chosen =
       std::find_if(findings.begin(), findings.end(), [&](const MaterialFinding& f) { return f.id == state.chosen; });
   const float width = ImGui::GetContentRegionAvail().x;
   ImGui::BeginChild("list", {chosen == findings.end() ? width : width * 0.52F, 0});
-  ui::dimText(open == 0 ? fmt::format("All {} accepted", findings.size())
-                        : fmt::format("{} open of {}", open, findings.size()));
+  ui::dimText(open == 0 ? trf("All {} accepted", findings.size()) : trf("{} open of {}", open, findings.size()));
   drawList(model, state, actions, findings);
   ImGui::EndChild();
   if (chosen == findings.end()) return;

@@ -43,8 +43,7 @@ void drawStated(const Georeference& g) {
   }
   if (g.site)
     ui::property("Site in the file", fmt::format("{:.6f}°  {:.6f}°", g.site->latitude_deg, g.site->longitude_deg));
-  if (g.true_north_rad)
-    ui::property("True north", fmt::format("{:.3f}° clockwise from +Y", *g.true_north_rad / kRadPerDeg));
+  if (g.true_north_rad) ui::property("True north", trf("{:.3f}° clockwise from +Y", *g.true_north_rad / kRadPerDeg));
   ui::endProperties();
 }
 

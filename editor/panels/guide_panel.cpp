@@ -39,14 +39,14 @@ void drawStep(const Model& model, Actions& actions, const GuideStep& step, bool 
   const auto [icon, tone] = lookOf(step.state);
   ImGui::TextColored(colour(tone), "%s", icon);
   ImGui::SetCursorScreenPos({at.x + model.px(28), at.y + model.px(4)});
-  ImGui::TextUnformatted(step.title);
+  ImGui::TextUnformatted(tr(step.title).c_str());
   if (step.state == GuideStep::State::optional) {
     ImGui::SameLine();
     ui::dimText("optional");
   }
   ImGui::SetCursorScreenPos({at.x + model.px(28), at.y + model.px(4) + ImGui::GetTextLineHeight()});
   ImGui::PushStyleColor(ImGuiCol_Text, tone::kDim);
-  ui::fitted(step.status, ImGui::GetContentRegionAvail().x);
+  ui::fitted(tr(step.status), ImGui::GetContentRegionAvail().x);
   ImGui::PopStyleColor();
   ImGui::SetCursorScreenPos({at.x, at.y + height + model.px(2)});
   ImGui::PopID();
@@ -62,11 +62,11 @@ void drawGuidePanel(const Model& model, PanelStates&, Actions& actions) {
     drawStep(model, actions, steps[i], is_next, static_cast<int>(i));
     if (!is_next || *steps[i].advice == 0) continue;
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + model.px(28));
-    if (ui::primaryButton(fmt::format("{}###guide-next", steps[i].advice).c_str(), {}, {-model.px(6), 0}))
+    if (ui::primaryButton(fmt::format("{}###guide-next", tr(steps[i].advice)).c_str(), {}, {-model.px(6), 0}))
       actions.open(steps[i].workspace, steps[i].tab);
     ui::gap(model, 4);
   }
-  if (!next) ui::dimWrapped("Everything is done. Export the environment, or hand over the report of the survey.");
+  if (!next) ui::dimWrapped("All steps are done. Export the environment, or hand over the survey report.");
 }
 
 }  // namespace standpoint

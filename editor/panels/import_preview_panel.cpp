@@ -34,9 +34,9 @@ bool choose(const char* id, const std::array<ImportChoice, N>& choices, std::str
   const auto chosen =
       std::find_if(choices.begin(), choices.end(), [&](const ImportChoice& c) { return value == c.value; });
   bool changed = false;
-  if (!ImGui::BeginCombo(id, chosen == choices.end() ? value.c_str() : chosen->label)) return false;
+  if (!ImGui::BeginCombo(id, tr(chosen == choices.end() ? value.c_str() : chosen->label).c_str())) return false;
   for (const auto& c : choices)
-    if (ImGui::Selectable(c.label, value == c.value)) value = c.value, changed = true;
+    if (ImGui::Selectable(ui::Label(c.label), value == c.value)) value = c.value, changed = true;
   ImGui::EndCombo();
   return changed;
 }
@@ -48,7 +48,7 @@ void heading(const Model& model, const char* text) {
 
 // A text that counts when it is left or Enter is pressed: each change reads the file again.
 bool textField(const char* id, const char* hint, std::string& text) {
-  ImGui::InputTextWithHint(id, hint, &text);
+  ImGui::InputTextWithHint(id, tr(hint).c_str(), &text);
   return ImGui::IsItemDeactivatedAfterEdit();
 }
 
@@ -67,13 +67,13 @@ void drawPlace(const Model& model, Actions& actions) {
   const auto& georeference = *model.shownDocument().georeference;
   ui::propertyLabel("Shift");
   changed |= textField("###preview-shift", "auto, none or E,N,H", chosen.shift);
-  ui::tooltip(fmt::format(
-      "Subtracted from all coordinates on import and restored on export. Currently {:.0f}, {:.0f}, {:.0f} m",
-      georeference.shift_m.x(), georeference.shift_m.y(), georeference.shift_m.z()));
+  ui::tooltip(
+      trf("Subtracted from all coordinates on import and restored on export. Currently {:.0f}, {:.0f}, {:.0f} m",
+          georeference.shift_m.x(), georeference.shift_m.y(), georeference.shift_m.z()));
   if (preview.hasIfc()) {
     ui::propertyLabel("Types");
-    changed |= ImGui::Checkbox("Import as products###preview-types", &chosen.types);
-    ui::tooltip("Types that no product shows, with their shapes, as products at the origin");
+    changed |= ImGui::Checkbox(ui::Label("Import as products###preview-types"), &chosen.types);
+    ui::tooltip("Types that no product uses are imported with their shapes as products at the origin");
   }
   ui::propertyLabel("CRS");
   changed |= textField("###preview-crs", georeference.crs.empty() ? "not specified; EPSG:n" : georeference.crs.c_str(),
@@ -99,9 +99,8 @@ void drawPlace(const Model& model, Actions& actions) {
 
 void drawClasses(const Model& model, float height) {
   const auto& facts = model.preview.facts();
-  heading(
-      model,
-      fmt::format("{} products, {} triangles", groupedDigits(facts.products), groupedDigits(facts.triangles)).c_str());
+  heading(model,
+          trf("{} products, {} triangles", groupedDigits(facts.products), groupedDigits(facts.triangles)).c_str());
   const auto flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoPadOuterX;
   if (!ImGui::BeginTable("preview-classes", 3, flags, {0, height})) return;
   ImGui::TableSetupColumn("class", ImGuiTableColumnFlags_WidthStretch);
@@ -110,7 +109,7 @@ void drawClasses(const Model& model, float height) {
   for (const auto& row : facts.classes) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ui::fitted(readableClass(row.ifc_class), ImGui::GetContentRegionAvail().x);
+    ui::fitted(tr(readableClass(row.ifc_class)), ImGui::GetContentRegionAvail().x);
     ImGui::TableNextColumn();
     ui::textRightAligned(groupedDigits(row.products));
     ImGui::TableNextColumn();
@@ -157,7 +156,7 @@ void drawIssues(const Model& model, ImportPreviewState& state, Actions& actions)
     ui::listEach("preview", filter.each);
   ImGui::NewLine();
   if (entries.empty()) {
-    ImGui::TextColored(colour(tone::kGood), "%s  No issues", ICON_CHECK);
+    ImGui::TextColored(colour(tone::kGood), "%s  %s", ICON_CHECK, tr("No issues").c_str());
     return;
   }
   std::vector<int> shown;
@@ -183,7 +182,7 @@ void drawReading(const Model& model) {
   auto* task = model.preview.task();
   const auto text = ui::jobText(task->progress(), task->seconds());
   ui::gap(model, 6);
-  ui::dimText(text.empty() ? "Reading" : text);
+  ui::dimText(text.empty() ? tr("Reading") : text);
   ui::gap(model, 2);
   ui::jobBar(model, task->progress(), ImGui::GetContentRegionAvail().x);
 }
@@ -191,10 +190,10 @@ void drawReading(const Model& model) {
 void drawFailure(const Model& model) {
   const Error& error = model.preview.error();
   ui::gap(model, 6);
-  ImGui::TextColored(colour(tone::kBad), "%s  Cannot read the file", ICON_WARNING);
+  ImGui::TextColored(colour(tone::kBad), "%s  %s", ICON_WARNING, tr("Cannot read the file").c_str());
   ui::gap(model, 2);
   ui::wrapped(error.message);
-  if (!error.source.empty()) ui::dimWrapped("in " + error.source);
+  if (!error.source.empty()) ui::dimWrapped(trf("in {}", error.source));
 }
 
 std::string whyNotAccept(const Model& model, const char* verb) {

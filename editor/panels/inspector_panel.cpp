@@ -52,7 +52,7 @@ std::string treatmentText(const Model& model, const Product& product) {
     case TreatmentKind::excluded: return "Excluded from the scene";
     case TreatmentKind::kept: return "Never simplified";
     case TreatmentKind::simplified:
-      return treatment->max_deviation_m ? fmt::format("Simplified within {:g} mm", *treatment->max_deviation_m * 1000)
+      return treatment->max_deviation_m ? trf("Simplified within {:g} mm", *treatment->max_deviation_m * 1000)
                                         : "Simplified with custom weight";
     case TreatmentKind::as_rules: break;
   }
@@ -61,12 +61,12 @@ std::string treatmentText(const Model& model, const Product& product) {
 
 void drawIdentity(const Model& model, const Product& product) {
   if (!ui::beginProperties("identity", 0.25F)) return;
-  ui::property("Class", product.ifc_class.empty() ? "Object" : product.ifc_class);
+  ui::property("Class", product.ifc_class.empty() ? tr("Object") : product.ifc_class);
   if (!product.predefined_type.empty()) ui::property("Kind", product.predefined_type);
   if (!product.type_name.empty()) ui::property("Type", product.type_name);
   ui::property("Id", product.id);
   if (!product.global_id.empty()) ui::property("GlobalId", product.global_id);
-  if (const auto place = placeOf(*model.environment(), product); !place.empty()) ui::property("Place", place);
+  if (const auto place = placeOf(*model.environment(), product); !place.empty()) ui::property("Location", place);
   for (const auto& group : product.groups) ui::property("Group", group);
   if (const auto treated = treatmentText(model, product); !treated.empty()) ui::property("Treatment", treated);
   if (product.whole >= 0)
@@ -81,10 +81,6 @@ std::uint64_t trianglesOf(const Environment& environment, std::uint32_t product)
   return count;
 }
 
-std::string counted(std::uint64_t count, const char* one, const char* many) {
-  return fmt::format("{} {}", groupedDigits(count), count == 1 ? one : many);
-}
-
 // How its triangles hang together.
 void drawConnections(const Model& model, InspectorState& state, std::uint32_t index) {
   if (state.counted_in != model.environment() || state.counted != index) {
@@ -94,12 +90,16 @@ void drawConnections(const Model& model, InspectorState& state, std::uint32_t in
   }
   const auto& s = state.statistics;
   if (s.triangles == 0) return;
-  ui::property("Surface", fmt::format("{}, {}", s.isClosed() ? "closed" : "open", counted(s.parts, "part", "parts")));
+  const auto said = [](fmt::format_string<std::string> one, fmt::format_string<std::string> many, std::uint64_t count) {
+    return trn(one, many, count, groupedDigits(count));
+  };
+  ui::property("Surface", fmt::format("{}, {}", tr(s.isClosed() ? "watertight" : "not watertight"),
+                                      said("{} part", "{} parts", s.parts)));
   if (s.border_edges > 0)
-    ui::property("Holes", fmt::format("{}, {}", s.holes, counted(s.border_edges, "border edge", "border edges")));
+    ui::property("Holes", fmt::format("{}, {}", s.holes, said("{} border edge", "{} border edges", s.border_edges)));
   if (s.odd_edges + s.odd_vertices > 0)
-    ui::property("Not manifold", fmt::format("{}, {}", counted(s.odd_edges, "edge", "edges"),
-                                             counted(s.odd_vertices, "vertex", "vertices")));
+    ui::property("Not manifold", fmt::format("{}, {}", said("{} edge", "{} edges", s.odd_edges),
+                                             said("{} vertex", "{} vertices", s.odd_vertices)));
 }
 
 void drawGeometry(const Model& model, InspectorState& state, std::uint32_t index) {
@@ -117,9 +117,9 @@ void drawGeometry(const Model& model, InspectorState& state, std::uint32_t index
   }
   if (const auto& light = model.session.document().simplified; light && index < light->products.size()) {
     const auto& loss = light->products[index];
-    ui::property("Before", fmt::format("{} triangles", groupedDigits(loss.triangles_before)));
-    ui::property("Deviation", fmt::format("at most {:.1f} mm, mean {:.2f} mm", loss.max_deviation_m * 1000,
-                                          loss.mean_deviation_m * 1000));
+    ui::property("Before", trf("{} triangles", groupedDigits(loss.triangles_before)));
+    ui::property("Deviation",
+                 trf("at most {:.1f} mm, mean {:.2f} mm", loss.max_deviation_m * 1000, loss.mean_deviation_m * 1000));
   }
   ui::endProperties();
 }
@@ -131,7 +131,7 @@ void drawLayers(const Model& model, const Product& product) {
   for (const auto& layer : product.layers)
     ui::property(layer.name.empty() ? "Air" : layer.name.c_str(), fmt::format("{:.4g} mm", layer.thickness_m * 1000));
   if (product.layers.empty())
-    for (const auto& name : product.materials) ui::property(name.c_str(), " ");
+    for (const auto& name : product.materials) ui::property(name, " ");
   ui::endProperties();
 }
 
@@ -157,7 +157,7 @@ void drawSurfaces(const Model& model, std::uint32_t product) {
     const auto& surface = environment.surfaces[index];
     ui::swatch(model, surface.colour);
     ImGui::SameLine();
-    std::string text = fmt::format("{}  {:.2f} m²", surface.name.empty() ? "Nameless" : surface.name, area);
+    std::string text = fmt::format("{}  {:.2f} m²", surface.name.empty() ? tr("Nameless") : surface.name, area);
     if (surface.image >= 0) text += "  " + environment.images[static_cast<std::size_t>(surface.image)]->name;
     ui::wrapped(text);
   }
@@ -179,9 +179,8 @@ void assign(const Model& model, Actions& actions, const PhysicalMaterial& materi
   for (const auto p : model.selection.products())
     overrides.push_back({selectorOf(model.environment()->products[p]), material.id});
   const auto count = model.selection.products().size();
-  actions.start(
-      MaterialsOptions{{.assign = std::move(overrides)}},
-      fmt::format("Assign {} to {}", material.label, count == 1 ? "1 product" : fmt::format("{} products", count)));
+  actions.start(MaterialsOptions{{.assign = std::move(overrides)}},
+                trf("Assign {} to {}", material.label, trn("{} product", "{} products", count, count)));
 }
 
 void drawAssign(const Model& model, InspectorState& state, Actions& actions, const std::string& current) {
@@ -220,7 +219,7 @@ void drawAssign(const Model& model, InspectorState& state, Actions& actions, con
 void drawPhysics(const PhysicalMaterial& m) {
   if (!ui::beginProperties(m.id.c_str(), 0.52F)) return;
   for (const double wavelength : {905.0, 1064.0, 1550.0})
-    ui::property(fmt::format("Reflectance {:.0f} nm", wavelength).c_str(),
+    ui::property(trf("Reflectance {:.0f} nm", wavelength).c_str(),
                  fmt::format("{:.0f} %", atWavelength(m.reflectance, wavelength) * 100));
   if (m.roughness_rad > 0) ui::property("Roughness σ", fmt::format("{:.2f} rad", m.roughness_rad));
   if (m.index_of_refraction > 0) ui::property("Index of refraction", fmt::format("{:.2f}", m.index_of_refraction));
@@ -233,26 +232,26 @@ void drawPhysicalMaterial(const Model& model, InspectorState& state, Actions& ac
   ui::heading(model, "Physical material");
   const auto& choice = model.session.document().materials;
   if (!choice) {
-    drawAssign(model, state, actions, "No material assigned");
+    drawAssign(model, state, actions, tr("No material assigned"));
     return;
   }
   const auto& assignment = choice->result.assignment;
   const auto found = materialsOf(assignment, index);
-  std::string current = "Unassigned";
+  std::string current = tr("Unassigned");
   if (found.size() == 1 && found[0].first >= 0)
     current = assignment.materials[static_cast<std::size_t>(found[0].first)].label;
-  if (found.size() > 1) current = fmt::format("{} materials", found.size());
+  if (found.size() > 1) current = trf("{} materials", found.size());
   drawAssign(model, state, actions, current);
   for (const auto& [material, reason] : found) {
     if (material < 0) {
-      ImGui::TextColored(colour(tone::kUnassigned), "%s  No matching rule", ICON_WARNING);
+      ImGui::TextColored(colour(tone::kUnassigned), "%s  %s", ICON_WARNING, tr("No matching rule").c_str());
       continue;
     }
     const auto& m = assignment.materials[static_cast<std::size_t>(material)];
     ui::swatch(model, materialColour(&m));
     ImGui::SameLine();
     ui::wrapped(m.label);
-    if (!reason.empty()) ui::tooltip("Matched by: " + reason);
+    if (!reason.empty()) ui::tooltip(trf("Matched by: {}", reason));
     drawPhysics(m);
   }
 }
@@ -272,13 +271,13 @@ void drawProperties(const Model& model, InspectorState& state, const Product& pr
     sets[p.set].push_back(&p);
   }
   for (const auto& set : order) {
-    const std::string title = set.empty() ? "Attributes" : set;
+    const std::string title = set.empty() ? tr("Attributes") : set;
     if (!ImGui::TreeNodeEx((title + "###set-" + set).c_str(), ImGuiTreeNodeFlags_DefaultOpen |
                                                                   ImGuiTreeNodeFlags_SpanAvailWidth |
                                                                   ImGuiTreeNodeFlags_NoTreePushOnOpen))
       continue;
     if (!ui::beginProperties(set.c_str(), 0.48F)) continue;
-    for (const auto* p : sets[set]) ui::property(p->name.c_str(), p->value);
+    for (const auto* p : sets[set]) ui::property(p->name, p->value);
     ui::endProperties();
   }
 }
@@ -288,9 +287,9 @@ void drawPlaceProperties(const Model& model, const Product& product) {
   if (product.container < 0) return;
   const auto& node = model.environment()->spatial[static_cast<std::size_t>(product.container)];
   if (node.properties.empty()) return;
-  ui::heading(model, ("Properties of " + nodeLabel(node)).c_str());
+  ui::heading(model, (trf("Properties of {}", nodeLabel(node))).c_str());
   if (!ui::beginProperties("place-properties", 0.48F)) return;
-  for (const auto& p : node.properties) ui::property(p.name.c_str(), p.value);
+  for (const auto& p : node.properties) ui::property(p.name, p.value);
   ui::endProperties();
 }
 
@@ -308,18 +307,18 @@ void drawButtons(Actions& actions) {
 
 void drawMany(const Model& model, InspectorState& state, Actions& actions) {
   const auto& products = model.selection.products();
-  ui::heading(model, fmt::format("{} products", products.size()).c_str());
+  ui::heading(model, trf("{} products", products.size()).c_str());
   std::map<std::string, int> classes;
   std::uint64_t triangles = 0;
   std::vector<std::uint8_t> chosen(model.environment()->products.size(), 0);
   for (const auto p : products) {
-    ++classes[readableClass(model.environment()->products[p].ifc_class)];
+    ++classes[tr(readableClass(model.environment()->products[p].ifc_class))];
     chosen[p] = 1;
   }
   for (const auto& i : model.environment()->instances)
     if (chosen[i.product] != 0) triangles += model.environment()->meshes[i.mesh]->triangles.size();
   if (ui::beginProperties("many", 0.45F)) {
-    for (const auto& [name, count] : classes) ui::property(name.c_str(), std::to_string(count));
+    for (const auto& [name, count] : classes) ui::property(name, std::to_string(count));
     ui::property("Triangles", groupedDigits(triangles));
     const auto all = model.selectionBounds();
     if (!all.empty()) ui::property("Size", coordinates(all.max - all.min) + " m");
@@ -327,7 +326,7 @@ void drawMany(const Model& model, InspectorState& state, Actions& actions) {
   }
   drawButtons(actions);
   ui::heading(model, "Physical material");
-  drawAssign(model, state, actions, "Assign to …");
+  drawAssign(model, state, actions, tr("Assign to …"));
 }
 
 void draw(const Model& model, PanelStates& states, Actions& actions) {

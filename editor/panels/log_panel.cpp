@@ -10,6 +10,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/sentences.h"
 
 namespace standpoint {
 
@@ -85,7 +86,7 @@ void drawEntry(const Model& model, Actions& actions, const LogEntry& entry, int 
     }
   }
   ImGui::TableNextColumn();
-  ui::fitted(entry.message, ImGui::GetContentRegionAvail().x);
+  ui::fitted(trSentence(entry.message), ImGui::GetContentRegionAvail().x);
   ImGui::PopID();
 }
 

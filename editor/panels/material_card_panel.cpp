@@ -90,10 +90,9 @@ void drawSpectrum(const Model& model, Actions& actions, const PhysicalMaterial& 
   if (!m.reflectance.empty()) plot.line(curve(plot, m.reflectance), tone::kStation);
   if (plot.hovered()) {
     const double wavelength = kFirst_nm + plot.pointer() * (kLast_nm - kFirst_nm);
-    auto text =
-        fmt::format("{:.0f} nm\nreflectance {:.1f} %", wavelength, 100 * atWavelength(m.reflectance, wavelength));
+    auto text = trf("{:.0f} nm\nreflectance {:.1f} %", wavelength, 100 * atWavelength(m.reflectance, wavelength));
     if (!m.transmittance.empty())
-      text += fmt::format("\ntransmittance {:.1f} %", 100 * atWavelength(m.transmittance, wavelength));
+      text += "\n" + trf("transmittance {:.1f} %", 100 * atWavelength(m.transmittance, wavelength));
     ImGui::SetTooltip("%s", text.c_str());
     if (ImGui::IsMouseClicked(0)) actions.showReflectanceAt(std::round(wavelength));
   }
@@ -128,7 +127,7 @@ void drawBodies(const Model& model, const std::array<float, 81>& response) {
 }
 
 void drawAngles(const Model& model, const PhysicalMaterial& m) {
-  ui::heading(model, fmt::format("Scanner response at {:.0f} nm", model.view.wavelength_nm).c_str());
+  ui::heading(model, trf("Scanner response at {:.0f} nm", model.view.wavelength_nm).c_str());
   const auto response = angularResponse(m, model.view.wavelength_nm);
   drawBodies(model, response);
   const double head_on = 100 * atWavelength(m.reflectance, model.view.wavelength_nm);
@@ -150,14 +149,14 @@ void drawAngles(const Model& model, const PhysicalMaterial& m) {
   plot.line(own, tone::kStation);
   if (plot.hovered()) {
     const auto degrees = static_cast<std::size_t>(std::lround(plot.pointer() * 80));
-    ImGui::SetTooltip("%zu°: equals a white target of %.1f %% at normal incidence", degrees,
-                      static_cast<double>(response[degrees]));
+    ui::tooltip(trf("{}°: equals a white target of {:.1f} % at normal incidence", degrees,
+                    static_cast<double>(response[degrees])));
   }
   ui::dimWrapped("Relative to a white Lambertian target at normal incidence; thin line: Lambert's cosine law");
 }
 
 std::string reading(const ExpectedReturn& expected) {
-  if (expected.fate != ReturnFate::returned) return fateName(expected.fate);
+  if (expected.fate != ReturnFate::returned) return tr(fateName(expected.fate));
   return fmt::format("{:.2f}\n{:.1f} mm", expected.intensity, expected.sigma_m * 1000);
 }
 

@@ -32,7 +32,7 @@ void number(const char* label, const char* id, double& value, double most, const
 
 void spectrum(const char* title, const char* id, std::array<double, 7>& percent) {
   for (std::size_t i = 0; i < percent.size(); ++i)
-    number(fmt::format("{}{:.0f} nm", i == 0 ? title : "", MaterialEdit::kWavelengths_nm[i]).c_str(),
+    number(fmt::format("{}{:.0f} nm", i == 0 ? tr(title) + ", " : "", MaterialEdit::kWavelengths_nm[i]).c_str(),
            fmt::format("###{}{}", id, i).c_str(), percent[i], 100, "%", 1);
 }
 
@@ -71,7 +71,7 @@ void drawFields(MaterialEdit& edit) {
   if (!ui::beginProperties("material-fields", 0.42F)) return;
   text("Name", "###label", "Hall plaster", edit.label);
   text("Id", "###id", "plaster_of_the_hall", edit.id);
-  spectrum("Reflects, ", "reflectance", edit.reflectance_percent);
+  spectrum("Reflectance", "reflectance", edit.reflectance_percent);
   number("Roughness σ", "###roughness", edit.roughness_deg, 60, "°", 1);
   number("Gloss slope", "###gloss", edit.gloss_slope, 1, "", 3);
   ui::propertyLabel("Metal");
@@ -83,7 +83,7 @@ void drawFields(MaterialEdit& edit) {
     ImGui::Checkbox("###pane", &edit.pane);
   }
   if (edit.pane && !edit.metal) {
-    spectrum("Transmittance, ", "transmittance", edit.transmittance_percent);
+    spectrum("Transmittance", "transmittance", edit.transmittance_percent);
     number("Thickness", "###thickness", edit.thickness_mm, 50, "mm", 1);
     ui::propertyLabel("Panes");
     double panes = edit.panes;
@@ -103,7 +103,7 @@ void keep(MaterialCardState& state, Actions& actions, const MaterialEdit& edit) 
     actions.report("Cannot save the material", written.error());
     return;
   }
-  if (!actions.start(MaterialsOptions{{.libraries = {file}}}, "Save material " + edit.label)) return;
+  if (!actions.start(MaterialsOptions{{.libraries = {file}}}, trf("Save material {}", edit.label))) return;
   actions.choose(ChosenMaterial{edit.id});
   state.edit.reset();
 }

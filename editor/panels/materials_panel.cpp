@@ -32,13 +32,13 @@ const PhysicalMaterial* materialById(const MaterialAssignment& assignment, const
 void drawCoverage(const Model& model, const MaterialReport& report) {
   const auto tone = report.coverage >= 0.95 ? tone::kGood : tone::kWarning;
   if (model.fonts.bold != nullptr) ImGui::PushFont(model.fonts.bold);
-  ImGui::Text("%.1f %% of the area assigned", report.coverage * 100);
+  ImGui::TextUnformatted(trf("{:.1f} % of the area assigned", report.coverage * 100).c_str());
   if (model.fonts.bold != nullptr) ImGui::PopFont();
   ui::meter(model, report.coverage, tone);
   double weak = 0;
   for (const auto& row : report.by_class) weak += row.weak_m2;
-  ui::dimWrapped(fmt::format("{:.0f} m² total, {:.0f} m² unassigned, {:.0f} m² low confidence", report.area_m2,
-                             report.area_m2 * (1 - report.coverage), weak));
+  ui::dimWrapped(trf("{:.0f} m² total, {:.0f} m² unassigned, {:.0f} m² low confidence", report.area_m2,
+                     report.area_m2 * (1 - report.coverage), weak));
 }
 
 void drawMaterialButtons(const Model& model, Actions& actions) {
@@ -51,7 +51,7 @@ void drawMaterialButtons(const Model& model, Actions& actions) {
     actions.askForFile(FileDialogState::Purpose::openFile, "Assignment rules", "Use", {".json"}, "",
                        [](Actions& later, const std::filesystem::path& file) {
                          later.start(MaterialsOptions{{.rules = file}},
-                                     "Assign materials by " + file.filename().string());
+                                     trf("Assign materials by {}", file.filename().string()));
                        });
 }
 
@@ -64,7 +64,7 @@ bool drawMaterial(const Model& model, Actions& actions, const PhysicalMaterial* 
     actions.choose(ChosenMaterial{id, unassigned});
   }
   if (material != nullptr) dragMaterial(*material);
-  if (material != nullptr) ui::tooltip(material->id + "\nDrag onto a surface to assign");
+  if (material != nullptr) ui::tooltip(material->id + "\n" + tr("Drag onto a surface to assign"));
   ImGui::SameLine(0, 0);
   ui::swatch(model, materialColour(material));
   ImGui::SameLine();
@@ -83,7 +83,7 @@ void drawUses(const Model& model, Actions& actions, const MaterialResult& result
   const auto flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX;
   if (!ImGui::BeginTable("uses", 4, flags, {0, height})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("Material", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn(ui::Label("Material"), ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("m²", ImGuiTableColumnFlags_WidthFixed, model.px(52));
   ImGui::TableSetupColumn(fmt::format("{:.0f}", model.view.wavelength_nm).c_str(), ImGuiTableColumnFlags_WidthFixed,
                           model.px(40));
@@ -121,7 +121,7 @@ void drawLibrary(const Model& model, MaterialsState& state, Actions& actions, fl
   if (!ImGui::BeginTable("library", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX,
                          {0, left}))
     return;
-  ImGui::TableSetupColumn("Material", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn(ui::Label("Material"), ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("share", ImGuiTableColumnFlags_WidthFixed, model.px(40));
   for (const auto& material : model.offeredMaterials()) {
     Product searched;
@@ -147,7 +147,7 @@ void drawBulk(const Model& model, MaterialsState& state, Actions& actions) {
   const auto* material = model.offeredMaterial(model.material.id);
   const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
   const std::string none = meant.empty() ? "No products match" : "";
-  if (ui::button(fmt::format("{}  Select {}###bulk-select", ICON_POINTER, meant.size()).c_str(), none, {width, 0}))
+  if (ui::button(trf("{}  Select {}###bulk-select", ICON_POINTER, meant.size()).c_str(), none, {width, 0}))
     actions.select(meant);
   ImGui::SameLine();
   const auto why = !none.empty()         ? none
@@ -155,7 +155,7 @@ void drawBulk(const Model& model, MaterialsState& state, Actions& actions) {
                                          : model.session.whyNot("materials");
   if (ui::button(ICON_PAINT "  Assign selected###bulk-assign", why, {width, 0}))
     actions.start(MaterialsOptions{{.assign = {{state.bulk, material->id}}}},
-                  fmt::format("Assign {} to {} products", material->label, meant.size()));
+                  trf("Assign {} to {} products", material->label, meant.size()));
 }
 
 void drawListSwitch(MaterialsState& state) {

@@ -32,11 +32,12 @@ void drawResult(const Model& model, const SimplifiedModel& light) {
     ui::property("Triangles after", fmt::format("{}  ({:.1f} %)", groupedDigits(all.triangles_after), fraction * 100));
     ui::property("Largest deviation", fmt::format("{:.2f} mm", all.max_deviation_m * 1000));
     ui::property("Mean deviation", fmt::format("{:.3f} mm", all.mean_deviation_m * 1000));
-    ui::property("Normal deviation", fmt::format("{:.2f}° mean", all.mean_turn_rad / kRadPerDeg));
+    ui::property("Normal deviation", trf("{:.2f}° mean", all.mean_turn_rad / kRadPerDeg));
     ui::endProperties();
   }
   if (light.request.budget.value_or(0) > 0 && all.triangles_after > *light.request.budget)
-    ImGui::TextColored(colour(tone::kWarning), "%s  Budget not reachable within this deviation", ICON_WARNING);
+    ImGui::TextColored(colour(tone::kWarning), "%s  %s", ICON_WARNING,
+                       tr("Budget not reachable within this deviation").c_str());
 }
 
 std::string lengthText(double metres) {
@@ -63,8 +64,8 @@ void drawHistogram(const Model& model, Actions& actions) {
     const bool last = i + 1 == area.size();
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ui::dimText(last ? "over " + lengthText(DeviationHistogram::kLimits_m[i - 1])
-                     : "to " + lengthText(DeviationHistogram::kLimits_m[i]));
+    ui::dimText(last ? trf("over {}", lengthText(DeviationHistogram::kLimits_m[i - 1]))
+                     : trf("to {}", lengthText(DeviationHistogram::kLimits_m[i])));
     ImGui::TableNextColumn();
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
@@ -101,9 +102,9 @@ void drawWorst(const Model& model, Actions& actions, const SimplifiedModel& ligh
   ui::heading(model, "Largest deviations");
   if (!ImGui::BeginTable("worst", 3, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("Product", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn(ui::Label("Product"), ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("mm", ImGuiTableColumnFlags_WidthFixed, model.px(44));
-  ImGui::TableSetupColumn("Triangles", ImGuiTableColumnFlags_WidthFixed, model.px(96));
+  ImGui::TableSetupColumn(ui::Label("Triangles"), ImGuiTableColumnFlags_WidthFixed, model.px(96));
   ImGui::TableHeadersRow();
   for (std::size_t i = 0; i < shown; ++i) {
     const auto& loss = light.products[order[i]];
@@ -142,23 +143,23 @@ void drawPreview(const Model& model, const OptimiseState& state, Actions& action
   else if (preview.preparing || !preview.shown)
     ui::dimText("Preparing all levels …");
   else if (preview.triangles > budget)
-    ImGui::TextColored(colour(tone::kWarning), "%s  Minimum about %s at this deviation", ICON_WARNING,
-                       groupedDigits(preview.least).c_str());
+    ImGui::TextColored(colour(tone::kWarning), "%s  %s", ICON_WARNING,
+                       trf("Minimum about {} at this deviation", groupedDigits(preview.least)).c_str());
   else
-    ui::dimText(fmt::format("{} triangles in view", groupedDigits(preview.triangles)));
+    ui::dimText(trf("{} triangles in view", groupedDigits(preview.triangles)));
 }
 
 void chooseEngine(std::string& engine) {
   const auto choices = engineChoices();
   const auto chosen =
       std::find_if(choices.begin(), choices.end(), [&](const EngineChoice& choice) { return choice.id == engine; });
-  const bool open = ImGui::BeginCombo("###engine", chosen->title);
+  const bool open = ImGui::BeginCombo("###engine", tr(chosen->title).c_str());
   if (!open) {
     ui::tooltip(chosen->help);
     return;
   }
   for (const auto& choice : choices) {
-    if (ImGui::Selectable(choice.title, engine == choice.id)) engine = choice.id;
+    if (ImGui::Selectable(ui::Label(choice.title), engine == choice.id)) engine = choice.id;
     ui::tooltip(choice.help);
   }
   ImGui::EndCombo();
@@ -171,9 +172,9 @@ void draw(const Model& model, OptimiseState& state, Actions& actions) {
     return;
   }
   const auto before = sceneTriangleCount(*document.imported);
-  ui::dimText(fmt::format("The imported model has {} triangles.", groupedDigits(before)));
+  ui::dimText(trf("The imported model has {} triangles.", groupedDigits(before)));
   ui::gap(model, 2);
-  ImGui::Checkbox("Lossless only", &state.only_lossless);
+  ImGui::Checkbox(ui::Label("Lossless only"), &state.only_lossless);
   ui::tooltip("Merges planar regions without moving any surface");
   const auto budget = static_cast<std::uint64_t>(std::llround(state.budget_fraction * static_cast<double>(before)));
   ImGui::BeginDisabled(state.only_lossless);
@@ -183,7 +184,7 @@ void draw(const Model& model, OptimiseState& state, Actions& actions) {
     if (ui::numberSlider("###budget", percent, 1, 100,
                          {.kind = {.unit = "%", .least = 0.01, .most = 100}, .decimals = 0}))
       state.budget_fraction = percent / 100;
-    ui::property(" ", groupedDigits(budget) + " triangles");
+    ui::property(" ", trf("{} triangles", groupedDigits(budget)));
     ui::propertyLabel("Max deviation");
     ui::numberSlider("###deviation", state.max_deviation_mm, 0.5, 100,
                      {.kind = {.unit = "mm", .least = 0.001, .most = 10000}, .decimals = 1}, nullptr, true);
@@ -192,11 +193,11 @@ void draw(const Model& model, OptimiseState& state, Actions& actions) {
     ui::endProperties();
   }
   ImGui::BeginDisabled(!document.collision);
-  ImGui::Checkbox("Prioritise visible surfaces", &state.by_view);
+  ImGui::Checkbox(ui::Label("Prioritise visible surfaces"), &state.by_view);
   ImGui::EndDisabled();
   ui::tooltip(document.collision ? "Weights errors by visibility from the walkable surface"
                                  : "Compute collision shapes first (Collision panel)");
-  ImGui::Checkbox("Live preview", &state.live);
+  ImGui::Checkbox(ui::Label("Live preview"), &state.live);
   ui::tooltip("The view follows the sliders. Choose Optimise to measure and keep the result.");
   if (state.live) drawPreview(model, state, actions, budget);
   ImGui::EndDisabled();

@@ -112,7 +112,8 @@ void drawRow(const Model& model, OutlinerState& state, Actions& actions, const s
   const float count_width = count.empty() ? 0 : ImGui::CalcTextSize(count.c_str()).x + model.px(8);
   const float eye = model.px(24);
   ImGui::BeginDisabled(hidden || excluded);
-  ui::fitted(node.label, right - ImGui::GetCursorPosX() - count_width - eye);
+  const bool named = node.kind != OutlinerRow::Kind::group;
+  ui::fitted(named ? node.label : tr(node.label), right - ImGui::GetCursorPosX() - count_width - eye);
   ImGui::EndDisabled();
   if (!count.empty()) {
     ImGui::SameLine(right - eye - count_width);
@@ -134,8 +135,8 @@ void drawUnderlayEye(const Model& model, Actions& actions, const Underlay& under
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(model.px(3), 0));
   if (ui::iconButton(underlay.visible ? ICON_EYE "###eye" : ICON_EYE_OFF "###eye", underlay.visible ? "Hide" : "Show",
                      model.session.whyNot("underlay")))
-    underlay.visible ? actions.start(UnderlayOptions{.hide = underlay.name}, "Hide " + underlay.name)
-                     : actions.start(UnderlayOptions{.show = underlay.name}, "Show " + underlay.name);
+    underlay.visible ? actions.start(UnderlayOptions{.hide = underlay.name}, trf("Hide {}", underlay.name))
+                     : actions.start(UnderlayOptions{.show = underlay.name}, trf("Show {}", underlay.name));
   ImGui::PopStyleVar();
   ImGui::PopStyleColor();
 }
@@ -147,12 +148,12 @@ void frameUnderlay(const Model& model, Actions& actions, const Underlay& underla
 
 void underlayMenu(const Model& model, Actions& actions, const Underlay& underlay) {
   if (!ImGui::BeginPopupContextItem("###underlay-menu")) return;
-  if (ImGui::MenuItem(ICON_EXPAND "  Frame###underlay-frame")) frameUnderlay(model, actions, underlay);
+  if (ImGui::MenuItem(ui::Label(ICON_EXPAND "  Frame###underlay-frame"))) frameUnderlay(model, actions, underlay);
   const auto why = model.session.whyNot("underlay");
-  if (ImGui::MenuItem(ICON_MOVE "  Move…###underlay-move", nullptr, false, why.empty()))
+  if (ImGui::MenuItem(ui::Label(ICON_MOVE "  Move…###underlay-move"), nullptr, false, why.empty()))
     actions.openForm(UnderlayOptions{.move = underlay.name, .at = underlay.file_from_cloud.translation});
-  if (ImGui::MenuItem(ICON_TRASH "  Remove (keeps the file)###underlay-remove", nullptr, false, why.empty()))
-    actions.start(UnderlayOptions{.remove = underlay.name}, "Remove underlay " + underlay.name);
+  if (ImGui::MenuItem(ui::Label(ICON_TRASH "  Remove (keeps the file)###underlay-remove"), nullptr, false, why.empty()))
+    actions.start(UnderlayOptions{.remove = underlay.name}, trf("Remove underlay {}", underlay.name));
   ImGui::EndPopup();
 }
 
@@ -170,7 +171,7 @@ void drawUnderlays(const Model& model, Actions& actions) {
     if (pressed && ImGui::IsMouseDoubleClicked(0)) frameUnderlay(model, actions, u);
     ImGui::SetItemAllowOverlap();
     underlayMenu(model, actions, u);
-    ui::tooltip(fmt::format("{}\n{} points\nDouble-click to frame", u.file, groupedDigits(u.points)));
+    ui::tooltip(trf("{}\n{} points\nDouble-click to frame", u.file, groupedDigits(u.points)));
     ImGui::SameLine(left + model.px(17));
     ImGui::TextColored(colour(tone::kPartIcon), "%s", ICON_UNDERLAY);
     ImGui::SameLine(left + model.px(39));

@@ -7,24 +7,24 @@ namespace standpoint {
 
 // A new panel is one file, which has its state and its function, and one line here: the function, id, title, icon, and
 // the areas in the workspaces Environment, Optimise, Materials, Georeference, Survey, Instrument and Inspect.
-#define STANDPOINT_PANELS(ROW)                                                           \
-  ROW(drawMaterialsPanel, "materials", "Materials", ICON_PAINT, N, N, L, N, N, N, N)     \
-  ROW(drawSurveyPanel, "survey", "Survey", ICON_STATION, N, N, N, N, L, L, L)            \
-  ROW(drawOutlinerPanel, "outliner", "Outliner", ICON_LIST, L, L, L, L, L, N, L)         \
-  ROW(drawGuidePanel, "guide", "Guide", ICON_FLAG, L, L, L, L, L, L, L)                  \
-  ROW(drawScanPanel, "scan", "Scan", ICON_PLAY, N, N, N, N, R, N, N)                     \
-  ROW(drawPlanPanel, "plan", "Plan", ICON_EYE, N, N, N, N, R, N, N)                      \
-  ROW(drawInstrumentPanel, "instrument", "Instrument", ICON_TABLET, N, N, N, N, N, R, N) \
-  ROW(drawQualityPanel, "quality", "Quality", ICON_CHECK_CIRCLE, N, N, N, N, R, R, R)    \
-  ROW(drawMaterialCardPanel, "material", "Material", ICON_PAINT, N, N, R, N, N, N, N)    \
-  ROW(drawVerifyPanel, "verify", "Measured", ICON_CHECK_CIRCLE, N, N, R, N, N, N, R)     \
-  ROW(drawOptimisePanel, "optimise", "Optimise", ICON_COMPRESS, N, R, N, N, N, N, N)     \
-  ROW(drawGeoreferencePanel, "georeference", "Place", ICON_GLOBE, N, N, N, R, N, N, N)   \
-  ROW(drawInspectorPanel, "inspector", "Inspector", ICON_INFO, R, R, R, R, R, N, R)      \
-  ROW(drawCollisionPanel, "collision", "Collision", ICON_WALK, R, N, N, N, N, N, N)      \
-  ROW(drawFindingsPanel, "findings", "Findings", ICON_FLAG, N, N, B, N, N, N, N)         \
-  ROW(drawTargetsPanel, "targets", "Targets", ICON_TARGET, N, N, N, N, B, N, N)          \
-  ROW(drawLogPanel, "log", "Log", ICON_LOG, B, B, B, B, B, B, B)                         \
+#define STANDPOINT_PANELS(ROW)                                                                \
+  ROW(drawMaterialsPanel, "materials", "Materials", ICON_PAINT, N, N, L, N, N, N, N)          \
+  ROW(drawSurveyPanel, "survey", "Survey", ICON_STATION, N, N, N, N, L, L, L)                 \
+  ROW(drawOutlinerPanel, "outliner", "Outliner", ICON_LIST, L, L, L, L, L, N, L)              \
+  ROW(drawGuidePanel, "guide", "Guide", ICON_FLAG, L, L, L, L, L, L, L)                       \
+  ROW(drawScanPanel, "scan", "Scan", ICON_PLAY, N, N, N, N, R, N, N)                          \
+  ROW(drawPlanPanel, "plan", "Plan", ICON_EYE, N, N, N, N, R, N, N)                           \
+  ROW(drawInstrumentPanel, "instrument", "Instrument", ICON_TABLET, N, N, N, N, N, R, N)      \
+  ROW(drawQualityPanel, "quality", "Quality", ICON_CHECK_CIRCLE, N, N, N, N, R, R, R)         \
+  ROW(drawMaterialCardPanel, "material", "Material", ICON_PAINT, N, N, R, N, N, N, N)         \
+  ROW(drawVerifyPanel, "verify", "Measured", ICON_CHECK_CIRCLE, N, N, R, N, N, N, R)          \
+  ROW(drawOptimisePanel, "optimise", "Optimise", ICON_COMPRESS, N, R, N, N, N, N, N)          \
+  ROW(drawGeoreferencePanel, "georeference", "Georeference", ICON_GLOBE, N, N, N, R, N, N, N) \
+  ROW(drawInspectorPanel, "inspector", "Inspector", ICON_INFO, R, R, R, R, R, N, R)           \
+  ROW(drawCollisionPanel, "collision", "Collision", ICON_WALK, R, N, N, N, N, N, N)           \
+  ROW(drawFindingsPanel, "findings", "Findings", ICON_FLAG, N, N, B, N, N, N, N)              \
+  ROW(drawTargetsPanel, "targets", "Targets", ICON_TARGET, N, N, N, N, B, N, N)               \
+  ROW(drawLogPanel, "log", "Log", ICON_LOG, B, B, B, B, B, B, B)                              \
   ROW(drawTasksPanel, "tasks", "Tasks", ICON_TASKS, B, B, B, B, B, B, B)
 
 #define DECLARED(function, id, title, icon, ...) void function(const Model&, PanelStates&, Actions&);

@@ -64,8 +64,7 @@ void drawWishes(const Model& model, Actions& actions) {
 }
 
 void coverageRow(const std::string& name, const PlanCoverage& row) {
-  ui::property(name.empty() ? "(none)" : name.c_str(),
-               fmt::format("{}  of {:.1f} m²", percent(row.coverage), row.exposed_m2));
+  ui::property(name.empty() ? "(none)" : name.c_str(), trf("{}  of {:.1f} m²", percent(row.coverage), row.exposed_m2));
 }
 
 void drawCoverage(const Model& model, const PlanAnswer& answer) {
@@ -83,7 +82,7 @@ void drawCoverage(const Model& model, const PlanAnswer& answer) {
 void drawStations(const Model& model, const PlanAnswer& answer) {
   ui::heading(model, "Stations");
   if (!ImGui::BeginTable("planned", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
-  for (const char* title : {"Station", "Sees", "Points", "File"}) ImGui::TableSetupColumn(title);
+  for (const char* title : {"Station", "Sees", "Points", "File"}) ImGui::TableSetupColumn(ui::Label(title));
   ImGui::TableHeadersRow();
   const auto row = [](const std::string& name, const std::string& sees, std::int64_t points, std::int64_t bytes) {
     ImGui::TableNextRow();
@@ -96,7 +95,7 @@ void drawStations(const Model& model, const PlanAnswer& answer) {
   for (const auto& s : answer.stations) row(s.station, fmt::format("{:.0f} m²", s.seen_m2), s.points, s.bytes);
   row("all", percent(answer.coverage), answer.points, answer.bytes);
   ImGui::EndTable();
-  ui::dimText("Time on site: " + durationText(answer.instrument_seconds));
+  ui::dimText(trf("Time on site: {}", durationText(answer.instrument_seconds)));
 }
 
 void drawPairs(const Model& model, const std::vector<PlanPair>& pairs) {
@@ -105,7 +104,7 @@ void drawPairs(const Model& model, const std::vector<PlanPair>& pairs) {
   if (!ui::beginProperties("pairs", 0.56F)) return;
   for (const auto& pair : pairs)
     ui::property(fmt::format("{} – {}", pair.a, pair.b).c_str(),
-                 percent(pair.overlap) + (pair.overlap < kLowOverlap ? "   low overlap" : ""));
+                 percent(pair.overlap) + (pair.overlap < kLowOverlap ? tr("   low overlap") : ""));
   ui::endProperties();
 }
 
@@ -124,7 +123,7 @@ void drawHoles(const Model& model, Actions& actions, const std::vector<PlanHole>
 }
 
 void drawProposal(const Model& model, Actions& actions, const PlanProposal& proposed) {
-  const auto text = fmt::format(ICON_STATION "  Add station: +{:.0f} m²###add-proposed", proposed.adds_m2);
+  const auto text = trf(ICON_STATION "  Add station: +{:.0f} m²###add-proposed", proposed.adds_m2);
   if (!ui::button(text.c_str(), model.session.whyNot("station"), {-FLT_MIN, 0},
                   "Adds a station at the place with the largest coverage gain"))
     return;
@@ -132,7 +131,7 @@ void drawProposal(const Model& model, Actions& actions, const PlanProposal& prop
   for (std::size_t i = stations.size() + 1;; ++i) {
     const auto name = fmt::format("S{}", i);
     if (std::any_of(stations.begin(), stations.end(), [&](const Station& s) { return s.name == name; })) continue;
-    actions.start(StationOptions{.add = name, .at = proposed.at}, "Add station " + name);
+    actions.start(StationOptions{.add = name, .at = proposed.at}, trf("Add station {}", name));
     return;
   }
 }
@@ -145,9 +144,8 @@ void drawPlanPanel(const Model& model, PanelStates&, Actions& actions) {
     return;
   }
   const auto* instrument = model.instrument(model.scan_choice.instrument);
-  ui::dimText(instrument == nullptr
-                  ? "Choose an instrument in the Scan panel"
-                  : fmt::format("{} {}, as set in the Scan panel", instrument->maker, instrument->model));
+  ui::dimText(instrument == nullptr ? tr("Choose an instrument in the Scan panel")
+                                    : trf("{} {}, as set in the Scan panel", instrument->maker, instrument->model));
   drawWishes(model, actions);
   const std::string why =
       instrument == nullptr ? "Choose an instrument in the Scan panel first" : model.session.whyNot("plan");
@@ -158,7 +156,7 @@ void drawPlanPanel(const Model& model, PanelStates&, Actions& actions) {
   if (answer == nullptr) return;
   if (last->revision != model.session.revision()) ui::dimWrapped("Coverage is out of date. Compute it again.");
   ui::meter(model, answer->coverage, tone::kGood);
-  ui::dimText(fmt::format("{} of {:.0f} m² of exposed surface", percent(answer->coverage), answer->exposed_m2));
+  ui::dimText(trf("{} of {:.0f} m² of exposed surface", percent(answer->coverage), answer->exposed_m2));
   if (answer->proposed) drawProposal(model, actions, *answer->proposed);
   drawStations(model, *answer);
   drawPairs(model, answer->pairs);

@@ -9,6 +9,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/sentences.h"
 #include "project/survey/assess_verb.h"
 
 namespace standpoint {
@@ -28,7 +29,7 @@ Sign signOf(Verdict verdict) {
   static constexpr Sign kSigns[] = {{tone::kGood, ICON_CHECK, "Good"},
                                     {tone::kWarning, ICON_WARNING, "To check"},
                                     {tone::kBad, ICON_CLOSE, "Bad"},
-                                    {tone::kDim, ICON_HELP, "Not known"}};
+                                    {tone::kDim, ICON_HELP, "Unknown"}};
   return kSigns[static_cast<int>(verdict)];
 }
 
@@ -50,9 +51,9 @@ void drawProfile(QualityState& state) {
   ui::propertyLabel("Limits for");
   ImGui::SetNextItemWidth(-1);
   const auto chosen = std::find_if(all.begin(), all.end(), [&](const auto& c) { return c.value == state.profile; });
-  if (ImGui::BeginCombo("###profile", chosen->name)) {
+  if (ImGui::BeginCombo("###profile", tr(chosen->name).c_str())) {
     for (const auto& choice : all)
-      if (ImGui::Selectable(choice.name, choice.value == state.profile)) state.profile = choice.value;
+      if (ImGui::Selectable(ui::Label(choice.name), choice.value == state.profile)) state.profile = choice.value;
     ImGui::EndCombo();
   }
   ui::tooltip("Level of accuracy: the limits in millimetres scale with it");
@@ -73,7 +74,7 @@ void goTo(const Model& model, Actions& actions, const AssessPlace& place) {
 }
 
 std::string placeText(const AssessPlace& place) {
-  std::string text = "Go to the worst place";
+  std::string text = tr("Go to the worst place");
   if (!place.stations.empty()) text += fmt::format("\n{}", fmt::join(place.stations, " – "));
   if (const auto& p = place.product) text += fmt::format("\n{} {}", p->ifc_class, p->name.empty() ? p->id : p->name);
   return text;
@@ -83,7 +84,7 @@ std::string placeText(const AssessPlace& place) {
 std::string rowText(const AssessRow& row) {
   std::string text = fmt::format("{}: {}", row.label, valueText(row));
   if (!row.note.empty()) text += "\n" + row.note;
-  return text + fmt::format("\nGood {}, bad {} ({})", row.good_text, row.bad_text, row.limit_source);
+  return text + "\n" + trf("Good {}, bad {} ({})", row.good_text, row.bad_text, row.limit_source);
 }
 
 void drawRow(const Model& model, Actions& actions, const AssessRow& row, int index) {
@@ -94,7 +95,7 @@ void drawRow(const Model& model, Actions& actions, const AssessRow& row, int ind
   drawSign(row.verdict);
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
-  ui::wrapped(row.label);
+  ui::wrapped(tr(row.label));
   ui::tooltip(rowText(row));
   for (const auto& text : {valueText(row), row.good_text}) {
     ImGui::TableNextColumn();
@@ -110,9 +111,9 @@ void drawRow(const Model& model, Actions& actions, const AssessRow& row, int ind
 void drawRows(const Model& model, Actions& actions, const std::vector<AssessRow>& rows) {
   if (!ImGui::BeginTable("figures", 5, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, model.px(16));
-  ImGui::TableSetupColumn("Figure", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("Value", ImGuiTableColumnFlags_WidthFixed, model.px(62));
-  ImGui::TableSetupColumn("Limit", ImGuiTableColumnFlags_WidthFixed, model.px(62));
+  ImGui::TableSetupColumn(ui::Label("Figure"), ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn(ui::Label("Value"), ImGuiTableColumnFlags_WidthFixed, model.px(62));
+  ImGui::TableSetupColumn(ui::Label("Limit"), ImGuiTableColumnFlags_WidthFixed, model.px(62));
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, model.px(26));
   ImGui::TableHeadersRow();
   for (std::size_t k = 0; k < rows.size(); ++k)
@@ -134,13 +135,13 @@ void drawVerdict(const AssessAnswer& answer) {
   const auto verdict = answer.bad > 0 ? Verdict::bad : answer.warn > 0 ? Verdict::warn : Verdict::good;
   drawSign(verdict);
   ImGui::SameLine();
-  ui::wrapped(verdictText(answer) + ", by " + answer.profile);
+  ui::wrapped(trf("{}, by {}", trSentence(verdictText(answer)), answer.profile));
 }
 
 // Of what was assessed: later changes of the project are not in it.
 void drawSave(const AssessAnswer& answer, Actions& actions) {
   if (!ui::button(ICON_SAVE "  Save report…###save-quality", {}, {-FLT_MIN, 0},
-                  "A page to print (.html), or a table (.csv)"))
+                  "Printable page (.html) or table (.csv)"))
     return;
   actions.askForFile(FileDialogState::Purpose::saveFile, "Save report", "Save", {".html", ".csv"}, "quality.html",
                      [answer](Actions& later, const std::filesystem::path& chosen) {

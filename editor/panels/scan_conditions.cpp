@@ -22,13 +22,14 @@ namespace {
 
 // A part that says what is in it while it is folded.
 bool folded(const char* title, const std::string& summary, const char* id) {
-  return ImGui::CollapsingHeader(fmt::format("{}   {}###{}", title, summary, id).c_str());
+  return ImGui::CollapsingHeader(fmt::format("{}   {}###{}", tr(title), summary, id).c_str());
 }
 
 void drawEffects(const Model& model, ScanChoice& asked) {
   if (!folded("Effects", effectsSummary(asked.effects), "effects")) return;
   bool ideal = asked.effects == Effects::none();
-  if (ImGui::Checkbox("Ideal (no effects)###ideal", &ideal)) asked.effects = ideal ? Effects::none() : Effects();
+  if (ImGui::Checkbox(ui::Label("Ideal (no effects)###ideal"), &ideal))
+    asked.effects = ideal ? Effects::none() : Effects();
   ui::tooltip("Each pulse returns the exact first surface on its axis: reference data without errors");
   if (!ImGui::BeginTable("effects", 2, ImGuiTableFlags_RowBg)) return;
   ImGui::TableSetupColumn("effect", ImGuiTableColumnFlags_WidthFixed, model.px(118));
@@ -37,12 +38,12 @@ void drawEffects(const Model& model, ScanChoice& asked) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     bool on = asked.effects.has(effect.effect);
-    if (ImGui::Checkbox(fmt::format("{}###effect-{}", readableEffect(effect), effect.name).c_str(), &on))
+    if (ImGui::Checkbox(fmt::format("{}###effect-{}", tr(readableEffect(effect)), effect.name).c_str(), &on))
       asked.effects = on ? asked.effects.with(effect.effect) : asked.effects.without(effect.effect);
     ImGui::TableNextColumn();
     ImGui::AlignTextToFramePadding();
     ImGui::PushStyleColor(ImGuiCol_Text, tone::kDim);
-    ui::fitted(std::string(effect.description), ImGui::GetContentRegionAvail().x);
+    ui::fitted(tr(effect.description), ImGui::GetContentRegionAvail().x);
     ImGui::PopStyleColor();
   }
   ImGui::EndTable();
@@ -102,7 +103,7 @@ void drawPanorama(ScanChoice& asked, const Instrument& instrument, const ScanSet
   if (!asked.panorama) return;
   ui::propertyLabel("Panorama size");
   const auto own = instrument.camera.columns;
-  const std::string as_delivered = fmt::format("{}, native", sizeText(own));
+  const std::string as_delivered = trf("{}, native", sizeText(own));
   if (ImGui::BeginCombo("###panorama-size", asked.panorama_columns == 0 ? as_delivered.c_str()
                                                                         : sizeText(asked.panorama_columns).c_str())) {
     if (ImGui::Selectable(as_delivered.c_str(), asked.panorama_columns == 0)) asked.panorama_columns = 0;
@@ -117,13 +118,13 @@ void drawPanorama(ScanChoice& asked, const Instrument& instrument, const ScanSet
 std::string extrasSummary(const ScanChoice& asked, bool resume) {
   std::string text;
   const auto add = [&](bool on, const char* word) {
-    if (on) text += (text.empty() ? "" : ", ") + std::string(word);
+    if (on) text += (text.empty() ? "" : ", ") + tr(word);
   };
   add(asked.truth, "truth");
   add(asked.panorama, "panorama");
   add(!asked.compensator, "no compensator");
   add(!resume, "restart");
-  return text.empty() ? "points only" : text;
+  return text.empty() ? tr("points only") : text;
 }
 
 void drawExtras(ScanState& state, ScanChoice& asked, const Instrument& instrument, const ScanSettings& settings) {
@@ -164,7 +165,7 @@ void drawScanConditions(const Model& model, ScanState& state, ScanChoice& asked,
 }
 
 std::string whyNotConditions(const ScanChoice& asked, const ScanSettings& settings) {
-  if (const auto checked = check(asked.weather); !checked) return "Weather: " + describe(checked.error());
+  if (const auto checked = check(asked.weather); !checked) return trf("Weather: {}", describe(checked.error()));
   if (asked.panorama && !settings.imaging)
     return "The current settings take no images. Choose other settings, or turn the panorama off.";
   return {};

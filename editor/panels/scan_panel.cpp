@@ -67,7 +67,7 @@ void drawSetting(ScanChoice& asked, const InstrumentSetting& setting) {
   const auto value =
       std::find_if(asked.settings.begin(), asked.settings.end(), [&](const auto& s) { return s.first == setting.key; });
   if (value == asked.settings.end()) return;
-  ui::propertyLabel(setting.label.c_str());
+  ui::propertyLabel(setting.label);  // the device's own word
   const auto current = std::find_if(setting.choices.begin(), setting.choices.end(),
                                     [&](const SettingChoice& c) { return c.value == value->second; });
   const std::string shown = current == setting.choices.end() ? value->second : current->label;
@@ -107,7 +107,8 @@ void drawOutput(const Model& model, ScanState& state, Actions& actions,
   ui::propertyLabel("Folder");
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x);
   const bool unsaved = model.session.folder().empty();
-  ImGui::InputTextWithHint("###folder", unsaved ? "Scans of unsaved projects" : "Project scans", &state.folder);
+  ImGui::InputTextWithHint("###folder", tr(unsaved ? "Scans of unsaved projects" : "Project scans").c_str(),
+                           &state.folder);
   if (state.folder.empty()) ui::tooltip(standardFolder(model).string());
   ImGui::SameLine();
   if (ui::iconButton(ICON_FOLDER_OPEN "###choose-folder", "Choose…"))
@@ -125,9 +126,9 @@ std::string stationsText(const Model& model, const ScanState& state) {
 void drawStationChoice(const Model& model, ScanState& state, Actions& actions) {
   ui::propertyLabel("Stations");
   if (!ImGui::BeginCombo("###stations",
-                         stationsText(model, state) == "all" ? "All" : stationsText(model, state).c_str()))
+                         stationsText(model, state) == "all" ? tr("All").c_str() : stationsText(model, state).c_str()))
     return;
-  if (ImGui::Selectable("All", state.all_stations)) state.all_stations = true;
+  if (ImGui::Selectable(ui::Label("All"), state.all_stations)) state.all_stations = true;
   const auto& stations = model.session.document().job->stations;
   for (int i = 0; i < static_cast<int>(stations.size()); ++i)
     if (ImGui::Selectable(fmt::format("{}###station{}", stations[static_cast<std::size_t>(i)].name, i).c_str(),
@@ -168,14 +169,13 @@ void drawForecast(const Model& model, const ScanState& state, const ScanChoice& 
   ui::property("Instrument time", wanted.size() > 1 ? fmt::format("{} × {}  =  {}", wanted.size(),
                                                                   durationText(seconds), durationText(count * seconds))
                                                     : durationText(seconds));
-  const char* waiting = wanted.empty() ? "no stations" : "…";
-  ui::property("Points", outlook ? fmt::format("about {:.1f} million", outlook->points / 1e6) : waiting);
+  const std::string waiting = wanted.empty() ? tr("no stations") : "…";
+  ui::property("Points", outlook ? trf("about {:.1f} million", outlook->points / 1e6) : waiting);
   ui::tooltip("Estimated from some thousand rays in clear air");
-  ui::property("As E57", outlook ? "about " + bytesText(outlook->bytes) : waiting);
-  ui::property("Pulses per station",
-               fmt::format("{:.1f} million,  {} × {}",
-                           static_cast<double>(settings.columns) * settings.rows * settings.passes / 1e6,
-                           settings.columns, settings.rows));
+  ui::property("As E57", outlook ? trf("about {}", bytesText(outlook->bytes)) : waiting);
+  ui::property("Pulses per station", trf("{:.1f} million,  {} × {}",
+                                         static_cast<double>(settings.columns) * settings.rows * settings.passes / 1e6,
+                                         settings.columns, settings.rows));
   ui::property("Range", fmt::format("{:.1f} – {:.0f} m", instrument.min_range_m, settings.max_range_m));
   ui::property("Wavelength", fmt::format("{:.0f} nm", instrument.wavelength_nm));
   ui::endProperties();
@@ -200,7 +200,7 @@ void start(const Model& model, ScanState& state, const ScanChoice& asked, Action
   options.output = file;
   options.resume = state.resume;
   state.started = asked;
-  actions.startScan(options, stations == "all" ? "Scan all stations" : "Scan station " + stations);
+  actions.startScan(options, stations == "all" ? tr("Scan all stations") : trf("Scan station {}", stations));
 }
 
 void drawLast(const Model& model) {
@@ -209,7 +209,7 @@ void drawLast(const Model& model) {
   ui::heading(model, "Last scan");
   if (!ui::beginProperties("last", 0.3F)) return;
   for (const auto& row : last->stations)
-    ui::property(row.station.c_str(), fmt::format("{} points in {:.1f} s", groupedDigits(row.points), row.seconds));
+    ui::property(row.station.c_str(), trf("{} points in {:.1f} s", groupedDigits(row.points), row.seconds));
   ui::endProperties();
 }
 

@@ -14,6 +14,7 @@
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/sentences.h"
 #include "project/survey/underlays.h"
 #include "survey/scanning/scan_age.h"
 #include "survey/stations/levelling.h"
@@ -115,7 +116,7 @@ bool smallButton(const char* icon, const char* text, const char* id, float width
 // Of the newest scan with the way to make it anew.
 void drawAge(const Model& model, Actions& actions, const std::string& age, bool newest) {
   ImGui::PushStyleColor(ImGuiCol_Text, tone::kWarning);
-  ui::wrapped(ICON_WARNING "  Scan is " + age);
+  ui::wrapped(std::string(ICON_WARNING "  ") + trf("Scan is {}", trSentence(age)));
   ImGui::PopStyleColor();
   if (newest && ui::button(ICON_PLAY "  Scan again…###scan-again", model.session.whyNot("scan"), {-FLT_MIN, 0}))
     actions.run("scan");
@@ -124,19 +125,20 @@ void drawAge(const Model& model, Actions& actions, const std::string& age, bool 
 void drawScans(const Model& model, Actions& actions, const Station& station) {
   if (station.scans.empty()) return;
   const auto& targets = model.session.document().job->targets;
-  ui::heading(model, fmt::format("Scans  {}", station.scans.size()).c_str());
+  ui::heading(model, trf("Scans  {}", station.scans.size()).c_str());
   for (std::size_t i = 0; i < station.scans.size(); ++i) {
     const auto& scan = station.scans[i];
     const std::filesystem::path file = scan.file;
     ImGui::PushID(static_cast<int>(i));
-    const bool open = ImGui::TreeNodeEx("###scan", ImGuiTreeNodeFlags_SpanAvailWidth, "%s   %s points",
-                                        file.filename().string().c_str(), groupedDigits(scan.points).c_str());
+    const bool open =
+        ImGui::TreeNodeEx("###scan", ImGuiTreeNodeFlags_SpanAvailWidth, "%s   %s", file.filename().string().c_str(),
+                          trf("{} points", groupedDigits(scan.points)).c_str());
     if (const auto age = ageText(scan, station, targets); !age.empty())
       drawAge(model, actions, age, i + 1 == station.scans.size());
     if (open) {
       if (ui::beginProperties("scan", 0.36F)) {
         ui::property("Instrument", scan.instrument);
-        for (const auto& [key, value] : scan.settings) ui::property(key.c_str(), value);
+        for (const auto& [key, value] : scan.settings) ui::property(key, value);
         ui::property("Points", groupedDigits(scan.points));
         ui::property("Pulses", groupedDigits(scan.pulses));
         ui::property("Instrument time", durationText(scan.instrument_seconds));
@@ -146,8 +148,8 @@ void drawScans(const Model& model, Actions& actions, const Station& station) {
       }
       std::error_code ignored;
       const bool there = std::filesystem::is_regular_file(file, ignored);
-      if (ui::button(ICON_EYE "  Show points###show-scan", there ? "" : "The file is missing: " + scan.file,
-                     {-FLT_MIN, 0}))
+      if (ui::button(ICON_EYE "  Show points###show-scan",
+                     there ? std::string() : trf("The file is missing: {}", scan.file), {-FLT_MIN, 0}))
         actions.showScan(file);
       ImGui::TreePop();
     }
@@ -181,7 +183,8 @@ void stationFieldRows(const Model& model, SurveyEdit& edit, Actions& actions, co
   const auto why = model.session.whyNot("station");
   ImGui::BeginDisabled(!why.empty());
   if (nameRow(model, actions, edit))
-    start(actions, edit, StationOptions{.rename = station.name, .name = edit.name}, "Rename station " + station.name);
+    start(actions, edit, StationOptions{.rename = station.name, .name = edit.name},
+          trf("Rename station {}", station.name));
   bool moved = placeRows(edit);
   ui::propertyLabel("Above floor");
   const double before = edit.height_m;
@@ -193,13 +196,13 @@ void stationFieldRows(const Model& model, SurveyEdit& edit, Actions& actions, co
   }
   moved = headingRow(edit, "Direction of the instrument's X axis, counter-clockwise from the file's X") || moved;
   moved = tiltRows(edit) || moved;
-  if (moved) start(actions, edit, movedStation(station, edit), "Move station " + station.name);
+  if (moved) start(actions, edit, movedStation(station, edit), trf("Move station {}", station.name));
   ImGui::EndDisabled();
   if (station.solved_pose) {
     const Pose& solved = *station.solved_pose;
-    ui::property("Registered", fmt::format("off by {:.1f} mm and {:.4f}°",
-                                           (solved.translation - station.true_pose.translation).norm() * 1000,
-                                           solved.rotation.angularDistance(station.true_pose.rotation) / kRadPerDeg));
+    ui::property("Registered",
+                 trf("off by {:.1f} mm and {:.4f}°", (solved.translation - station.true_pose.translation).norm() * 1000,
+                     solved.rotation.angularDistance(station.true_pose.rotation) / kRadPerDeg));
   }
   ui::endProperties();
 }
@@ -214,7 +217,7 @@ void drawStation(const Model& model, SurveyEdit& edit, Actions& actions, const S
     edit.tilt_deg = tilt.angle_rad > 1e-9 ? tilt.angle_rad / kRadPerDeg : 0;
     edit.tilt_towards_deg = edit.tilt_deg > 0 ? tilt.towards_rad / kRadPerDeg : 0;
   }
-  ui::heading(model, ("Station " + station.name).c_str());
+  ui::heading(model, (trf("Station {}", station.name)).c_str());
   stationFieldRows(model, edit, actions, station);
   drawProblem(edit);
   drawRefusal(model, station);
@@ -226,7 +229,7 @@ void drawStation(const Model& model, SurveyEdit& edit, Actions& actions, const S
     actions.run("scan");
   ImGui::SameLine();
   if (smallButton(ICON_TRASH, "Remove", "remove-station", width, model.session.whyNot("station"), "Remove station"))
-    actions.start(StationOptions{.remove = station.name}, "Remove station " + station.name);
+    actions.start(StationOptions{.remove = station.name}, trf("Remove station {}", station.name));
   const float half = columnWidth(2);
   actions.button("look-from-station", "Look from here", half);
   ImGui::SameLine();
@@ -249,19 +252,20 @@ void drawTarget(const Model& model, SurveyEdit& edit, Actions& actions, const Ta
     edit.heading_deg = headingOf(target.normal);
   }
   const bool plate = target.kind == TargetKind::checkerboard;
-  ui::heading(model, ("Target " + target.name).c_str());
+  ui::heading(model, (trf("Target {}", target.name)).c_str());
   const auto why = model.session.whyNot("target");
   if (ui::beginProperties("target", 0.36F)) {
     ImGui::BeginDisabled(!why.empty());
     if (nameRow(model, actions, edit))
-      start(actions, edit, TargetOptions{.rename = target.name, .name = edit.name}, "Rename target " + target.name);
+      start(actions, edit, TargetOptions{.rename = target.name, .name = edit.name},
+            trf("Rename target {}", target.name));
     bool moved = placeRows(edit);
     if (plate) moved = headingRow(edit, "Direction that it faces, counter-clockwise from the file's X") || moved;
     if (moved) {
       TargetOptions options{.move = target.name};
       options.at = edit.at;
       if (plate) options.normal = turnedTo(target.normal, edit.heading_deg);
-      start(actions, edit, options, "Move target " + target.name);
+      start(actions, edit, options, trf("Move target {}", target.name));
     }
     ImGui::EndDisabled();
     ui::property("Kind", plate ? "checkerboard" : "sphere");
@@ -274,7 +278,7 @@ void drawTarget(const Model& model, SurveyEdit& edit, Actions& actions, const Ta
     bringNear(actions, target.centre);
   ImGui::SameLine();
   if (smallButton(ICON_TRASH, "Remove", "remove-target", width, why, "Remove target"))
-    actions.start(TargetOptions{.remove = target.name}, "Remove target " + target.name);
+    actions.start(TargetOptions{.remove = target.name}, trf("Remove target {}", target.name));
 }
 
 void underlayButtons(const Model& model, Actions& actions, const Underlay& underlay, const std::string& why) {
@@ -286,8 +290,8 @@ void underlayButtons(const Model& model, Actions& actions, const Underlay& under
   const bool shown = underlay.visible;
   if (smallButton(shown ? ICON_EYE_OFF : ICON_EYE, shown ? "Hide" : "Show", "show-underlay", width, why,
                   shown ? "Hide its points" : "Show its points"))
-    shown ? actions.start(UnderlayOptions{.hide = underlay.name}, "Hide " + underlay.name)
-          : actions.start(UnderlayOptions{.show = underlay.name}, "Show " + underlay.name);
+    shown ? actions.start(UnderlayOptions{.hide = underlay.name}, trf("Hide {}", underlay.name))
+          : actions.start(UnderlayOptions{.show = underlay.name}, trf("Show {}", underlay.name));
   if (smallButton(ICON_MOVE, "Register…", "register-underlay", width, why, "Fit it to the model")) {
     UnderlayOptions options{.fit = underlay.name};
     options.to_surface = true;
@@ -295,7 +299,7 @@ void underlayButtons(const Model& model, Actions& actions, const Underlay& under
   }
   ImGui::SameLine();
   if (smallButton(ICON_TRASH, "Remove", "remove-underlay", width, why, "Remove underlay; its file stays"))
-    actions.start(UnderlayOptions{.remove = underlay.name}, "Remove underlay " + underlay.name);
+    actions.start(UnderlayOptions{.remove = underlay.name}, trf("Remove underlay {}", underlay.name));
 }
 
 void drawUnderlay(const Model& model, SurveyEdit& edit, Actions& actions, const Underlay& underlay) {
@@ -304,14 +308,14 @@ void drawUnderlay(const Model& model, SurveyEdit& edit, Actions& actions, const 
     edit.at = underlay.file_from_cloud.translation;
     edit.heading_deg = yawOf(underlay.file_from_cloud.rotation) / kRadPerDeg;
   }
-  ui::heading(model, ("Underlay " + underlay.name).c_str());
+  ui::heading(model, (trf("Underlay {}", underlay.name)).c_str());
   const auto why = model.session.whyNot("underlay");
   if (ui::beginProperties("underlay", 0.36F)) {
     ImGui::BeginDisabled(!why.empty());
     if (nameRow(model, actions, edit)) {
       UnderlayOptions options{.name = edit.name};
       options.rename = underlay.name;
-      start(actions, edit, options, "Rename underlay " + underlay.name);
+      start(actions, edit, options, trf("Rename underlay {}", underlay.name));
     }
     bool moved = placeRows(edit);
     moved = headingRow(edit, "Angle from the file's X axis to the cloud's, counter-clockwise") || moved;
@@ -319,7 +323,7 @@ void drawUnderlay(const Model& model, SurveyEdit& edit, Actions& actions, const 
       UnderlayOptions options{.move = underlay.name};
       options.at = edit.at;
       options.yaw_deg = edit.heading_deg;
-      start(actions, edit, options, "Move underlay " + underlay.name);
+      start(actions, edit, options, trf("Move underlay {}", underlay.name));
     }
     ImGui::EndDisabled();
     ui::property("Points", groupedDigits(underlay.points));

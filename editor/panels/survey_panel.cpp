@@ -10,6 +10,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/sentences.h"
 #include "project/survey/survey_verbs.h"
 #include "survey/scanning/scan_age.h"
 
@@ -28,7 +29,7 @@ void lookAt(Actions& actions, const Eigen::Vector3d& place) {
 void drawOlder(const Station& station, const std::string& age) {
   const ImVec2 at = ImGui::GetCursorScreenPos(), size = ImGui::CalcTextSize(ICON_WARNING);
   ImGui::InvisibleButton(("###older-" + station.name).c_str(), size);
-  ui::tooltip("Scan is " + age);
+  ui::tooltip(trf("Scan is {}", trSentence(age)));
   ImGui::GetWindowDrawList()->AddText(at, tone::kWarning, ICON_WARNING);
   ImGui::SameLine();
 }
@@ -58,7 +59,7 @@ void drawStationRow(const Model& model, Actions& actions, const Station& station
 }
 
 void drawStations(const Model& model, Actions& actions, const Job& job) {
-  ui::heading(model, fmt::format("Stations  {}", job.stations.size()).c_str());
+  ui::heading(model, trf("Stations  {}", job.stations.size()).c_str());
   if (job.stations.empty()) {
     ui::dimWrapped("No stations. Choose Add station, then click the floor.");
     return;
@@ -67,9 +68,9 @@ void drawStations(const Model& model, Actions& actions, const Job& job) {
       model.px(26) + ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(job.stations.size()), model.px(260));
   if (!ImGui::BeginTable("stations", 3, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg, {0, height})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthFixed, model.px(70));
+  ImGui::TableSetupColumn(ui::Label("Name"), ImGuiTableColumnFlags_WidthFixed, model.px(70));
   ImGui::TableSetupColumn("X  Y  Z", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("Scans", ImGuiTableColumnFlags_WidthFixed, model.px(38));
+  ImGui::TableSetupColumn(ui::Label("Scans"), ImGuiTableColumnFlags_WidthFixed, model.px(38));
   ImGui::TableHeadersRow();
   for (int i = 0; i < static_cast<int>(job.stations.size()); ++i)
     drawStationRow(model, actions, job.stations[static_cast<std::size_t>(i)], i);
@@ -77,7 +78,7 @@ void drawStations(const Model& model, Actions& actions, const Job& job) {
 }
 
 void drawTargets(const Model& model, Actions& actions, const Job& job) {
-  ui::heading(model, fmt::format("Targets  {}", job.targets.size()).c_str());
+  ui::heading(model, trf("Targets  {}", job.targets.size()).c_str());
   for (int i = 0; i < static_cast<int>(job.targets.size()); ++i) {
     const auto& target = job.targets[static_cast<std::size_t>(i)];
     ImGui::PushID(i);
@@ -97,7 +98,7 @@ void drawTargets(const Model& model, Actions& actions, const Job& job) {
     ImGui::SameLine(ImGui::GetContentRegionMax().x - button);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(model.px(4), 0));
     if (ui::iconButton(ICON_TRASH "###remove-target", "Remove", model.session.whyNot("target")))
-      actions.start(TargetOptions{.remove = target.name}, "Remove target " + target.name);
+      actions.start(TargetOptions{.remove = target.name}, trf("Remove target {}", target.name));
     ImGui::PopStyleVar();
     ImGui::PopID();
   }
@@ -112,7 +113,8 @@ void draw(const Model& model, PanelStates& states, Actions& actions) {
   }
   // Beside one another where both have room.
   const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
-  const float wanted = ImGui::CalcTextSize(ICON_STATION "  Add station").x + 2 * ImGui::GetStyle().FramePadding.x;
+  const float wanted =
+      ImGui::CalcTextSize(tr(ICON_STATION "  Add station").c_str()).x + 2 * ImGui::GetStyle().FramePadding.x;
   const bool beside = half >= wanted;
   const float width = beside ? half : ImGui::GetContentRegionAvail().x;
   const auto why = model.session.whyNot("station");

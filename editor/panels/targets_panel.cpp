@@ -9,6 +9,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/sentences.h"
 #include "project/survey/register_verb.h"
 
 namespace standpoint {
@@ -40,7 +41,7 @@ void drawRegister(const Model& model, TargetsState& state, Actions& actions, con
     actions.start(options, "Register stations");
   }
   ImGui::SameLine();
-  ImGui::Checkbox("Write registered copies of the scans###copies", &copies);
+  ImGui::Checkbox(ui::Label("Write registered copies of the scans###copies"), &copies);
   ui::tooltip("Writes copies with solved poses to the folder \"registered\" next to the scans");
   if (model.target_list.busy()) {
     ImGui::SameLine();
@@ -60,10 +61,10 @@ struct Standing {
 };
 
 Standing standingOf(const TargetRow& row) {
-  if (row.fit) return {ICON_CHECK, tone::kGood, "found"};
-  if (row.scanned) return {ICON_BAN, row.sight.why_not.empty() ? tone::kBad : tone::kDim, row.why_not};
-  if (row.sight.why_not.empty()) return {ICON_CIRCLE, tone::kAccent, "measurable"};
-  return {ICON_EYE_OFF, tone::kDim, row.sight.why_not};
+  if (row.fit) return {ICON_CHECK, tone::kGood, tr("found")};
+  if (row.scanned) return {ICON_BAN, row.sight.why_not.empty() ? tone::kBad : tone::kDim, trSentence(row.why_not)};
+  if (row.sight.why_not.empty()) return {ICON_CIRCLE, tone::kAccent, tr("measurable")};
+  return {ICON_EYE_OFF, tone::kDim, trSentence(row.sight.why_not)};
 }
 
 void choose(const Model& model, Actions& actions, std::size_t index) {
@@ -90,8 +91,8 @@ void drawRow(const Model& model, Actions& actions, const TargetRow& row, int ind
     ImGui::TableNextColumn();
     ui::fitted(text, ImGui::GetContentRegionAvail().x);
   };
-  cell(target.kind == TargetKind::sphere ? fmt::format("sphere {:.0f} mm", target.size_m * 1000)
-                                         : fmt::format("plate {:.0f} mm", target.size_m * 1000));
+  cell(target.kind == TargetKind::sphere ? trf("sphere {:.0f} mm", target.size_m * 1000)
+                                         : trf("plate {:.0f} mm", target.size_m * 1000));
   cell(job.stations[row.station].name);
   cell(fmt::format("{:.2f} m", row.sight.distance_m));
   cell(row.fit ? groupedDigits(row.fit->points) : row.sight.points ? fmt::format("~ {:.0f}", *row.sight.points) : "–");
@@ -121,7 +122,7 @@ void drawTable(const Model& model, Actions& actions, const std::vector<TargetRow
                                         {"Residual", 1.1F},
                                         {"σ", 1},
                                         {"State", 3}})
-    ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthStretch, fraction);
+    ImGui::TableSetupColumn(ui::Label(title), ImGuiTableColumnFlags_WidthStretch, fraction);
   ImGui::TableHeadersRow();
   const auto& job = *model.session.document().job;
   int index = 0;

@@ -10,6 +10,7 @@
 #include "editor/widgets/job_progress.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/sentences.h"
 
 namespace standpoint {
 
@@ -52,7 +53,7 @@ void drawFinished(const FinishedTask& task) {
   ImGui::TableNextColumn();
   ui::fitted(task.title, ImGui::GetContentRegionAvail().x);
   ImGui::TableNextColumn();
-  ui::fitted(task.text, ImGui::GetContentRegionAvail().x);
+  ui::fitted(trSentence(task.text), ImGui::GetContentRegionAvail().x);
   ImGui::TableNextColumn();
   ui::dimText(duration(task.seconds));
 }

@@ -27,7 +27,7 @@ struct VerifyState {
 };
 
 std::string labelOf(const Model& model, const std::string& id) {
-  if (id.empty()) return "Unassigned";
+  if (id.empty()) return tr("Unassigned");
   const auto* material = model.offeredMaterial(id);
   return material == nullptr ? id : material->label;
 }
@@ -62,13 +62,13 @@ void drawVerifyButtons(const Model& model, VerifyState& state, Actions& actions)
       !model.session.document().materials ? std::string("Assign materials first") : model.session.whyNot("verify");
   if (ui::primaryButton(ICON_CHECK "  Compare###verify", why, {width, 0}))
     actions.start(VerifyOptions{.underlay = state.underlay, .instrument = state.instrument},
-                  "Verify materials with " + state.underlay);
+                  trf("Verify materials with {}", state.underlay));
   ImGui::SameLine();
   if (ui::button(ICON_MOVE "  Fit to model###fit", model.session.whyNot("underlay"), {width, 0},
                  "Aligns the point cloud to the model surface, starting from its current position (ICP)")) {
     UnderlayOptions options{.fit = state.underlay};
     options.to_surface = true;
-    actions.start(options, "Fit " + state.underlay + " to the model");
+    actions.start(options, trf("Fit {} to the model", state.underlay));
   }
 }
 
@@ -80,10 +80,10 @@ void drawFit(const Model& model) {
   const bool good = icp.settled && icp.free.empty() && icp.used_fraction > 0.5;
   ImGui::TextColored(colour(good ? tone::kGood : tone::kWarning), "%s", good ? ICON_CHECK : ICON_WARNING);
   ImGui::SameLine();
-  std::string text = fmt::format("Fitted: moved by {:.1f} mm; {:.0f} % of points on the model, RMS {:.1f} mm",
-                                 icp.moved_m * 1000, icp.used_fraction * 100, icp.rms_m * 1000);
-  if (!icp.settled) text += "; the fit did not converge: place the cloud closer first";
-  if (!icp.free.empty()) text += "; not constrained in every direction (see Log)";
+  std::string text = trf("Fitted: moved by {:.1f} mm; {:.0f} % of points on the model, RMS {:.1f} mm",
+                         icp.moved_m * 1000, icp.used_fraction * 100, icp.rms_m * 1000);
+  if (!icp.settled) text += tr("; the fit did not converge: place the cloud closer first");
+  if (!icp.free.empty()) text += tr("; not constrained in every direction (see Log)");
   ui::wrapped(text);
 }
 
@@ -115,9 +115,9 @@ void drawMaterial(const Model& model, VerifyState& state, Actions& actions, cons
     state.chosen = m.material;
     actions.select(m.products);
   }
-  ui::tooltip(fmt::format("{}\n{} points\n5 % {:+.1f}, quartiles {:+.1f} and {:+.1f}, 95 % {:+.1f} dB{}", m.material,
-                          groupedDigits(m.points), m.off_db[0], m.off_db[1], m.off_db[3], m.off_db[4],
-                          m.judged ? "" : "\ntoo few points, ranges or angles for a verdict"));
+  ui::tooltip(trf("{}\n{} points\n5 % {:+.1f}, quartiles {:+.1f} and {:+.1f}, 95 % {:+.1f} dB{}", m.material,
+                  groupedDigits(m.points), m.off_db[0], m.off_db[1], m.off_db[3], m.off_db[4],
+                  m.judged ? "" : "\n" + tr("too few points, ranges or angles for a verdict")));
   ImGui::SameLine(0, 0);
   ui::fitted(labelOf(model, m.material), ImGui::GetContentRegionAvail().x);
   ImGui::TableNextColumn();
@@ -131,7 +131,7 @@ void drawMaterials(const Model& model, VerifyState& state, Actions& actions, con
   ui::heading(model, "Measured minus expected");
   const auto flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX;
   if (!ImGui::BeginTable("off", 3, flags)) return;
-  ImGui::TableSetupColumn("Material", ImGuiTableColumnFlags_WidthStretch, 1.1F);
+  ImGui::TableSetupColumn(ui::Label("Material"), ImGuiTableColumnFlags_WidthStretch, 1.1F);
   ImGui::TableSetupColumn(fmt::format("−{0:.0f} … +{0:.0f} dB", view.reach_db).c_str(),
                           ImGuiTableColumnFlags_WidthStretch, 1);
   ImGui::TableSetupColumn("dB", ImGuiTableColumnFlags_WidthFixed, model.px(38));
@@ -143,8 +143,8 @@ void drawMaterials(const Model& model, VerifyState& state, Actions& actions, con
 std::string titleOf(const Model& model, const VerifiedProposal& p) {
   const auto count = p.whole_material
                          ? std::string()
-                         : fmt::format(" ({} product{})", p.products.size(), p.products.size() == 1 ? "" : "s");
-  return fmt::format("{}{} behaves like {}", labelOf(model, p.material), count, labelOf(model, p.behaves_like));
+                         : " (" + trn("{} product", "{} products", p.products.size(), p.products.size()) + ")";
+  return trf("{}{} behaves like {}", labelOf(model, p.material), count, labelOf(model, p.behaves_like));
 }
 
 // What it proposes is among what the user said: nothing is left to press.
@@ -166,7 +166,7 @@ void drawProposal(const Model& model, Actions& actions, const VerifiedProposal& 
   ui::dimWrapped(p.evidence);
   std::vector<std::string> alike;
   for (const auto& id : p.alike) alike.push_back(labelOf(model, id));
-  if (!alike.empty()) ui::dimWrapped(fmt::format("As well as: {}", fmt::join(alike, "; ")));
+  if (!alike.empty()) ui::dimWrapped(trf("As well as: {}", fmt::join(alike, "; ")));
   const std::string why = isTaken(model.session.document(), p) ? "Assigned. Compare again to see the effect."
                                                                : model.session.whyNot("materials");
   if (ui::button(ICON_PAINT "  Assign###assign", why, {0, 0}, "Assigns the material to these products (can be undone)"))
@@ -189,7 +189,7 @@ void drawVerdict(const Model& model, Actions& actions, const VerificationView& v
   if (!view.no_verdict.empty()) {
     ImGui::TextColored(colour(tone::kBad), "%s", ICON_WARNING);
     ImGui::SameLine();
-    ui::wrapped("No verdict: " + view.no_verdict);
+    ui::wrapped(trf("No verdict: {}", view.no_verdict));
   } else if (view.proposals.empty()) {
     ImGui::TextColored(colour(tone::kGood), "%s", ICON_CHECK);
     ImGui::SameLine();
@@ -200,7 +200,7 @@ void drawVerdict(const Model& model, Actions& actions, const VerificationView& v
 }
 
 void drawBasis(const Model& model, const VerificationView& view) {
-  ui::heading(model, "By");
+  ui::heading(model, "Based on");
   if (!ui::beginProperties("basis")) return;
   ui::property("Cloud", view.underlay);
   ui::property("Instrument", view.instrument);

@@ -18,6 +18,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keyboard.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/sentences.h"
 #include "project/model/treatments.h"
 #include "project/survey/survey_verbs.h"
 
@@ -86,7 +87,8 @@ std::pair<const char*, std::string> chosenInSurvey(const Editor& e) {
 }
 void removeChosen(Editor& e) {
   const auto [verb, name] = chosenInSurvey(e);
-  const auto title = std::string("Remove ") + verb + " " + name;
+  const auto title =
+      std::string_view(verb) == "target" ? trf("Remove target {}", name) : trf("Remove station {}", name);
   if (std::string_view(verb) == "target")
     e.session.start(TargetOptions{.remove = name}, title);
   else
@@ -490,6 +492,10 @@ const std::array kActions = {
     Action{"graphics-high", "Graphics: High", "", {}, chooseGraphics<GraphicsChoice::high>, nullptr},
     Action{"theme-dark", "Dark theme", "", {}, chooseTheme<Theme::dark>, nullptr},
     Action{"theme-light", "Light theme", "", {}, chooseTheme<Theme::light>, nullptr},
+    Action{"language-system", "Language: as the system", "", {}, [](Editor& e) { chooseLanguage(e, ""); }, nullptr},
+    Action{"language-en", "Language: English", "", {}, [](Editor& e) { chooseLanguage(e, "en"); }, nullptr},
+    Action{"language-de", "Language: Deutsch", "", {}, [](Editor& e) { chooseLanguage(e, "de"); }, nullptr},
+    Action{"language-uk", "Language: Українська", "", {}, [](Editor& e) { chooseLanguage(e, "uk"); }, nullptr},
     Action{"palette", "Command palette", ICON_COMMAND, {'P', true}, openPalette, nullptr},
     Action{"shortcuts",
            "Keyboard and mouse",
@@ -527,10 +533,10 @@ bool invoke(Editor& editor, const char* id) {
 
 std::string shortcutText(const Shortcut& s) {
   if (s.key == 0) return {};
-  std::string text = std::string(s.ctrl ? "Ctrl+" : "") + (s.alt ? "Alt+" : "") + (s.shift ? "Shift+" : "");
+  std::string text = (s.ctrl ? tr("Ctrl+") : "") + (s.alt ? tr("Alt+") : "") + (s.shift ? tr("Shift+") : "");
   if (s.key == kKeyEscape) return text + "Esc";
-  if (s.key == kKeyDelete) return text + "Del";
-  if (s.key == kKeyLeft) return text + "Left";
+  if (s.key == kKeyDelete) return text + tr("Del");
+  if (s.key == kKeyLeft) return text + tr("Left");
   if (s.key == kKeyF1) return text + "F1";
   if (s.key == kKeyF2) return text + "F2";
   if (s.key == kKeyPlus) return text + "+";
@@ -555,18 +561,20 @@ void runShortcuts(Editor& editor) {
 void actionMenuItem(Editor& editor, const char* id) {
   const Action& action = *findAction(id);
   const auto why = whyNot(action, editor);
-  std::string title = action.title;
-  if (std::strcmp(id, "undo") == 0 && why.empty()) title += ": " + editor.session.history().undoDescription();
-  if (std::strcmp(id, "redo") == 0 && why.empty()) title += ": " + editor.session.history().redoDescription();
+  std::string title = tr(action.title);
+  if (std::strcmp(id, "undo") == 0 && why.empty())
+    title = trf("Undo: {}", trSentence(editor.session.history().undoDescription()));
+  if (std::strcmp(id, "redo") == 0 && why.empty())
+    title = trf("Redo: {}", trSentence(editor.session.history().redoDescription()));
   const std::string icon = *action.icon != 0 ? std::string(action.icon) + "  " : "      ";
   if (ImGui::MenuItem((icon + title + "###" + id).c_str(), shortcutText(action.shortcut).c_str(), false, why.empty()))
     action.run(editor);
-  ui::tooltip(why);
+  ui::tooltip(tr(why));
 }
 
 void actionToolButton(Editor& editor, const char* id) {
   const Action& action = *findAction(id);
-  std::string tip = action.title;
+  std::string tip = tr(action.title);
   if (const auto keys = shortcutText(action.shortcut); !keys.empty()) tip += "  (" + keys + ")";
   if (ui::iconButton((std::string(action.icon) + "###tool_" + id).c_str(), tip.c_str(), whyNot(action, editor)))
     action.run(editor);
@@ -576,10 +584,15 @@ void actionToolButton(Editor& editor, const char* id) {
 void actionButton(Editor& editor, const char* id, const char* text, float width) {
   const Action& action = *findAction(id);
   const std::string keys = shortcutText(action.shortcut);
-  const std::string tip = std::string(action.title) + (keys.empty() ? "" : "  (" + keys + ")");
+  const std::string tip = tr(action.title) + (keys.empty() ? "" : "  (" + keys + ")");
   if (ui::button(ui::fittingLabel(action.icon, text, id, width).c_str(), whyNot(action, editor), {width, 0},
                  tip.c_str()))
     action.run(editor);
+}
+
+void chooseLanguage(Editor& editor, const char* code) {
+  editor.settings.language = code;
+  speak(code);
 }
 
 void openVerbForm(Editor& editor, const char* verb) {
@@ -600,7 +613,7 @@ void whenSaved(Editor& editor, std::function<void()> then) {
 
 void openSample(Editor& editor, const std::string& file) {
   whenSaved(editor, [&editor, file] {
-    editor.session.start("import", {{"files", {(samplesFolder() / file).string()}}}, "Open sample " + file);
+    editor.session.start("import", {{"files", {(samplesFolder() / file).string()}}}, trf("Open sample {}", file));
   });
 }
 

@@ -36,6 +36,9 @@ void actionMenuItem(Editor& editor, const char* id);
 void actionToolButton(Editor& editor, const char* id);
 void actionButton(Editor& editor, const char* id, const char* text, float width);
 
+// From the next frame on; "": as the user's locale says.
+void chooseLanguage(Editor& editor, const char* code);
+
 // Opens the form of a verb, generated from its parameters.
 void openVerbForm(Editor& editor, const char* verb);
 // Asks about unsaved changes first, when there are any.

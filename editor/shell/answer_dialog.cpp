@@ -29,13 +29,13 @@ std::string readableKey(std::string key) {
       key.resize(key.size() - std::string_view(ending).size());
     }
   std::replace(key.begin(), key.end(), '_', '-');
-  return readableOption(key.c_str()) + (unit.empty() ? "" : ", " + unit);
+  return tr(readableOption(key.c_str())) + (unit.empty() ? "" : ", " + unit);
 }
 
 std::string scalarText(const json& value) {
   if (value.is_null()) return "–";
   if (value.is_string()) return value.get<std::string>();
-  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (value.is_boolean()) return tr(value.get<bool>() ? "yes" : "no");
   if (value.is_number_float()) return fmt::format("{:.10g}", value.get<double>());
   return value.dump();
 }
@@ -76,7 +76,7 @@ void drawBranch(const std::string& title, const json& value) {
         drawBranch(rowTitle(row, i), row);
       ImGui::PopID();
     }
-    if (value.size() > kMostRows) ui::dimText(fmt::format("and {} more", value.size() - kMostRows));
+    if (value.size() > kMostRows) ui::dimText(trf("and {} more", value.size() - kMostRows));
   }
   ImGui::TreePop();
 }
@@ -85,7 +85,7 @@ void drawFigures(const json& object) {
   if (ui::beginProperties("figures", 0.36F)) {
     for (const auto& [key, value] : object.items())
       if (value.is_primitive() || isRow(value))
-        ui::property(readableKey(key).c_str(), value.is_primitive() ? scalarText(value) : rowText(value));
+        ui::property(readableKey(key), value.is_primitive() ? scalarText(value) : rowText(value));
     ui::endProperties();
   }
   for (const auto& [key, value] : object.items())
@@ -111,7 +111,7 @@ void drawAnswer(Editor& editor) {
   ImGui::EndChild();
   const bool close = ui::primaryButton("Close###close-answer", {}, {editor.px(110), 0}) || ui::modalCancelled();
   ImGui::SameLine();
-  if (ImGui::Button("Copy text###copy-answer"))
+  if (ui::button("Copy text###copy-answer"))
     ImGui::SetClipboardText((shown.title + "\n" + shown.text + "\n" + shown.figures.dump(1)).c_str());
   if (close) {
     answers.pop_front();

@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/expected_overlay.h"
+#include "editor/shell/overlay.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
@@ -22,7 +23,7 @@ const std::vector<SeenFrom>* scansOf(Editor& editor, std::string& why) {
   const auto scene = editor.picker.scene();
   if (!scene) return why = "Preparing the model for ray tracing …", nullptr;
   if (!document.job || document.job->stations.empty())
-    return why = "Add a station first: press T and click the floor", nullptr;
+    return why = "Add a station first: press Shift+T and click the floor", nullptr;
   const auto& catalogue = editor.catalogue();
   const auto& asked = editor.scan_choice;
   const auto* instrument = instrumentIn(catalogue, asked.instrument);
@@ -45,11 +46,11 @@ void drawReading(Editor& editor, const std::vector<SeenFrom>& scans) {
   const auto& hit = editor.view.hover;
   if (!hit || editor.view.dragging) return;
   const auto coverage = coverageAt(scans, {hit->position, hit->normal, hit->instance, hit->triangle}, wishesOf(editor));
-  if (coverage.stations == 0) return ImGui::SetTooltip("Not visible from any station");
+  if (coverage.stations == 0) return ui::tooltip("Not visible from any station");
   std::string names;
   for (const auto i : coverage.from) names += (names.empty() ? "" : ", ") + scans[i].station;
-  ImGui::SetTooltip("Visible from %s\nsmallest point spacing %.1f mm\nsmallest incidence %.0f°", names.c_str(),
-                    coverage.spacing_m * 1000, coverage.incidence_rad / kRadPerDeg);
+  ui::tooltip(trf("Visible from {}\nsmallest point spacing {:.1f} mm\nsmallest incidence {:.0f}°", names,
+                  coverage.spacing_m * 1000, coverage.incidence_rad / kRadPerDeg));
 }
 
 float swatch(Editor& editor, ImVec2 at, const std::array<std::uint8_t, 4>& colour, const char* text) {
@@ -110,10 +111,11 @@ void drawCoverageLegend(Editor& editor, ImVec2 origin, ImVec2 size) {
   std::string why;
   const auto* scans = scansOf(editor, why);
   if (scans == nullptr) {
+    const std::string said = tr(why);
     list.AddRectFilled({x - editor.px(6), bottom - editor.px(4)},
-                       {x + ImGui::CalcTextSize(why.c_str()).x + editor.px(6), origin.y + size.y - editor.px(4)},
+                       {x + ImGui::CalcTextSize(said.c_str()).x + editor.px(6), origin.y + size.y - editor.px(4)},
                        tone::kOverlay, editor.px(4));
-    list.AddText({x, bottom}, tone::kText, why.c_str());
+    list.AddText({x, bottom}, tone::kText, said.c_str());
     return;
   }
   const bool counts = *quantity == CoverageQuantity::stations;
@@ -124,12 +126,13 @@ void drawCoverageLegend(Editor& editor, ImVec2 origin, ImVec2 size) {
   const float top = origin.y + size.y - high - editor.px(4);
   list.AddRectFilled({x - editor.px(6), top}, {x + editor.px(346), origin.y + size.y - editor.px(4)}, tone::kOverlay,
                      editor.px(4));
-  list.AddText({x, top + editor.px(4)}, tone::kText, title);
+  list.AddText({x, top + editor.px(4)}, tone::kText, tr(title).c_str());
   ImVec2 at(x, bottom);
-  at.x += swatch(editor, at, kHoleColour, "not covered");
+  at.x += swatch(editor, at, kHoleColour, tr("not covered").c_str());
   if (counts) {
     for (int n = 1; n <= kMostCounted; ++n)
-      at.x += swatch(editor, at, countColour(n), (std::to_string(n) + (n < kMostCounted ? "" : " and more")).c_str());
+      at.x +=
+          swatch(editor, at, countColour(n), (n < kMostCounted ? std::to_string(n) : trf("{} and more", n)).c_str());
   } else {
     drawScale(editor, {x, top + line + editor.px(8)}, editor.px(240), *quantity);
   }
@@ -139,16 +142,14 @@ void drawCoverageLegend(Editor& editor, ImVec2 origin, ImVec2 size) {
 void coverageChips(Editor& editor) {
   if (!coverageQuantity(editor.view.colour)) return;
   ImGui::NewLine();
-  ImGui::SetNextItemWidth(editor.px(166));
-  const char* planned = "Stations as planned";
-  const char* made = "Completed scans";
-  if (!ImGui::BeginCombo("###coverage-of",
-                         fmt::format("{}  {}", ICON_STATION, editor.view.coverage_made ? made : planned).c_str(),
-                         ImGuiComboFlags_NoArrowButton))
-    return;
-  if (ImGui::Selectable(planned, !editor.view.coverage_made)) editor.view.coverage_made = false;
+  const std::string planned = tr("Stations as planned");
+  const std::string made = tr("Completed scans");
+  const auto label = fmt::format("{}  {}", ICON_STATION, editor.view.coverage_made ? made : planned);
+  ImGui::SetNextItemWidth(chipWidth(editor, label, 166));
+  if (!ImGui::BeginCombo("###coverage-of", label.c_str(), ImGuiComboFlags_NoArrowButton)) return;
+  if (ImGui::Selectable(planned.c_str(), !editor.view.coverage_made)) editor.view.coverage_made = false;
   ui::tooltip("All stations, with the instrument and settings of the Scan panel");
-  if (ImGui::Selectable(made, editor.view.coverage_made)) editor.view.coverage_made = true;
+  if (ImGui::Selectable(made.c_str(), editor.view.coverage_made)) editor.view.coverage_made = true;
   ui::tooltip("Stations that have been scanned, with the instrument and settings of the last scan");
   ImGui::EndCombo();
 }

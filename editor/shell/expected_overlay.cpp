@@ -10,6 +10,7 @@
 
 #include "core/units.h"
 #include "editor/shell/editor.h"
+#include "editor/shell/overlay.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
@@ -89,12 +90,12 @@ void drawScale(Editor& editor, const Legend& legend, ExpectedQuantity quantity, 
     list.AddText({x, legend.at.y + height + editor.px(2)}, tone::kText, words.c_str());
   };
   const bool noise = quantity == ExpectedQuantity::noise;
-  const auto most = noise ? fmt::format("{:.0f} mm or more", kNoiseFullScale_m * 1000)
+  const auto most = noise ? trf("{:.0f} mm or more", kNoiseFullScale_m * 1000)
                           : fmt::format("1 ({:.0f} dB)", instrument.intensity_high_db);
   text(legend.at.x, noise ? "0" : fmt::format("0 ({:.0f} dB)", instrument.intensity_low_db));
   text(legend.at.x + legend.width - ImGui::CalcTextSize(most.c_str()).x, most);
   const char* title = noise ? "Expected range noise (1 σ)" : "Expected intensity";
-  list.AddText({legend.at.x, legend.at.y - ImGui::GetTextLineHeight() - editor.px(2)}, tone::kText, title);
+  list.AddText({legend.at.x, legend.at.y - ImGui::GetTextLineHeight() - editor.px(2)}, tone::kText, tr(title).c_str());
 }
 
 // The swatches with their names, in as many rows as a width needs.
@@ -113,7 +114,7 @@ FateRows fateRows(const Editor& editor, float most_width, bool with_returned) {
   for (const auto fate : {ReturnFate::returned, ReturnFate::too_weak, ReturnFate::seen_through, ReturnFate::hidden,
                           ReturnFate::too_near, ReturnFate::too_far}) {
     if (fate == ReturnFate::returned && !with_returned) continue;
-    const float width = editor.px(15) + ImGui::CalcTextSize(fateName(fate)).x;
+    const float width = editor.px(15) + ImGui::CalcTextSize(tr(fateName(fate)).c_str()).x;
     if (at.x > 0 && at.x + width > most_width) at = {0, at.y + ImGui::GetTextLineHeight() + editor.px(3)};
     rows.entries.push_back({fate, at});
     rows.width = std::max(rows.width, at.x + width);
@@ -130,7 +131,7 @@ void drawFates(const Editor& editor, ImVec2 corner, const FateRows& rows) {
     const ImVec2 at(corner.x + from.x, corner.y + from.y);
     list.AddRectFilled({at.x, at.y + editor.px(2)}, {at.x + swatch, at.y + editor.px(2) + swatch},
                        packed(fateColour(fate)));
-    list.AddText({at.x + swatch + editor.px(5), at.y}, tone::kText, fateName(fate));
+    list.AddText({at.x + swatch + editor.px(5), at.y}, tone::kText, tr(fateName(fate)).c_str());
   }
 }
 
@@ -141,15 +142,15 @@ void drawReading(Editor& editor, const Expectation& expectation) {
       expectation.from(*editor.view.probe.position, {hit->position, hit->normal, hit->instance, hit->triangle});
   const auto& choice = editor.session.document().materials;
   const std::int32_t material = choice ? expectation.materialAt(hit->instance, hit->triangle) : -1;
-  auto text = fmt::format(
+  auto text = trf(
       "{}\n{:.2f} m, {:.0f}° incidence",
-      material < 0 ? "No material" : choice->result.assignment.materials[static_cast<std::size_t>(material)].label,
+      material < 0 ? tr("No material") : choice->result.assignment.materials[static_cast<std::size_t>(material)].label,
       expected.range_m, expected.incidence_rad / kRadPerDeg);
   if (expected.fate == ReturnFate::returned)
-    text += fmt::format("\nintensity {:.3f}, σ {:.2f} mm, {:.0f} % detected", expected.intensity,
-                        expected.sigma_m * 1000, expected.probability * 100);
+    text += "\n" + trf("intensity {:.3f}, σ {:.2f} mm, {:.0f} % detected", expected.intensity, expected.sigma_m * 1000,
+                       expected.probability * 100);
   else
-    text += fmt::format("\n{}", fateName(expected.fate));
+    text += fmt::format("\n{}", tr(fateName(expected.fate)));
   ImGui::SetTooltip("%s", text.c_str());
 }
 
@@ -218,7 +219,7 @@ void drawExpectedLegend(Editor& editor, ImVec2 origin, ImVec2 size) {
   const auto expectation = editor.expectation();
   if (!expectation || !editor.view.probe.position) {
     ImGui::GetWindowDrawList()->AddText({origin.x + editor.px(10), origin.y + size.y - editor.px(24)}, tone::kDim,
-                                        "Preparing the model for ray tracing …");
+                                        tr("Preparing the model for ray tracing …").c_str());
     return;
   }
   drawProbe(editor, origin);
@@ -242,11 +243,9 @@ void expectedChips(Editor& editor) {
   auto& probe = editor.view.probe;
   const auto* instrument = editor.instrument(probe.instrument);
   ImGui::NewLine();
-  ImGui::SetNextItemWidth(editor.px(166));
-  if (ImGui::BeginCombo(
-          "###probe-instrument",
-          fmt::format("{}  {}", ICON_TABLET, instrument != nullptr ? instrument->model : "Instrument").c_str(),
-          ImGuiComboFlags_NoArrowButton)) {
+  const auto label = fmt::format("{}  {}", ICON_TABLET, instrument != nullptr ? instrument->model : tr("Instrument"));
+  ImGui::SetNextItemWidth(chipWidth(editor, label, 166));
+  if (ImGui::BeginCombo("###probe-instrument", label.c_str(), ImGuiComboFlags_NoArrowButton)) {
     for (const auto& i : editor.catalogue().instruments)
       if (ImGui::Selectable(fmt::format("{} {}, {:.0f} nm###{}", i.maker, i.model, i.wavelength_nm, i.id).c_str(),
                             i.id == probe.instrument))
@@ -257,16 +256,16 @@ void expectedChips(Editor& editor) {
   if (ImGui::GetCursorScreenPos().x + editor.px(128) > editor.overlay_end) ImGui::NewLine();
   const auto& job = editor.session.document().job;
   if (!job || job->stations.empty()) {
-    constexpr const char* kHint = "Drag the white dot to move the scanner";
-    if (ImGui::GetCursorScreenPos().x + ImGui::CalcTextSize(kHint).x > editor.overlay_end) ImGui::NewLine();
-    return ImGui::TextUnformatted(kHint);
+    const ui::Text hint("Drag the white dot to move the scanner");
+    if (ImGui::GetCursorScreenPos().x + ImGui::CalcTextSize(hint.c_str()).x > editor.overlay_end) ImGui::NewLine();
+    return ImGui::TextUnformatted(hint.c_str());
   }
   ImGui::SetNextItemWidth(editor.px(128));
   const auto standing = std::find_if(job->stations.begin(), job->stations.end(),
                                      [&](const Station& s) { return probe.position == s.true_pose.translation; });
   if (!ImGui::BeginCombo(
           "###probe-place",
-          fmt::format("{}  {}", ICON_STATION, standing != job->stations.end() ? standing->name : "Drag the dot")
+          fmt::format("{}  {}", ICON_STATION, standing != job->stations.end() ? standing->name : tr("Drag the dot"))
               .c_str(),
           ImGuiComboFlags_NoArrowButton))
     return;

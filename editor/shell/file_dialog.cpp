@@ -147,9 +147,9 @@ void drawRows(Editor& editor, float height) {
       ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_Sortable | ImGuiTableFlags_BordersOuter;
   if (!ImGui::BeginTable("files", 3, flags, {0, height})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("Size", ImGuiTableColumnFlags_WidthFixed, editor.px(80));
-  ImGui::TableSetupColumn("Changed", ImGuiTableColumnFlags_WidthFixed, editor.px(125));
+  ImGui::TableSetupColumn(ui::Label("Name"), ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn(ui::Label("Size"), ImGuiTableColumnFlags_WidthFixed, editor.px(80));
+  ImGui::TableSetupColumn(ui::Label("Changed"), ImGuiTableColumnFlags_WidthFixed, editor.px(125));
   ImGui::TableHeadersRow();
   if (auto* sort = ImGui::TableGetSortSpecs(); sort != nullptr && sort->SpecsDirty && sort->SpecsCount > 0) {
     state.order = static_cast<FileOrder>(sort->Specs->ColumnIndex);
@@ -175,7 +175,7 @@ void drawFooter(Editor& editor) {
   auto& state = editor.dialogs.file;
   const float button = editor.px(110);
   ImGui::AlignTextToFramePadding();
-  ImGui::TextDisabled("Name");
+  ui::dimText("Name");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 2 * (button + ImGui::GetStyle().ItemSpacing.x));
   const bool entered = ImGui::InputText("###name", &state.name, ImGuiInputTextFlags_EnterReturnsTrue);
@@ -186,16 +186,16 @@ void drawFooter(Editor& editor) {
   if (ui::primaryButton((label + "###accept").c_str(), why, {button, 0}) || (entered && why.empty())) accept(editor);
   ImGui::SameLine();
   const bool typed = forWriting(state) && state.name != state.offered;
-  if ((ImGui::Button("Cancel", {button, 0}) || ui::modalCancelled(typed)) && state.open) {
+  if ((ui::button("Cancel", {}, {button, 0}) || ui::modalCancelled(typed)) && state.open) {
     state.open = false;
     ImGui::CloseCurrentPopup();
     if (const auto cancelled = state.cancelled) cancelled();
   }
   if (const auto wrong = typedProblem(state); !wrong.empty() && state.open)
-    ImGui::TextColored(colour(tone::kWarning), "%s  %s", ICON_WARNING, wrong.c_str());
+    ImGui::TextColored(colour(tone::kWarning), "%s  %s", ICON_WARNING, tr(wrong).c_str());
   if (state.confirm_overwrite && state.open)
-    ImGui::TextColored(colour(tone::kWarning), "%s  '%s' already exists. Press again to replace it.", ICON_WARNING,
-                       state.name.c_str());
+    ImGui::TextColored(colour(tone::kWarning), "%s  %s", ICON_WARNING,
+                       trf("'{}' already exists. Press again to replace it.", state.name).c_str());
 }
 
 std::vector<std::string> modelExtensions() {
@@ -252,7 +252,7 @@ void askForChangedModel(Editor& editor) {
              [&editor](const std::filesystem::path& file) {
                ImportVerbOptions options{{.files = {file}}};
                options.update = true;
-               editor.session.start(options, "Update from " + file.filename().string());
+               editor.session.start(options, trf("Update from {}", file.filename().string()));
              });
 }
 

@@ -5,13 +5,14 @@
 #include <imgui.h>
 
 #include "editor/shell/editor.h"
+#include "editor/words/words.h"
 
 namespace standpoint {
 
 void drawGraphicsChoices(Editor& editor, float width_pt) {
   editor.costs_wanted = editor.shown() && editor.graphics.notMeasured();
   for (const auto choice : kGraphicsChoices) {
-    if (ImGui::RadioButton(fmt::format("{}###graphics-{}", graphicsName(choice), graphicsKey(choice)).c_str(),
+    if (ImGui::RadioButton(fmt::format("{}###graphics-{}", tr(graphicsName(choice)), graphicsKey(choice)).c_str(),
                            editor.settings.graphics == choice))
       editor.settings.graphics = choice;
     const float inset = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x;

@@ -8,6 +8,7 @@
 #include "editor/shell/actions.h"
 #include "editor/shell/editor.h"
 #include "editor/widgets/keyboard.h"
+#include "editor/words/words.h"
 #include "pointclouds/formats.h"
 
 namespace standpoint {
@@ -52,7 +53,7 @@ void acceptPreview(Editor& editor) {
 
 void addPreview(Editor& editor) {
   if (!ready(editor) || !editor.session.whyNot("add").empty()) return;
-  const std::string title = "Add " + editor.preview.fileNames();
+  const std::string title = trf("Add {}", editor.preview.fileNames());
   editor.session.startAdding(editor.preview.take(), title);
 }
 

@@ -172,8 +172,8 @@ void tellTargetHere(Editor& editor, Pen& pen) {
     const auto sight = sightFrom(station, *scene, target, kinds->rules, settings);
     text += fmt::format("\n{}   {:.1f} m   {}", station.name, sight.distance_m,
                         !sight.why_not.empty() ? sight.why_not
-                        : sight.points         ? fmt::format("about {:.0f} points", *sight.points)
-                                               : "in sight");
+                        : sight.points         ? trf("about {:.0f} points", *sight.points)
+                                               : tr("in sight"));
   }
   ImGui::SetTooltip("%s", text.c_str());
 }

@@ -53,15 +53,14 @@ void drawMaterialMenu(Editor& editor) {
     ImGui::EndPopup();
     return;
   }
-  ui::dimText(fmt::format("{} on", material->label));
+  ui::dimText(trf("{} on", material->label));
   for (const auto& scope :
        materialScopes(*editor.environment(), hit, editor.session.document().georeference->shift_m)) {
-    const auto label = scope.products > 1
-                           ? fmt::format("{}   {} products###{}", scope.title, scope.products, scope.selector)
-                           : fmt::format("{}###{}", scope.title, scope.selector);
+    const auto label = scope.products > 1 ? trf("{}   {} products###{}", scope.title, scope.products, scope.selector)
+                                          : fmt::format("{}###{}", scope.title, scope.selector);
     if (ImGui::MenuItem(label.c_str(), nullptr, false, why.empty()))
       editor.session.start(MaterialsOptions{{.assign = {{scope.selector, material->id}}}},
-                           fmt::format("Assign {} to {}", material->label, scope.title));
+                           trf("Assign {} to {}", material->label, scope.title));
   }
   ui::tooltip(why);
   ImGui::EndPopup();

@@ -16,6 +16,7 @@
 #include "editor/widgets/modal.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/sentences.h"
 
 namespace standpoint {
 
@@ -43,11 +44,11 @@ void drawError(Editor& editor) {
   ImGui::TextColored(colour(tone::kBad), "%s", ICON_WARNING);
   ImGui::SameLine();
   if (editor.fonts.bold != nullptr) ImGui::PushFont(editor.fonts.bold);
-  ui::wrapped(shown.title);
+  ui::wrapped(tr(shown.title));
   if (editor.fonts.bold != nullptr) ImGui::PopFont();
   ui::gap(editor, 2);
   ui::wrapped(shown.error.message);
-  if (!shown.error.source.empty()) ui::dimWrapped("in " + shown.error.source);
+  if (!shown.error.source.empty()) ui::dimWrapped(trf("in {}", shown.error.source));
   ui::gap(editor, 2);
   ui::wrapped(remedy(shown.error));
   ui::gap(editor, 6);
@@ -56,10 +57,10 @@ void drawError(Editor& editor) {
     ImGui::CloseCurrentPopup();
   }
   ImGui::SameLine();
-  if (ImGui::Button("Copy text")) ImGui::SetClipboardText((shown.title + "\n" + describe(shown.error)).c_str());
+  if (ui::button("Copy text")) ImGui::SetClipboardText((shown.title + "\n" + describe(shown.error)).c_str());
   if (errors.size() > 1) {
     ImGui::SameLine();
-    ui::dimText(fmt::format("{} more", errors.size() - 1));
+    ui::dimText(trf("{} more", errors.size() - 1));
   }
   ImGui::EndPopup();
 }
@@ -72,8 +73,8 @@ void leave(Editor& editor) {
 
 void drawUnsaved(Editor& editor) {
   if (!ui::beginModal(editor, "Unsaved changes###unsaved", editor.dialogs.unsaved, 460)) return;
-  ui::wrapped(fmt::format("'{}' has unsaved changes. Last change: {}.", editor.session.name(),
-                          editor.session.history().undoDescription()));
+  ui::wrapped(trf("'{}' has unsaved changes. Last change: {}.", editor.session.name(),
+                  trSentence(editor.session.history().undoDescription())));
   ui::gap(editor, 6);
   const auto why = editor.session.whyNotSave();
   if (ui::primaryButton("Save###save", why, {editor.px(110), 0})) {
@@ -83,9 +84,9 @@ void drawUnsaved(Editor& editor) {
     invoke(editor, "save");
   }
   ImGui::SameLine();
-  if (ImGui::Button("Do not save", {editor.px(110), 0})) leave(editor);
+  if (ui::button("Do not save", {}, {editor.px(110), 0})) leave(editor);
   ImGui::SameLine();
-  if (ImGui::Button("Cancel", {editor.px(110), 0}) || ui::modalCancelled()) {
+  if (ui::button("Cancel", {}, {editor.px(110), 0}) || ui::modalCancelled()) {
     editor.dialogs.unsaved = false;
     editor.dialogs.after_unsaved = nullptr;
     ImGui::CloseCurrentPopup();
@@ -105,8 +106,8 @@ void drawRecovery(Editor& editor) {
   auto& copies = editor.dialogs.recovery;
   if (!ui::beginModal(editor, "Recover unsaved work###recovery", !copies.empty(), 500)) return;
   const RecoveryCopy copy = copies.front();
-  ui::wrapped(fmt::format("The editor closed unexpectedly. A recovery copy of '{}' is available.", copy.name));
-  if (!copy.saved_in.empty()) ui::dimText("Saved in " + copy.saved_in);
+  ui::wrapped(trf("The editor closed unexpectedly. A recovery copy of '{}' is available.", copy.name));
+  if (!copy.saved_in.empty()) ui::dimText(trf("Saved in {}", copy.saved_in));
   ui::gap(editor, 6);
   const auto close = [&] {
     copies.erase(copies.begin());
@@ -115,9 +116,9 @@ void drawRecovery(Editor& editor) {
   if (ui::primaryButton("Open the copy###open", editor.session.whyNot("open-project"), {editor.px(140), 0})) {
     editor.session.recover(copy);
     close();
-  } else if (ImGui::SameLine(), ImGui::Button("Decide later", {editor.px(120), 0}) || ui::modalCancelled(true)) {
+  } else if (ImGui::SameLine(), ui::button("Decide later", {}, {editor.px(120), 0}) || ui::modalCancelled(true)) {
     close();
-  } else if (ImGui::SameLine(), ImGui::Button("Delete the copy", {editor.px(140), 0})) {
+  } else if (ImGui::SameLine(), ui::button("Delete the copy", {}, {editor.px(140), 0})) {
     removeRecovery(copy.folder);
     close();
   }
@@ -128,17 +129,17 @@ void drawChangedOnDisk(Editor& editor) {
   auto& session = editor.session;
   const bool free = session.errors().empty() && editor.dialogs.recovery.empty() && !editor.dialogs.unsaved;
   if (!ui::beginModal(editor, "Project changed on disk###changed", free && session.changedOnDisk(), 500)) return;
-  ui::wrapped(fmt::format("Another program has changed '{}'.", session.name()));
+  ui::wrapped(trf("Another program has changed '{}'.", session.name()));
   if (session.modified())
-    ui::wrapped(
-        fmt::format("Reloading discards your unsaved changes. Last change: {}.", session.history().undoDescription()));
+    ui::wrapped(trf("Reloading discards your unsaved changes. Last change: {}.",
+                    trSentence(session.history().undoDescription())));
   ui::gap(editor, 6);
   if (ui::primaryButton("Reload###reload", session.whyNot("open-project"), {editor.px(110), 0})) {
     session.open(session.folder());
     ImGui::CloseCurrentPopup();
   }
   ImGui::SameLine();
-  if (ImGui::Button("Keep this version", {editor.px(150), 0}) || ui::modalCancelled(true)) {
+  if (ui::button("Keep this version", {}, {editor.px(150), 0}) || ui::modalCancelled(true)) {
     session.keepOverDisk();
     ImGui::CloseCurrentPopup();
   }
@@ -165,7 +166,7 @@ constexpr std::array kMouse = {
 void hintRow(const char* keys, const char* meaning) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  ImGui::TextUnformatted(keys);
+  ImGui::TextUnformatted(tr(keys).c_str());
   ImGui::TableNextColumn();
   ui::dimWrapped(meaning);
 }
@@ -186,6 +187,18 @@ void drawShortcuts(Editor& editor) {
   ImGui::EndPopup();
 }
 
+void drawLanguages(Editor& editor) {
+  auto& chosen = editor.settings.language;
+  const auto shown = languages();
+  const auto named = std::find_if(shown.begin(), shown.end(), [&](const Language& l) { return chosen == l.code; });
+  const std::string system = tr("As the system");
+  if (!ImGui::BeginCombo("###language", named == shown.end() ? system.c_str() : named->name)) return;
+  if (ImGui::Selectable((system + "###system").c_str(), chosen.empty())) chooseLanguage(editor, "");
+  for (const auto& language : shown)
+    if (ImGui::Selectable(language.name, chosen == language.code)) chooseLanguage(editor, language.code);
+  ImGui::EndCombo();
+}
+
 void drawPreferences(Editor& editor) {
   if (!ui::beginModal(editor, "Preferences###preferences", editor.dialogs.preferences, 460)) return;
   if (ui::beginProperties("preferences", 0.5F)) {
@@ -198,11 +211,13 @@ void drawPreferences(Editor& editor) {
     }
     ui::propertyLabel("Theme");
     for (const auto& [theme, name] : {std::pair{Theme::dark, "Dark"}, {Theme::light, "Light"}}) {
-      if (ImGui::RadioButton(fmt::format("{}###theme-{}", name, themeKey(theme)).c_str(),
+      if (ImGui::RadioButton(fmt::format("{}###theme-{}", tr(name), themeKey(theme)).c_str(),
                              editor.settings.theme == theme))
         editor.settings.theme = theme;
       ImGui::SameLine(0, editor.px(16));
     }
+    ui::propertyLabel("Language");
+    drawLanguages(editor);
     ui::propertyLabel("Recovery copy after every change");
     ImGui::Checkbox("###recovery", &editor.settings.recovery);
     ui::endProperties();
@@ -243,12 +258,12 @@ void drawVerbDialog(Editor& editor) {
     state.open = false;
   }
   ImGui::SameLine();
-  if (ImGui::Button("Cancel", {editor.px(110), 0}) || ui::modalCancelled(edited)) state.open = false;
+  if (ui::button("Cancel", {}, {editor.px(110), 0}) || ui::modalCancelled(edited)) state.open = false;
   if (!why.empty()) {
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     ImGui::PushStyleColor(ImGuiCol_Text, tone::kWarning);
-    ui::fitted(why, ImGui::GetContentRegionAvail().x);
+    ui::fitted(tr(why), ImGui::GetContentRegionAvail().x);
     ImGui::PopStyleColor();
   }
   ImGui::EndPopup();

@@ -89,7 +89,7 @@ void drawOptionForm(Editor& editor, OptionForm& form) {
     const bool optional = !p.required && p.default_value.is_null() && p.kind != ParameterKind::flag;
     if (optional) {
       ImGui::Checkbox("###given", &field.given);
-      ui::tooltip("Unticked: chosen automatically");
+      ui::tooltip("Unticked: set automatically");
       ImGui::SameLine();
       ImGui::SetNextItemWidth(-FLT_MIN);
     }

@@ -36,12 +36,6 @@ void beside(const Editor& editor, float width) {
   if (ImGui::GetCursorScreenPos().x + width > editor.overlay_end) ImGui::NewLine();
 }
 
-// Of a list's chip: as its label needs it, so that none is cut off, but not less, so that few changes of it move
-// others.
-float chipWidth(const Editor& editor, const std::string& label, float least_pt) {
-  return std::max(editor.px(least_pt), ImGui::CalcTextSize(label.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x);
-}
-
 const char* colourName(ColourMode mode) {
   switch (mode) {
     case ColourMode::model: return "Model colours";
@@ -60,15 +54,15 @@ const char* colourName(ColourMode mode) {
 }
 
 void colourChip(Editor& editor) {
-  const auto label = fmt::format("{}  {}", ICON_PAINT, colourName(editor.view.colour));
+  const auto label = fmt::format("{}  {}", ICON_PAINT, tr(colourName(editor.view.colour)));
   ImGui::SetNextItemWidth(chipWidth(editor, label, 152));
   if (!ImGui::BeginCombo("###colour", label.c_str(), ImGuiComboFlags_NoArrowButton)) return;
   for (const auto mode : {ColourMode::model, ColourMode::material, ColourMode::reflectance, ColourMode::confidence,
                           ColourMode::expected_intensity, ColourMode::expected_noise, ColourMode::expected_fate,
                           ColourMode::coverage, ColourMode::coverage_spacing, ColourMode::coverage_incidence})
-    if (ImGui::Selectable(colourName(mode), editor.view.colour == mode)) editor.view.colour = mode;
+    if (ImGui::Selectable(ui::Label(colourName(mode)), editor.view.colour == mode)) editor.view.colour = mode;
   if (editor.session.document().simplified &&
-      ImGui::Selectable(colourName(ColourMode::deviation), editor.view.colour == ColourMode::deviation))
+      ImGui::Selectable(ui::Label(colourName(ColourMode::deviation)), editor.view.colour == ColourMode::deviation))
     editor.view.colour = ColourMode::deviation;
   ImGui::EndCombo();
 }
@@ -96,31 +90,30 @@ const char* sideName(ModelSide side) {
 
 void sideChip(Editor& editor) {
   if (!editor.session.document().simplified || isExpected(editor.view.colour)) return;
-  const auto label = fmt::format("{}  {}", ICON_COMPRESS, sideName(editor.view.side));
+  const auto label = fmt::format("{}  {}", ICON_COMPRESS, tr(sideName(editor.view.side)));
   const float width = chipWidth(editor, label, 112);
   beside(editor, width);
   ImGui::SetNextItemWidth(width);
   if (!ImGui::BeginCombo("###side", label.c_str(), ImGuiComboFlags_NoArrowButton)) return;
   for (const auto side : {ModelSide::lighter, ModelSide::original, ModelSide::both})
-    if (ImGui::Selectable(sideName(side), editor.view.side == side)) editor.view.side = side;
+    if (ImGui::Selectable(ui::Label(sideName(side)), editor.view.side == side)) editor.view.side = side;
   ImGui::EndCombo();
 }
 
 std::string storeyName(const Editor& editor, const StoreyLevel& level) {
   const auto& node = editor.environment()->spatial[static_cast<std::size_t>(level.node)];
-  return node.name.empty() ? "Storey" : node.name;
+  return node.name.empty() ? tr("Storey") : node.name;
 }
 
 void cutChip(Editor& editor) {
   auto& cut = editor.visibility.cut_height_m;
   const double shift = editor.shift_m().z();
-  const std::string label =
-      cut ? fmt::format("{}  Cut at {:.2f} m", ICON_CUT, *cut + shift) : std::string(ICON_CUT) + "  No cut";
+  const std::string label = cut ? trf("{}  Cut at {:.2f} m", ICON_CUT, *cut + shift) : tr(ICON_CUT "  No cut");
   const float width = chipWidth(editor, label, 96);
   beside(editor, width);
   ImGui::SetNextItemWidth(width);
   if (ImGui::BeginCombo("###cut", label.c_str(), ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton)) {
-    if (ImGui::Selectable("No cut", !cut)) cut.reset();
+    if (ImGui::Selectable(ui::Label("No cut"), !cut)) cut.reset();
     const auto& storeys = editor.storeys();
     for (std::size_t i = storeys.size(); i-- > 0;) {
       const double height = storeys[i].elevation_m + kCutAboveFloor_m;
@@ -132,7 +125,7 @@ void cutChip(Editor& editor) {
     }
     if (storeys.empty()) {
       const Bounds all = editor.visibleBounds();
-      if (!all.empty() && ImGui::Selectable("Half height")) cut = (all.min.z() + all.max.z()) / 2;
+      if (!all.empty() && ImGui::Selectable(ui::Label("Half height"))) cut = (all.min.z() + all.max.z()) / 2;
     }
     ImGui::EndCombo();
   }
@@ -166,29 +159,27 @@ void toggle(Editor& editor, const char* icon, const char* id, bool lit) {
 void cloudChip(Editor& editor) {
   if (editor.readingCloud()) {
     beside(editor, editor.px(120));
-    ImGui::TextUnformatted("Reading the scan …");
+    ImGui::TextUnformatted(tr("Reading the scan …").c_str());
     return;
   }
   if (!editor.cloud()) return;
   const auto& cloud = *editor.cloud();
   beside(editor, editor.px(150));
-  if (ImGui::Button(fmt::format("{}  Return to model###cloud", ICON_CUBE).c_str())) {
+  if (ImGui::Button(trf("{}  Return to model###cloud", ICON_CUBE).c_str())) {
     editor.showCloud({});
     return;
   }
-  const std::string name = cloud.file.empty() ? "Scan" : cloud.file.filename().string();
-  ui::tooltip(fmt::format("{}: {} of {} points shown", name, groupedDigits(cloud.colours.size()),
-                          groupedDigits(cloud.points_in_file)));
+  const std::string name = cloud.file.empty() ? tr("Scan") : cloud.file.filename().string();
+  ui::tooltip(
+      trf("{}: {} of {} points shown", name, groupedDigits(cloud.colours.size()), groupedDigits(cloud.points_in_file)));
   if (!editor.showsLiveScan()) return;
   beside(editor, editor.px(180));
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(
-      fmt::format("{:.1f} million points loaded", static_cast<double>(cloud.points_in_file) / 1e6).c_str());
+  ImGui::TextUnformatted(trf("{:.1f} million points loaded", static_cast<double>(cloud.points_in_file) / 1e6).c_str());
 }
 
 // A line near the lower edge, `above_pt` over it.
-void drawBanner(const Editor& editor, ImVec2 origin, ImVec2 size, const std::string& words, float above_pt,
-                ImU32 ground) {
+void drawBanner(const Editor& editor, ImVec2 origin, ImVec2 size, const ui::Text& words, float above_pt, ImU32 ground) {
   const ImVec2 text = ImGui::CalcTextSize(words.c_str());
   const float pad = editor.px(8);
   const ImVec2 at(origin.x + (size.x - text.x) / 2, origin.y + size.y - text.y - editor.px(above_pt));
@@ -204,7 +195,7 @@ std::string walkLine(const Editor& editor) {
   const Eigen::Vector3d p = (walk.feet() + editor.shift_m()).unaryExpr(toCentimetre);
   std::string line = fmt::format("{:.2f}  {:.2f}  {:.2f} m", p.x(), p.y(), p.z());
   if (const auto name = walkPlaceName(editor); !name.empty()) line += "   " + name;
-  line += fmt::format("   eye {:.2f} m   {:.1f} m/s", walk.eyeHeight_m(), walk.speed_mps(false));
+  line += trf("   eye {:.2f} m   {:.1f} m/s", walk.eyeHeight_m(), walk.speed_mps(false));
   if (const auto note = walk.note(); !note.empty()) line += "   " + note;
   return line;
 }
@@ -213,7 +204,7 @@ void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
   constexpr ImU32 kHint = IM_COL32(38, 84, 148, 235);
   if (editor.walk_ground.preparing()) {
     const auto words =
-        fmt::format("Preparing the walkable surface … {:.0f} %   Esc to cancel", 100 * editor.walk_ground.fraction());
+        trf("Preparing the walkable surface … {:.0f} %   Esc to cancel", 100 * editor.walk_ground.fraction());
     return drawBanner(editor, origin, size, words, 26, kHint);
   }
   if (editor.walk.active()) drawBanner(editor, origin, size, walkLine(editor), 52, IM_COL32(24, 26, 30, 220));
@@ -315,14 +306,16 @@ void drawConfidenceLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
   constexpr std::array<std::pair<double, const char*>, 4> kRows = {
       {{1.0, "named"}, {0.65, "general keyword"}, {0.2, "class or colour only"}, {-1.0, "no material"}}};
   float width = 0;
-  for (const auto& [confidence, text] : kRows) width += swatch + editor.px(19) + ImGui::CalcTextSize(text).x;
+  for (const auto& [confidence, text] : kRows)
+    width += swatch + editor.px(19) + ImGui::CalcTextSize(tr(text).c_str()).x;
   drawPlate(editor, {x, y}, {width - editor.px(14), ImGui::GetTextLineHeight()});
   for (const auto& [confidence, text] : kRows) {
     const Colour c = confidenceColour(confidence);
     list.AddRectFilled({x, y + editor.px(2)}, {x + swatch, y + editor.px(2) + swatch},
                        ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1}));
-    list.AddText({x + swatch + editor.px(5), y}, tone::kText, text);
-    x += swatch + editor.px(19) + ImGui::CalcTextSize(text).x;
+    const std::string said = tr(text);
+    list.AddText({x + swatch + editor.px(5), y}, tone::kText, said.c_str());
+    x += swatch + editor.px(19) + ImGui::CalcTextSize(said.c_str()).x;
   }
 }
 
@@ -334,7 +327,7 @@ void drawDeviationLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
               y = origin.y + size.y - editor.px(38) - caption;
   const auto both = editor.deviation.of(editor.session.document());
   if (!both) {
-    list.AddText({x, y}, tone::kDim, editor.deviation.busy() ? "Comparing with the original …" : "");
+    list.AddText({x, y}, tone::kDim, tr(editor.deviation.busy() ? "Comparing with the original …" : "").c_str());
     return;
   }
   drawPlate(editor, {x, y}, {width, height + editor.px(2) + ImGui::GetTextLineHeight()});
@@ -345,11 +338,15 @@ void drawDeviationLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
                        {x + width * static_cast<float>(i + 1) / kSteps, y + height}, IM_COL32(c[0], c[1], c[2], 255));
   }
   list.AddText({x, y + height + editor.px(2)}, tone::kDim, "0");
-  const auto most = fmt::format("{:.3g} mm or more", both->lighter->full_scale_m * 1000);
+  const auto most = trf("{:.3g} mm or more", both->lighter->full_scale_m * 1000);
   list.AddText({x + width - ImGui::CalcTextSize(most.c_str()).x, y + height + editor.px(2)}, tone::kDim, most.c_str());
 }
 
 }  // namespace
+
+float chipWidth(const Editor& editor, const std::string& label, float least_pt) {
+  return std::max(editor.px(least_pt), ImGui::CalcTextSize(label.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x);
+}
 
 void drawPlate(const Editor& editor, ImVec2 at, ImVec2 size) {
   if (editor.graphicsLook() == GraphicsLook()) return;
@@ -375,7 +372,7 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   sideChip(editor);
   cutChip(editor);
   cloudChip(editor);
-  beside(editor, editor.px(5 * 32));  // they stay together
+  beside(editor, editor.px(5 * 33));  // they stay together
   drawTogglePlate(editor);
   toggle(editor, ICON_CUBE, "edges", editor.view.edges);
   toggle(editor, ICON_GRID, "grid", editor.view.grid);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+
 #include <imgui.h>
 
 namespace standpoint {
@@ -10,6 +12,9 @@ struct Editor;
 // Drawn over the picture of the scene with Dear ImGui's draw list: crisp at any scale, and no redraw of the scene.
 void drawMarkers(Editor& editor, ImVec2 origin);  // stations, targets, the measured distance, the tool's preview
 void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size);  // view controls, cut, axes, legend
+// Of a list's chip: as its label needs it, so that none is cut off, but not less, so that few changes of it move
+// others.
+float chipWidth(const Editor& editor, const std::string& label, float least_pt);
 // A ground for words over the view: the dark gradient of the lowest level needs none.
 void drawPlate(const Editor& editor, ImVec2 at, ImVec2 size);
 // Is the pointer on one of the overlay's controls, so that the scene must not take the click?

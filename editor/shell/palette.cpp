@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <cctype>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -28,14 +27,9 @@ struct Entry {
   std::function<void()> run;
 };
 
-std::string lower(std::string text) {
-  for (auto& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 bool matches(const Entry& entry, const std::string& query) {
-  const std::string all = lower(entry.title + " " + entry.detail);
-  std::istringstream words(lower(query));
+  const std::string all = withoutCase(entry.title + " " + entry.detail);
+  std::istringstream words(withoutCase(query));
   for (std::string word; words >> word;)
     if (all.find(word) == std::string::npos) return false;
   return true;
@@ -50,16 +44,16 @@ std::vector<Entry> entries(Editor& editor) {
   std::vector<Entry> all;
   for (const auto& action : actions()) {
     const auto about = aboutGraphics(editor, action.id);
-    all.push_back({action.id, action.icon, action.title, about.empty() ? shortcutText(action.shortcut) : about,
+    all.push_back({action.id, action.icon, tr(action.title), about.empty() ? shortcutText(action.shortcut) : about,
                    whyNot(action, editor), [&editor, &action] { action.run(editor); }});
   }
   for (const auto& verb : editor.session.verbs())
     if (!ownToEditor(verb))
-      all.push_back({fmt::format("verb-{}", verb.name), ICON_GEAR, verb.summary, verb.name,
+      all.push_back({fmt::format("verb-{}", verb.name), ICON_GEAR, tr(verb.summary), verb.name,
                      editor.session.whyNot(verb.name), [&editor, &verb] { openVerbForm(editor, verb.name); }});
   for (const auto& recent : editor.settings.recent)
     all.push_back({fmt::format("recent-{}", recent), ICON_HISTORY,
-                   "Open " + std::filesystem::path(recent).filename().string(), recent,
+                   trf("Open {}", std::filesystem::path(recent).filename().string()), recent,
                    editor.session.whyNot("open-project"), [&editor, recent] { openPath(editor, recent); }});
   return all;
 }
@@ -87,7 +81,7 @@ std::vector<Entry> places(Editor& editor, char kind) {
   sortAsPeopleDo(all);
   if (kind == '#' && document.job)
     for (std::size_t i = 0; i < document.job->stations.size(); ++i)
-      all.push_back({fmt::format("station-{}", i), ICON_STATION, document.job->stations[i].name, "Station", "",
+      all.push_back({fmt::format("station-{}", i), ICON_STATION, document.job->stations[i].name, tr("Station"), "",
                      [&editor, i] { jumpToStation(editor, i); }});
   return all;
 }
@@ -105,7 +99,7 @@ void drawEntry(Editor& editor, const Entry& entry, bool chosen, bool& done) {
   const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - editor.px(8);
   ImGui::SetNextItemWidth(-FLT_MIN);
   const bool pressed = ImGui::Selectable(("###palette-" + entry.id).c_str(), chosen, flags, {0, editor.px(22)});
-  ui::tooltip(entry.why);
+  ui::tooltip(tr(entry.why));
   ImGui::SameLine(editor.px(16));
   ImGui::BeginDisabled(!entry.why.empty());
   ImGui::TextDisabled("%s", entry.icon.c_str());
@@ -141,7 +135,7 @@ void drawPalette(Editor& editor) {
   }
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-FLT_MIN);
-  if (ImGui::InputTextWithHint("###query", "Search commands; @ for rooms, # for stations", &state.query))
+  if (ImGui::InputTextWithHint("###query", tr("Search commands; @ for rooms, # for stations").c_str(), &state.query))
     state.chosen = 0;
   const bool enter = keyboard::pressed(kKeyEnter);
   const auto shown = matching(editor, state.query);

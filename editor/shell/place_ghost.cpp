@@ -14,6 +14,8 @@
 #include "editor/shell/view_pen.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
+#include "editor/words/sentences.h"
+#include "editor/words/words.h"
 #include "survey/stations/station_places.h"
 
 namespace standpoint {
@@ -80,10 +82,10 @@ std::string percent(double fraction) { return fmt::format("{:.0f} %", fraction *
 std::vector<FigureRow> figureRows(const Editor& editor, const PlaceForecast& forecast) {
   std::vector<FigureRow> rows;
   if (forecast.near_seen)
-    rows.push_back({forecast.room ? "Seen of the room" : "Seen of the storey", percent(*forecast.near_seen)});
-  rows.push_back({"Seen of the model", percent(forecast.model_seen)});
+    rows.push_back({forecast.room ? "Room coverage" : "Storey coverage", percent(*forecast.near_seen)});
+  rows.push_back({"Model coverage", percent(forecast.model_seen)});
   for (const auto& overlap : forecast.overlaps)
-    rows.push_back({"Overlap with " + overlap.station, percent(overlap.fraction),
+    rows.push_back({trf("Overlap with {}", overlap.station), percent(overlap.fraction),
                     placeFigureVerdict("overlap", overlap.fraction * 100)});
   if (forecast.overlaps.empty() && editor.session.document().job->stations.size() > 1)
     rows.push_back({"Overlap", "no station nearby", Verdict::warn});
@@ -97,7 +99,7 @@ std::vector<FigureRow> figureRows(const Editor& editor, const PlaceForecast& for
 }
 
 std::string placeTitle(const Editor& editor, const HeldStation& held, const PlaceForecast* forecast) {
-  const auto title = held.name.empty() ? std::string("New station") : "Station " + held.name;
+  const auto title = held.name.empty() ? tr("New station") : trf("Station {}", held.name);
   const auto scene = editor.picker.scene();
   if (forecast == nullptr || !scene) return title;
   const auto where = forecast->room ? readableName(scene->environment().products[*forecast->room]) : forecast->storey;
@@ -124,9 +126,9 @@ void drawFigures(const Editor& editor, const HeldStation& held, ImVec2 origin, I
   list.PopClipRect();
   for (const auto& row : rows) {
     y += line;
-    const std::string value = old && forecast != nullptr ? row.value + " …" : row.value;
+    const std::string said = tr(row.value), value = old && forecast != nullptr ? said + " …" : said;
     const float right = low.x + width - pad - editor.px(18);
-    list.AddText({low.x + pad, y}, tone::kDim, row.label.c_str());
+    list.AddText({low.x + pad, y}, tone::kDim, tr(row.label).c_str());
     list.AddText({right - ImGui::CalcTextSize(value.c_str()).x, y}, old ? tone::kDim : IM_COL32(236, 239, 244, 255),
                  value.c_str());
     if (row.verdict != Verdict::unknown && !old)
@@ -150,13 +152,13 @@ void drawRefused(const Editor& editor, const ViewPen& pen, ImVec2 origin, ImVec2
   const ImU32 tone = verdictTone(Verdict::bad);
   if (!refused->floor)
     return pen.plate({origin.x + editor.px(14), origin.y + size.y - editor.px(90)}, verdictSign(Verdict::bad), tone,
-                     refused->brief + ": " + refused->reason);
+                     trSentence(refused->brief) + ": " + refused->reason);
   drawCross(pen, *refused->floor, tone);
   const auto place = pen.at(*refused->floor);
   if (!place) return;
-  const auto stays = refused->station.empty() ? std::string() : ". " + refused->station + " stays where it was";
+  const auto stays = refused->station.empty() ? std::string() : trf(". {} stays where it was", refused->station);
   pen.plate({place->x + editor.px(18), place->y + editor.px(14)}, verdictSign(Verdict::bad), tone,
-            refused->brief + stays);
+            trSentence(refused->brief) + stays);
 }
 
 // The name of the chosen station where the title is about it.
@@ -242,7 +244,7 @@ void drawPlaceGhost(Editor& editor, ImVec2 origin, ImVec2 size) {
   if (verdict.verdict != Verdict::bad) drawFigures(editor, *held, origin, size);
   const ImVec2 pointer = ImGui::GetIO().MousePos;
   pen.plate({pointer.x + editor.px(20), pointer.y + editor.px(16)}, verdictSign(verdict.verdict),
-            verdictTone(verdict.verdict), verdict.brief);
+            verdictTone(verdict.verdict), trSentence(verdict.brief));
 }
 
 }  // namespace standpoint

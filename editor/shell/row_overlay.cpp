@@ -11,6 +11,7 @@
 #include "editor/shell/place_ghost.h"
 #include "editor/shell/view_pen.h"
 #include "editor/widgets/number_field.h"
+#include "editor/words/words.h"
 #include "survey/stations/station_places.h"
 
 namespace standpoint {
@@ -31,9 +32,9 @@ PlaceVerdict verdictOfFloor(const Editor& editor, const Eigen::Vector3d& floor) 
 }
 
 std::string rowText(const std::vector<Eigen::Vector3d>& floors, std::size_t bad) {
-  std::string text = fmt::format("{} station{}", floors.size() - bad, floors.size() - bad == 1 ? "" : "s");
-  if (floors.size() > 1) text += fmt::format(", every {:.2f} m", (floors[1] - floors[0]).head<2>().norm());
-  if (bad > 0) text += fmt::format("; {} cannot stand", bad);
+  std::string text = trn("{} station", "{} stations", floors.size() - bad, floors.size() - bad);
+  if (floors.size() > 1) text += trf(", every {:.2f} m", (floors[1] - floors[0]).head<2>().norm());
+  if (bad > 0) text += trf("; no room for {}", bad);
   return text;
 }
 

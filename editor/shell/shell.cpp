@@ -73,9 +73,7 @@ void items(Editor& editor, std::initializer_list<const char*> ids) {
 }
 
 void recentMenu(Editor& editor) {
-  if (!ImGui::BeginMenu((std::string(ICON_HISTORY) + "  Open recent###recent").c_str(),
-                        !editor.settings.recent.empty()))
-    return;
+  if (!ImGui::BeginMenu(ui::Label(ICON_HISTORY "  Open recent###recent"), !editor.settings.recent.empty())) return;
   const auto recent = editor.settings.recent;
   for (const auto& path : recent) {
     const auto shown = std::filesystem::path(path).filename().string();
@@ -92,21 +90,21 @@ void runMenu(Editor& editor) {
     const std::string_view name = verb.name;
     if (name.ends_with("-project") || name.ends_with("-recovery")) continue;
     const auto why = editor.session.whyNot(verb.name);
-    if (ImGui::MenuItem(fmt::format("      {}…###run-{}", readableOption(verb.name), verb.name).c_str(), nullptr, false,
-                        why.empty()))
+    if (ImGui::MenuItem(fmt::format("      {}…###run-{}", tr(readableOption(verb.name)), verb.name).c_str(), nullptr,
+                        false, why.empty()))
       openVerbForm(editor, verb.name);
-    ui::tooltip(why.empty() ? verb.summary : why);
+    ui::tooltip(tr(why.empty() ? verb.summary : why));
   }
 }
 
 void submenu(Editor& editor, const char* title, std::initializer_list<const char*> ids) {
-  if (!ImGui::BeginMenu(title)) return;
+  if (!ImGui::BeginMenu(ui::Label(title))) return;
   items(editor, ids);
   ImGui::EndMenu();
 }
 
 void graphicsMenu(Editor& editor) {
-  if (!ImGui::BeginMenu("      Graphics###menu-graphics")) return;
+  if (!ImGui::BeginMenu(ui::Label("      Graphics###menu-graphics"))) return;
   drawGraphicsChoices(editor, 380);
   ImGui::EndMenu();
 }
@@ -137,26 +135,26 @@ void drawMenuBar(Editor& editor) {
   const bool open = ImGui::BeginMainMenuBar();
   ImGui::PopStyleVar();
   if (!open) return;
-  if (ImGui::BeginMenu("File")) {
+  if (ImGui::BeginMenu(ui::Label("File"))) {
     items(editor, {"new", "open", "sample"});
     recentMenu(editor);
     items(editor, {"import", "update", "", "save", "save-as", "export", "", "preferences", "quit"});
     ImGui::EndMenu();
   }
-  if (ImGui::BeginMenu("Edit")) {
+  if (ImGui::BeginMenu(ui::Label("Edit"))) {
     items(editor, {"undo", "redo", "", "select-all", "select-none", "", "rename", "duplicate-station", "remove", "",
                    "take-material", "paint-material", "", "measure"});
     ImGui::EndMenu();
   }
-  if (ImGui::BeginMenu("View")) {
+  if (ImGui::BeginMenu(ui::Label("View"))) {
     viewMenu(editor);
     ImGui::EndMenu();
   }
-  if (ImGui::BeginMenu("Run")) {
+  if (ImGui::BeginMenu(ui::Label("Run"))) {
     runMenu(editor);
     ImGui::EndMenu();
   }
-  if (ImGui::BeginMenu("Help")) {
+  if (ImGui::BeginMenu(ui::Label("Help"))) {
     items(editor, {"first-steps", "shortcuts", "palette", "", "about"});
     ImGui::EndMenu();
   }
@@ -176,18 +174,24 @@ void toolGap(const Editor& editor) {
   ImGui::SameLine(0, editor.px(8));
 }
 
+float scanButtonWidth(const Editor& editor) {
+  const float text = ImGui::CalcTextSize(tr(ICON_PLAY "  Scan").c_str()).x + 2 * ImGui::GetStyle().FramePadding.x;
+  return std::max(editor.px(96), text);
+}
+
 // Beside ten tools, the button Scan and the palette's.
 bool roomForTitles(const Editor& editor, float width) {
   const float padding = 2 * ImGui::GetStyle().FramePadding.x;
-  float needed = 11 * (ImGui::GetFrameHeight() + editor.px(10)) + editor.px(3 * 17 + 16 + 96);
-  for (const auto& tab : kWorkspaceTabs) needed += ImGui::CalcTextSize(tab.title).x + editor.px(24) + padding;
+  float needed = 11 * (ImGui::GetFrameHeight() + editor.px(10)) + editor.px(3 * 17 + 16) + scanButtonWidth(editor);
+  for (const auto& tab : kWorkspaceTabs)
+    needed += ImGui::CalcTextSize(tr(tab.title).c_str()).x + editor.px(24) + padding;
   return needed <= width;
 }
 
 // How far the work of a workspace is done, at the corner of its button: a tick or an exclamation mark, so that colour
 // is not all.
 void markStep(const Editor& editor, const GuideStep& step) {
-  ui::tooltip(step.status.empty() ? std::string(step.title) : fmt::format("{}: {}", step.title, step.status));
+  ui::tooltip(step.status.empty() ? tr(step.title) : fmt::format("{}: {}", tr(step.title), tr(step.status)));
   const bool attention = step.state == GuideStep::State::attention;
   if (!editor.environment() || (!attention && step.state != GuideStep::State::done)) return;
   const ImVec2 corner = ImGui::GetItemRectMin();
@@ -203,7 +207,7 @@ void drawWorkspaceTabs(Editor& editor, bool titles) {
     ImGui::PushStyleColor(ImGuiCol_Button, chosen ? ImVec4(0.25F, 0.56F, 0.97F, 0.26F) : ImVec4(0, 0, 0, 0));
     ImGui::PushStyleColor(ImGuiCol_Text, chosen ? tone::kChosen : tone::kCalm);
     const std::string label = fmt::format("{}{}{}###{}", findAction(tab.action)->icon, titles ? "  " : "",
-                                          titles ? tab.title : "", tab.action);
+                                          titles ? tr(tab.title) : "", tab.action);
     if (ImGui::Button(label.c_str())) editor.workspace = tab.workspace;
     ImGui::PopStyleColor(2);
     markStep(editor, steps[static_cast<std::size_t>(tab.workspace)]);
@@ -221,9 +225,9 @@ void drawToolbar(Editor& editor, const Box& box) {
   drawWorkspaceTabs(editor, roomForTitles(editor, box.w));
   toolGap(editor);
   for (const char* id : {"walk", "teleport", "add-station", "add-target", "measure"}) actionToolButton(editor, id);
-  const float right = editor.px(96) + editor.px(36);
+  const float scan = scanButtonWidth(editor), right = scan + editor.px(36);
   ImGui::SameLine(box.w - right - editor.px(8));
-  if (ui::primaryButton(ICON_PLAY "  Scan###tool_scan", editor.session.whyNot("scan"), {editor.px(96), 0}))
+  if (ui::primaryButton(ICON_PLAY "  Scan###tool_scan", editor.session.whyNot("scan"), {scan, 0}))
     invoke(editor, "scan");
   ImGui::SameLine(0, editor.px(4));
   actionToolButton(editor, "palette");
@@ -236,7 +240,7 @@ bool roomForIcons(const Editor& editor, Area area) {
   float width = 0;
   for (const auto& panel : panels())
     if (panel.area[static_cast<std::size_t>(editor.workspace)] == area)
-      width += ImGui::CalcTextSize(panel.title).x + editor.px(26) + 2 * ImGui::GetStyle().FramePadding.x +
+      width += ImGui::CalcTextSize(tr(panel.title).c_str()).x + editor.px(26) + 2 * ImGui::GetStyle().FramePadding.x +
                ImGui::GetStyle().ItemInnerSpacing.x;
   return width <= ImGui::GetContentRegionAvail().x;
 }
@@ -251,7 +255,7 @@ void drawPanelTabs(Editor& editor, Area area, const char* id) {
       if (panel.area[workspace] != area) continue;
       const auto flags = wanted == panel.id ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
       if (!ImGui::BeginTabItem(
-              fmt::format("{}{}{}###{}", icons ? panel.icon : "", icons ? "  " : "", panel.title, panel.id).c_str(),
+              fmt::format("{}{}{}###{}", icons ? panel.icon : "", icons ? "  " : "", tr(panel.title), panel.id).c_str(),
               nullptr, flags))
         continue;
       ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(editor.px(10), editor.px(6)));
@@ -353,7 +357,7 @@ void drawPreviewShell(Editor& editor) {
   const float head = ImGui::GetFrameHeight() + editor.px(12);
   beginFixed("###preview-head", {0, 0, display.x, head}, {editor.px(14), editor.px(6)}, tone::kPanel);
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(ICON_IMPORT "  Import preview");
+  ImGui::TextUnformatted(tr(ICON_IMPORT "  Import preview").c_str());
   ImGui::SameLine(0, editor.px(16));
   ui::dimText("Enter: import   Esc: cancel   F: frame");
   ImGui::End();

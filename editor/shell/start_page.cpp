@@ -54,14 +54,15 @@ void sampleCard(Editor& editor, const Sample& sample, float width) {
     list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)), low, high);
   else
     list.AddRectFilled(low, high, tone::kLine);
-  list.AddText(editor.fonts.bold, ImGui::GetFontSize(), {low.x + pad, high.y + pad}, tone::kText, sample.title);
-  list.AddText(nullptr, 0, {low.x + pad, high.y + pad + ImGui::GetTextLineHeightWithSpacing()}, tone::kDim, sample.text,
-               nullptr, width - 4 * pad);
+  list.AddText(editor.fonts.bold, ImGui::GetFontSize(), {low.x + pad, high.y + pad}, tone::kText,
+               tr(sample.title).c_str());
+  list.AddText(nullptr, 0, {low.x + pad, high.y + pad + ImGui::GetTextLineHeightWithSpacing()}, tone::kDim,
+               tr(sample.text).c_str(), nullptr, width - 4 * pad);
   ImGui::PopID();
 }
 
 void startButton(Editor& editor, const char* command, const char* icon, const char* text, bool primary) {
-  const auto label = fmt::format("{}  {}###welcome-{}", icon, text, command);
+  const auto label = fmt::format("{}  {}###welcome-{}", icon, tr(text), command);
   const auto& action = *findAction(command);
   const ImVec2 size(-FLT_MIN, editor.px(32));
   const bool pressed = primary ? ui::primaryButton(label.c_str(), whyNot(action, editor), size)
@@ -84,7 +85,7 @@ void drawRecent(Editor& editor) {
   ui::heading(editor, "Recent");
   ui::gap(editor, 4);
   const auto recent = editor.settings.recent;
-  if (recent.empty()) ui::dimText("Projects and models that you opened appear here.");
+  if (recent.empty()) ui::dimText("Projects and models you open appear here.");
   const auto why = editor.session.whyNot("open-project");
   constexpr std::size_t kMost = 6;
   for (std::size_t i = 0; i < std::min(recent.size(), kMost); ++i) {
@@ -97,10 +98,10 @@ void drawRecent(Editor& editor) {
                           {ImGui::GetContentRegionAvail().x * 0.4F, 0}))
       openPath(editor, recent[i]);
     ImGui::EndDisabled();
-    ui::tooltip(!there ? "Not found: " + recent[i] : why.empty() ? recent[i] : why);
+    ui::tooltip(!there ? trf("Not found: {}", recent[i]) : why.empty() ? recent[i] : tr(why));
     ImGui::SameLine();
     ImGui::PushStyleColor(ImGuiCol_Text, tone::kDim);
-    ui::fitted(there ? path.parent_path().string() : "Not found", ImGui::GetContentRegionAvail().x);
+    ui::fitted(there ? path.parent_path().string() : tr("Not found"), ImGui::GetContentRegionAvail().x);
     ImGui::PopStyleColor();
   }
 }

@@ -6,6 +6,7 @@
 #include "core/units.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/place_ghost.h"
+#include "editor/words/words.h"
 #include "project/survey/survey_verbs.h"
 #include "survey/stations/levelling.h"
 
@@ -55,7 +56,7 @@ void drop(Editor& editor, const Station& station) {
     options.tilt_deg = tilt.angle_rad / kRadPerDeg;
     options.tilt_towards_deg = tilt.towards_rad / kRadPerDeg;
   }
-  editor.session.start(options, "Move station " + station.name);
+  editor.session.start(options, trf("Move station {}", station.name));
 }
 
 }  // namespace

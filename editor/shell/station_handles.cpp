@@ -16,6 +16,7 @@
 #include "editor/shell/view_pen.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
+#include "editor/words/words.h"
 #include "project/survey/survey_verbs.h"
 
 namespace standpoint {
@@ -107,17 +108,17 @@ void setUp(Editor& editor, const Station& station, const HandledStation& s) {
     editor.view.refused_place = RefusedPlace{station.name, why->brief, sentenceOf(*why), floorOf(s)};
     return;
   }
-  editor.session.start(options, "Move station " + station.name);
+  editor.session.start(options, trf("Move station {}", station.name));
 }
 
 std::string handleText(const HandledStation& s, StationHandle handle) {
   switch (handle) {
-    case StationHandle::heading: return fmt::format("Heading {:.0f}°", s.yaw_rad / kRadPerDeg);
-    case StationHandle::height: return fmt::format("Instrument height {:.2f} m", s.height_m);
+    case StationHandle::heading: return trf("Heading {:.0f}°", s.yaw_rad / kRadPerDeg);
+    case StationHandle::height: return trf("Instrument height {:.2f} m", s.height_m);
     case StationHandle::tilt:
-      return s.tilt.angle_rad > 0 ? fmt::format("Tilt {:.1f}° towards {:.0f}°", s.tilt.angle_rad / kRadPerDeg,
-                                                s.tilt.towards_rad / kRadPerDeg)
-                                  : std::string("Tilt 0°");
+      return s.tilt.angle_rad > 0
+                 ? trf("Tilt {:.1f}° towards {:.0f}°", s.tilt.angle_rad / kRadPerDeg, s.tilt.towards_rad / kRadPerDeg)
+                 : tr("Tilt 0°");
     case StationHandle::none: break;
   }
   return {};

@@ -24,7 +24,7 @@ std::string hoverText(const Editor& editor) {
   if (!hover || !editor.environment() || hover->product >= editor.environment()->products.size()) return {};
   const auto& product = editor.environment()->products[hover->product];
   const Eigen::Vector3d p = hover->position + editor.shift_m();
-  return fmt::format("{}   {}   {:.3f}  {:.3f}  {:.3f} m", readableClass(product.ifc_class), productLabel(product),
+  return fmt::format("{}   {}   {:.3f}  {:.3f}  {:.3f} m", tr(readableClass(product.ifc_class)), productLabel(product),
                      p.x(), p.y(), p.z());
 }
 
@@ -41,8 +41,8 @@ bool drawRunningTask(Editor& editor) {
   if (followed == nullptr) return false;
   auto& progress = *followed;
   const std::string title = shown != nullptr ? shown->title()
-                            : scan           ? "Reading the scan"
-                                             : "Showing " + editor.underlays.reading();
+                            : scan           ? tr("Reading the scan")
+                                             : trf("Showing {}", editor.underlays.reading());
   const std::string how_far = ui::jobText(progress, shown != nullptr ? shown->seconds()
                                                     : scan           ? editor.cloudLoader().seconds()
                                                                      : 0);
@@ -66,14 +66,14 @@ void drawNextStep(Editor& editor) {
   const auto& steps = editor.guide.of(editor);
   const auto next = nextStep(steps);
   if (!editor.environment() || !next || *steps[*next].advice == 0) return;
-  const std::string text = fmt::format("Next: {}  {}", steps[*next].advice, ICON_CHEVRON_RIGHT);
+  const std::string text = trf("Next: {}  {}", tr(steps[*next].advice), ICON_CHEVRON_RIGHT);
   const float width = ImGui::CalcTextSize(text.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x;
   ImGui::SameLine(std::max(0.0F, ImGui::GetWindowWidth() - width - editor.px(10)));
   ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0, 0, 0, 0));
   ImGui::PushStyleColor(ImGuiCol_Text, tone::kLink);
   if (ImGui::Button((text + "###next-step").c_str())) openPanel(editor, steps[*next].workspace, steps[*next].tab);
   ImGui::PopStyleColor(2);
-  ui::tooltip(fmt::format("{}: {}", steps[*next].title, steps[*next].status));
+  ui::tooltip(fmt::format("{}: {}", tr(steps[*next].title), tr(steps[*next].status)));
 }
 
 }  // namespace
@@ -86,10 +86,10 @@ void drawStatusBar(Editor& editor) {
   } else if (!hover.empty()) {
     ImGui::TextUnformatted(hover.c_str());
   } else if (const auto& environment = editor.environment()) {
-    std::string text = fmt::format("{} products   {} triangles", groupedDigits(environment->products.size()),
-                                   groupedDigits(editor.triangles()));
-    if (!editor.selection.empty()) text += fmt::format("   {} selected", editor.selection.products().size());
-    if (editor.visibility.anyHidden()) text += fmt::format("   {} hidden", editor.visibility.hiddenCount());
+    std::string text = trf("{} products   {} triangles", groupedDigits(environment->products.size()),
+                           groupedDigits(editor.triangles()));
+    if (!editor.selection.empty()) text += trf("   {} selected", editor.selection.products().size());
+    if (editor.visibility.anyHidden()) text += trf("   {} hidden", editor.visibility.hiddenCount());
     ui::dimText(text);
   } else {
     ui::dimText("No model");

@@ -16,7 +16,7 @@ namespace standpoint {
 namespace {
 
 void drawStep(Editor& editor, const Tour::Step& step, std::size_t number) {
-  ui::dimText(fmt::format("First steps  {} of {}", number + 1, Tour::steps().size()));
+  ui::dimText(trf("First steps  {} of {}", number + 1, Tour::steps().size()));
   ui::heading(editor, step.title);
   ui::wrapped(step.text);
   ui::gap(editor, 4);
@@ -26,9 +26,10 @@ void drawStep(Editor& editor, const Tour::Step& step, std::size_t number) {
 }
 
 void drawEnd(Editor& editor) {
-  ui::heading(editor, "That is all it takes");
+  ui::heading(editor, "That is the whole workflow");
   ui::wrapped(
-      "Import your own building next. The Guide beside the outliner says what remains to be done; F1 lists keys.");
+      "Import your own building next. The Guide panel next to the Outliner shows what to do; F1 lists the keyboard "
+      "shortcuts.");
   ui::gap(editor, 4);
   if (ui::primaryButton(ICON_IMPORT "  Import model…###tour-import", editor.session.whyNot("import"))) {
     editor.tour.end();

@@ -78,7 +78,7 @@ void placeStation(Editor& editor, const RayHit& hit) {
     return refusePlace(editor, held, verdict);
   const auto name = freeStationName(*editor.session.document().job);
   const Eigen::Vector3d p = hit.position + editor.shift_m();
-  editor.session.start(StationOptions{.add = name, .on = FloorPlace{p.x(), p.y(), p.z()}}, "Add station " + name);
+  editor.session.start(StationOptions{.add = name, .on = FloorPlace{p.x(), p.y(), p.z()}}, trf("Add station {}", name));
 }
 
 // The first click is one end, the second the other.
@@ -104,7 +104,7 @@ void placeTarget(Editor& editor, const RayHit& hit) {
   const Eigen::Vector3d p = hit.position + hit.normal * kBefore_m + editor.shift_m();
   TargetOptions options{.add = name};
   options.on_surface = p;
-  editor.session.start(options, "Add target " + name);
+  editor.session.start(options, trf("Add target {}", name));
 }
 
 void measure(Editor& editor, const RayHit& hit) {
@@ -159,12 +159,13 @@ void contextMenu(Editor& editor) {
   for (const char* id : {"exclude", "keep", "by-rules"}) actionMenuItem(editor, id);
   ImGui::Separator();
   const auto why = hit ? editor.session.whyNot("station") : "No surface under the pointer";
-  if (ImGui::MenuItem(ICON_STATION "  Add station here###station-here", nullptr, false, why.empty()))
+  if (ImGui::MenuItem(ui::Label(ICON_STATION "  Add station here###station-here"), nullptr, false, why.empty()))
     placeStation(editor, *hit);
   ui::tooltip(why);
-  if (hit && expectedQuantity(editor.view.colour) && ImGui::MenuItem(ICON_EYE "  Probe from here###probe-here"))
+  if (hit && expectedQuantity(editor.view.colour) &&
+      ImGui::MenuItem(ui::Label(ICON_EYE "  Probe from here###probe-here")))
     putProbeOn(editor, hit->position);
-  if (ImGui::MenuItem(ICON_TARGET "  Add target here###target-here", nullptr, false, why.empty()))
+  if (ImGui::MenuItem(ui::Label(ICON_TARGET "  Add target here###target-here"), nullptr, false, why.empty()))
     placeTarget(editor, *hit);
   ImGui::EndPopup();
 }
@@ -249,9 +250,9 @@ void drawBothModels(Editor& editor, ImVec2 origin, ImVec2 half) {
   ImGui::GetWindowDrawList()->AddLine(right, {right.x, right.y + half.y}, IM_COL32(12, 14, 17, 255), editor.px(2));
   const auto& document = editor.session.document();
   drawCaption(editor, origin, half,
-              fmt::format("Original  {} triangles", groupedDigits(document.simplified->all.triangles_before)));
+              trf("Original  {} triangles", groupedDigits(document.simplified->all.triangles_before)));
   drawCaption(editor, right, half,
-              fmt::format("Simplified  {} triangles", groupedDigits(document.simplified->all.triangles_after)));
+              trf("Simplified  {} triangles", groupedDigits(document.simplified->all.triangles_after)));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "editor/shell/shell.h"
 #include "editor/widgets/keyboard.h"
 #include "editor/widgets/theme.h"
+#include "editor/words/words.h"
 
 namespace standpoint {
 
@@ -26,7 +27,13 @@ const GuiItem* ItemProbe::find(const std::string& part) const {
 
 using standpoint::itemProbe;
 
-// The mangled names of ImGui::ItemAdd, ImGuiWindow::GetID and ImGui::PushID in Dear ImGui 1.86 and 1.90.
+static void keepText(const char* text, const char* end) {
+  auto& probe = itemProbe();
+  if (probe.listens) probe.texts.push_back(end != nullptr ? std::string(text, end) : std::string(text));
+}
+
+// The mangled names of ImGui::ItemAdd, ImGuiWindow::GetID, ImGui::PushID and both ImDrawList::AddText in Dear
+// ImGui 1.86 and 1.90.
 extern "C" {
 bool __real__ZN5ImGui7ItemAddERK6ImRectjPS1_i(const ImRect& box, ImGuiID id, const ImRect* nav, ImGuiItemFlags flags);
 bool __wrap__ZN5ImGui7ItemAddERK6ImRectjPS1_i(const ImRect& box, ImGuiID id, const ImRect* nav, ImGuiItemFlags flags) {
@@ -56,6 +63,27 @@ void __wrap__ZN5ImGui6PushIDEPKc(const char* text) {
   __real__ZN5ImGui6PushIDEPKc(text);
   itemProbe().labels[GImGui->CurrentWindow->IDStack.back()] = text;
 }
+
+void __real__ZN10ImDrawList7AddTextEPK6ImFontfRK6ImVec2jPKcS7_fPK6ImVec4(ImDrawList* list, const ImFont* font,
+                                                                         float size, const ImVec2& at, ImU32 colour,
+                                                                         const char* text, const char* end, float wrap,
+                                                                         const ImVec4* clip);
+void __wrap__ZN10ImDrawList7AddTextEPK6ImFontfRK6ImVec2jPKcS7_fPK6ImVec4(ImDrawList* list, const ImFont* font,
+                                                                         float size, const ImVec2& at, ImU32 colour,
+                                                                         const char* text, const char* end, float wrap,
+                                                                         const ImVec4* clip) {
+  keepText(text, end);
+  __real__ZN10ImDrawList7AddTextEPK6ImFontfRK6ImVec2jPKcS7_fPK6ImVec4(list, font, size, at, colour, text, end, wrap,
+                                                                      clip);
+}
+
+void __real__ZN10ImDrawList7AddTextERK6ImVec2jPKcS4_(ImDrawList* list, const ImVec2& at, ImU32 colour, const char* text,
+                                                     const char* end);
+void __wrap__ZN10ImDrawList7AddTextERK6ImVec2jPKcS4_(ImDrawList* list, const ImVec2& at, ImU32 colour, const char* text,
+                                                     const char* end) {
+  keepText(text, end);
+  __real__ZN10ImDrawList7AddTextERK6ImVec2jPKcS4_(list, at, colour, text, end);
+}
 }
 
 namespace standpoint {
@@ -76,6 +104,7 @@ GuiDriver::GuiDriver(Editor& editor, ImVec2 size) : editor_(editor) {
   int w = 0, h = 0;
   io.Fonts->GetTexDataAsAlpha8(&pixels, &w, &h);
   applyTheme(1);
+  speak("en");  // whatever a test before has chosen
   frames(2);
 }
 
@@ -83,6 +112,7 @@ GuiDriver::~GuiDriver() { ImGui::DestroyContext(); }
 
 void GuiDriver::frame() {
   itemProbe().items.clear();
+  if (!itemProbe().listens) itemProbe().texts.clear();
   ImGui::NewFrame();
   draws ? draws() : drawShell(editor_);
   ImGui::Render();

@@ -27,6 +27,8 @@ struct GuiItem {
 struct ItemProbe {
   std::vector<GuiItem> items;  // of the frame drawn last
   std::unordered_map<ImGuiID, std::string> labels;
+  std::vector<std::string> texts;  // as they were drawn, while listens
+  bool listens = false;
   const GuiItem* find(const std::string& part) const;  // the first whose label ends with it, or is it
 };
 ItemProbe& itemProbe();

@@ -113,14 +113,14 @@ TEST(GraphicsPace, BeginsAnewWithAnotherModel) {
 
 TEST(GraphicsPace, SaysWhatEachLevelHasAndCosts) {
   auto pace = paceOf(true);
-  EXPECT_EQ(pace.about(GraphicsChoice::automatic), "The highest that keeps 25 frames per second, now Medium");
+  EXPECT_EQ(pace.about(GraphicsChoice::automatic), "The highest level that keeps 25 frames per second, now Medium");
   EXPECT_EQ(pace.about(GraphicsChoice::low), "Anti-aliasing 4× at rest");
   pace.choose(GraphicsChoice::low);
   EXPECT_EQ(pace.about(GraphicsChoice::automatic),
-            "The highest that keeps 25 frames per second, beginning with Medium");
+            "The highest level that keeps 25 frames per second, starting at Medium");
   pace.measured(GraphicsLevel::medium, 0.0123);
   EXPECT_EQ(pace.about(GraphicsChoice::medium),
-            "Anti-aliasing 4× at rest, by contrast in motion, sky and horizon; about 12 ms a picture here");
+            "Anti-aliasing 4× at rest, by contrast in motion, sky and horizon; about 12 ms per frame on this computer");
   EXPECT_EQ(pace.about(GraphicsChoice::high),
             "Anti-aliasing 4× at rest, by contrast in motion, sky and horizon, soft shadow on the ground, ambient "
             "occlusion at rest");

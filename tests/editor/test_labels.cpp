@@ -31,6 +31,11 @@ TEST(Alphabetical, CountsNumbersAndPutsUmlautsAndCapitalsBesideTheirLetters) {
               ElementsAre("1.9", "1.10", "Ärztezimmer", "Bad", "Room 1", "room 2", "Room 10", "Zimmer"));
 }
 
+TEST(Alphabetical, FindsCapitalsInAnyScript) {
+  EXPECT_EQ(withoutCase("Сканувати ÜBER Scan"), withoutCase("сканувати über scan"));
+  EXPECT_NE(withoutCase("Scan"), withoutCase("Span"));
+}
+
 TEST(Alphabetical, TakesBrokenTextAndLongNames) {
   EXPECT_NE(alphabeticalKey("\xff\xfe"), alphabeticalKey("\xff"));
   EXPECT_LT(alphabeticalKey(std::string(5000, 'a')), alphabeticalKey(std::string(5000, 'a') + "b"));

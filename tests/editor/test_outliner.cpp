@@ -157,7 +157,7 @@ TEST(Log, ListsTheFirstOfManyAlikeAndEachWhenAsked) {
     return std::count_if(entries.begin(), entries.end(), [&](const LogEntry& e) { return passes(e, filter); });
   };
   EXPECT_EQ(listed({}), 2);
-  EXPECT_EQ(entries[1].message, "IfcBolt 'M 0' has no body (the first of 30 alike)");
+  EXPECT_EQ(entries[1].message, "IfcBolt 'M 0' has no body (first of 30 similar)");
   EXPECT_EQ(listed({.each = true}), 31);
   EXPECT_EQ(listed({.text = "M 17"}), 1) << "what is looked for is found";
 }
