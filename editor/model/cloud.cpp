@@ -27,7 +27,11 @@ void CloudSampler::halve() {
 }
 
 Cloud CloudSampler::coloured() const {
-  Cloud cloud{{}, maker_.header(), points_, colouringOf(points_, maker_.header().channels), {}, seen_};
+  Cloud cloud{.header = maker_.header(),
+              .shift_m = maker_.header().origin_m,
+              .points = points_,
+              .colouring = colouringOf(points_, maker_.header().channels),
+              .points_in_file = seen_};
   cloud.colours.reserve(cloud.points.size());
   for (const auto& p : cloud.points) cloud.colours.push_back(colourOf(p, p.position_m[2], cloud.colouring));
   return cloud;
@@ -45,21 +49,6 @@ Result<Cloud> sampleCloud(const std::filesystem::path& file, const Eigen::Vector
   TRY(format->read(file, sink, progress));
   Cloud cloud = sink.coloured();
   cloud.file = file;
-  return cloud;
-}
-
-void CloudLoader::start(const std::filesystem::path& file, const Eigen::Vector3d& shift_m, std::function<void()> wake) {
-  task_.reset();
-  task_ = std::make_unique<Task<Cloud>>(
-      "Show " + file.filename().string(),
-      [file, shift_m](Progress& progress) { return sampleCloud(file, shift_m, kMostShownPoints, progress); },
-      std::move(wake));
-}
-
-std::optional<Result<Cloud>> CloudLoader::take() {
-  if (!task_ || !task_->done()) return std::nullopt;
-  auto cloud = task_->take();
-  task_.reset();
   return cloud;
 }
 

@@ -3,10 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -16,18 +13,20 @@
 #include "core/result.h"
 #include "editor/points/cloud_colours.h"
 #include "pointclouds/octree/cloud_point.h"
-#include "project/task.h"
+#include "pointclouds/octree/octree_file.h"
 
 namespace standpoint {
 
-// A point cloud as it is shown over the model: an even sample of the file's points, in the local frame.
+// A point cloud as it is shown over the model: all points of the file, by way of an octree, or an even sample of them.
 struct Cloud {
   std::filesystem::path file;
   CloudHeader header;
-  std::vector<CloudPoint> points;  // relative to header.origin_m
+  Eigen::Vector3d shift_m = Eigen::Vector3d::Zero();  // from the file's frame to the local one, for what is not moved
+  std::vector<CloudPoint> points;                     // relative to header.origin_m; of an octree, its coarsest ones
   CloudColouring colouring;
   std::vector<PointColour> colours;  // of the points, by colourOf() and `colouring`
   std::uint64_t points_in_file = 0;
+  std::shared_ptr<const OctreeFile> octree;  // where all points are; null: they are `points`
 };
 
 constexpr std::uint64_t kMostShownPoints = 600000;  // what software rendering still turns smoothly
@@ -56,19 +55,5 @@ class CloudSampler : public PointSink {
 // Every k-th point, so that at most `most` are kept; memory does not grow with the file.
 Result<Cloud> sampleCloud(const std::filesystem::path& file, const Eigen::Vector3d& shift_m, std::uint64_t most,
                           Progress& progress);
-
-// Reads a cloud in the background.
-class CloudLoader {
- public:
-  void start(const std::filesystem::path& file, const Eigen::Vector3d& shift_m, std::function<void()> wake);
-  bool busy() const { return task_ && !task_->done(); }
-  Progress* progress() { return busy() ? &task_->progress() : nullptr; }
-  double seconds() const { return busy() ? task_->seconds() : 0; }
-  // What the last start brought; once.
-  std::optional<Result<Cloud>> take();
-
- private:
-  std::unique_ptr<Task<Cloud>> task_;
-};
 
 }  // namespace standpoint

@@ -209,6 +209,21 @@ std::string walkLine(const Editor& editor) {
   return line;
 }
 
+// What has become of the clouds that are shown; mostly "".
+std::string cloudTrouble(const Editor& editor) {
+  const auto& missing = editor.missingClouds();
+  if (!missing.empty())
+    return missing.front().filename().string() +
+           " is no longer there: put it back to see all of it. What has been read stays on view.";
+  const std::string why = editor.scene != nullptr ? editor.scene->trouble() : "";
+  return why.empty() ? why : "Some points cannot be read: " + why + ". What has been read stays on view.";
+}
+
+void drawCloudTrouble(const Editor& editor, ImVec2 origin, ImVec2 size) {
+  constexpr ImU32 kWarning = IM_COL32(150, 84, 16, 240);
+  if (const auto words = cloudTrouble(editor); !words.empty()) drawBanner(editor, origin, size, words, 80, kWarning);
+}
+
 void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
   constexpr ImU32 kHint = IM_COL32(38, 84, 148, 235);
   if (editor.walk_ground.preparing()) {
@@ -394,6 +409,7 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   drawConfidenceLegend(editor, origin, size);
   drawDeviationLegend(editor, origin, size);
   drawToolHint(editor, origin, size);
+  drawCloudTrouble(editor, origin, size);
 }
 
 }  // namespace standpoint

@@ -49,11 +49,12 @@ Result<void> Plan::split(std::int32_t node) {
     return {};
   }));
   divide(node, counts, 0);
-  TRY(spool_.each(full, [&](std::span<const CloudPoint> points) -> Result<void> {
+  const auto distribute = [&](std::span<const CloudPoint> points) -> Result<void> {
     for (const auto& p : points)
       TRY(spool_.add(static_cast<std::size_t>(chunk_of_cell_[cellOf(cube, p.position_m, 7)]), p));
     return {};
-  }));
+  };
+  TRY(spool_.each(full, distribute));
   spool_.forget(full);
   return {};
 }

@@ -20,7 +20,7 @@ namespace {
 constexpr OctreeKey kKey{1234, 5678};
 using Places = std::vector<std::array<float, 3>>;
 
-class OctreeTest : public testing::Test {
+class OctreeTest : public ::testing::Test {
  protected:
   void SetUp() override { std::filesystem::create_directories(folder); }
   void TearDown() override { std::filesystem::remove_all(folder); }
