@@ -57,6 +57,7 @@ bool Model::jobRuns() const {
 void Model::showCloud(const std::filesystem::path& file) {
   cloud_.reset();
   live_.reset();
+  cloud_loader_.drop();
   if (!file.empty()) cloud_loader_.start(file, shift_m(), wake);
 }
 
@@ -86,7 +87,35 @@ void Model::followLiveScan() {
   const auto& finished = session.finished();
   const auto scan =
       std::find_if(finished.begin(), finished.end(), [](const FinishedTask& t) { return t.verb == "scan"; });
-  if (scan == finished.end() || !scan->ok || cloud_->colours.empty()) cloud_.reset();  // back to the model
+  if (scan == finished.end() || !scan->ok || cloud_->points.empty()) cloud_.reset();  // back to the model
+}
+
+// What has been seen of a large one stays where the rest cannot be had.
+void Model::followCloud() {
+  if (auto sample = cloud_loader_.newer()) cloud_ = std::move(sample);
+  if (auto read = cloud_loader_.take()) {
+    if (*read)
+      cloud_ = std::make_shared<const Cloud>(**std::move(read));
+    else if (read->error().kind != ErrorKind::cancelled)
+      session.errors().push_back(
+          {cloud_ ? "Cannot display all of the scan" : "Cannot display the scan", read->error()});
+  }
+  lookForClouds();
+}
+
+void Model::lookForClouds() {
+  constexpr std::chrono::seconds kPause(2);
+  const auto now = std::chrono::steady_clock::now();
+  if (now - looked_for_clouds_ < kPause) return;
+  looked_for_clouds_ = now;
+  missing_clouds_.clear();
+  const auto look = [&](const Cloud& cloud) {
+    std::error_code ignored;
+    if (!cloud.file.empty() && !std::filesystem::exists(cloud.file, ignored)) missing_clouds_.push_back(cloud.file);
+  };
+  if (cloud_) return look(*cloud_);
+  if (!session.document().georeference) return;
+  for (const auto& u : underlays.shown(session.document())) look(*u.cloud);
 }
 
 void Model::say(std::string text) {
@@ -98,12 +127,7 @@ void Model::update() {
   graphics.choose(settings.graphics);
   session.poll();
   followLiveScan();
-  if (auto read = cloud_loader_.take()) {
-    if (*read)
-      cloud_ = std::make_shared<const Cloud>(**std::move(read));
-    else if (read->error().kind != ErrorKind::cancelled)
-      session.errors().push_back({"Cannot display the scan", read->error()});
-  }
+  followCloud();
   if (session.revision() != seen_revision_) {
     seen_revision_ = session.revision();
     view.refused_place.reset();
@@ -238,6 +262,7 @@ ViewState Model::viewState() const {
   state.edges = view.edges;
   state.grid = view.grid;
   state.shaded_points = view.shaded_points;
+  state.point_size_px = view.point_size_px;
   if (preview.outcome() != nullptr) {
     static const auto kNoneHidden = std::make_shared<const HiddenProducts>();
     state.hidden = kNoneHidden;

@@ -16,6 +16,7 @@
 #include "editor/model/camera.h"
 #include "editor/model/catalogue.h"
 #include "editor/model/cloud.h"
+#include "editor/model/cloud_loader.h"
 #include "editor/model/expected_view.h"
 #include "editor/model/graphics.h"
 #include "editor/model/guide.h"
@@ -81,6 +82,7 @@ struct ViewportState {
   TeleportAim teleport;
   bool coverage_made = false;  // the map of coverage shows scans that were made, not the stations as planned
   bool edges = true, grid = true, walkable = false, shapes = false, labels = true, shaded_points = false;
+  int point_size_px = 2;  // 1 to kMostPointSize_px
   bool room_names = true, labels_through_walls = false;
   Tool tool = Tool::select;
   std::optional<RayHit> hover;  // under the pointer
@@ -212,6 +214,8 @@ struct Model : Style {
   bool showsLiveScan() const { return live_ != nullptr; }
   bool readingCloud() const { return cloud_loader_.busy(); }
   CloudLoader& cloudLoader() { return cloud_loader_; }
+  // Of the clouds that are shown, the files that are no longer there; looked for every other second.
+  const std::vector<std::filesystem::path>& missingClouds() const { return missing_clouds_; }
   bool jobRuns() const;  // a bar moves
   Bounds visibleBounds() const;
   Bounds buildingBounds() const;  // what is visible without the terrain around it
@@ -231,6 +235,8 @@ struct Model : Style {
   void followPreview();
   void startWaitingCloud();
   void followLiveScan();
+  void followCloud();
+  void lookForClouds();
   bool followModel(const Environment& before, const Environment& after);  // false when they have no product in common
   Bounds boundsOfVisible(bool with_terrain) const;                        // of the model
   KeptExpectation kept_expectation_;
@@ -238,6 +244,8 @@ struct Model : Style {
   std::optional<Camera> camera_before_preview_;
   CloudLoader cloud_loader_;
   std::shared_ptr<const Cloud> cloud_;
+  std::vector<std::filesystem::path> missing_clouds_;
+  std::chrono::steady_clock::time_point looked_for_clouds_;
   std::shared_ptr<LiveCloud> live_;              // null: none, or it is no longer looked at
   const VerbTask* live_task_ = nullptr;          // that it belongs to, while that runs
   std::shared_ptr<const Environment> imported_;  // whose products selection and visibility speak of

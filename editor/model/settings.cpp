@@ -137,6 +137,8 @@ std::filesystem::path settingsFile() { return baseFolder("XDG_CONFIG_HOME", ".co
 
 std::filesystem::path unsavedRoot() { return baseFolder("XDG_DATA_HOME", ".local/share") / "standpoint" / "unsaved"; }
 
+std::filesystem::path octreeCache() { return baseFolder("XDG_CACHE_HOME", ".cache") / "standpoint" / "octrees"; }
+
 std::filesystem::path recoveryRoot() {
   return baseFolder("XDG_STATE_HOME", ".local/state") / "standpoint" / "recovery";
 }

@@ -52,6 +52,8 @@ Settings settingsFrom(const nlohmann::json& object, std::vector<std::string>& wr
 
 std::filesystem::path settingsFile();  // XDG_CONFIG_HOME/standpoint/editor.json
 std::filesystem::path unsavedRoot();   // XDG_DATA_HOME/standpoint/unsaved: what was scanned before a project was saved
+std::filesystem::path
+octreeCache();  // XDG_CACHE_HOME/standpoint/octrees: of clouds in folders that cannot be written to
 std::filesystem::path recoveryRoot();  // XDG_STATE_HOME/standpoint/recovery
 struct StoredSettings {
   Settings settings;

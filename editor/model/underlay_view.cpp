@@ -28,6 +28,7 @@ Bounds underlayBounds(const Underlay& underlay, const Georeference& georeference
 }
 
 void UnderlayView::takeResult() {
+  if (auto sample = loader_.newer()) clouds_[loading_] = std::move(sample);
   auto read = loader_.take();
   if (!read) return;
   auto& place = clouds_[std::exchange(loading_, {})];
@@ -59,7 +60,8 @@ std::vector<ShownUnderlay> UnderlayView::shown(const Document& document) const {
     if (!u->visible || found == clouds_.end() || !found->second) continue;
     Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
     matrix.topLeftCorner<3, 3>() = u->file_from_cloud.rotation.toRotationMatrix();
-    matrix.topRightCorner<3, 1>() = u->file_from_cloud * middleOf(*u) - document.georeference->shift_m;
+    matrix.topRightCorner<3, 1>() =
+        u->file_from_cloud * found->second->header.origin_m - document.georeference->shift_m;
     result.push_back({found->second, matrix});
   }
   return result;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/environment.h"
@@ -19,6 +20,7 @@
 
 namespace standpoint {
 
+constexpr int kMostPointSize_px = 8;
 constexpr double kReflectanceWavelength_nm = 1550;  // what most of the emulated scanners emit
 
 enum class ColourMode {
@@ -60,7 +62,8 @@ struct ViewState {
   bool grid = true;
   bool walkable = false;
   bool shapes = false;                 // collision shapes instead of the model
-  bool shaded_points = false;          // a cloud at rest is shaded by depth (eye-dome lighting)
+  bool shaded_points = false;          // clouds are shaded by depth (eye-dome lighting)
+  int point_size_px = 2;               // of the square that a point covers
   std::shared_ptr<const Cloud> cloud;  // a scan instead of the model; null: none
   std::vector<ShownUnderlay> underlays;
   Camera camera;
@@ -81,6 +84,7 @@ class SceneView {
   virtual std::uint64_t texture(const std::shared_ptr<const PixelPicture>& picture) = 0;
   // The picture gets better when it is asked for again, though nothing has changed.
   virtual bool refining() const { return false; }
+  virtual std::string trouble() const { return {}; }  // why not all of it can be drawn; "" mostly
   virtual GraphicsMeans means() { return {}; }
   // Pictures drawn so far in which nothing but the camera was another one.
   virtual std::uint64_t movedPictures() const { return 0; }

@@ -36,6 +36,11 @@ std::string whyNotOptimised(const Editor& e) {
   return e.session.document().simplified ? "" : "Optimise the model first (Optimise panel)";
 }
 
+std::string whyNotLarger(const Editor& e) {
+  return e.view.point_size_px < kMostPointSize_px ? "" : "A point covers 8 pixels each way already";
+}
+std::string whyNotSmaller(const Editor& e) { return e.view.point_size_px > 1 ? "" : "A point is one pixel already"; }
+
 void newProject(Editor& e) {
   whenSaved(e, [&e] { e.session.clear(); });
 }
@@ -255,6 +260,18 @@ const std::array kActions = {
            {},
            [](Editor& e) { e.view.shaded_points = !e.view.shaded_points; },
            nullptr},
+    Action{"points-larger",
+           "Larger points",
+           "",
+           {},
+           [](Editor& e) { ++e.view.point_size_px; },
+           whyNotLarger},
+    Action{"points-smaller",
+           "Smaller points",
+           "",
+           {},
+           [](Editor& e) { --e.view.point_size_px; },
+           whyNotSmaller},
     Action{"labels", "Labels", "", {}, [](Editor& e) { e.view.labels = !e.view.labels; }, nullptr},
     Action{"room-names", "Room names", "", {}, [](Editor& e) { e.view.room_names = !e.view.room_names; }, nullptr},
     Action{"labels-through-walls",

@@ -171,7 +171,7 @@ void cloudChip(Editor& editor) {
   }
   const std::string name = cloud.file.empty() ? tr("Scan") : cloud.file.filename().string();
   ui::tooltip(
-      trf("{}: {} of {} points shown", name, groupedDigits(cloud.colours.size()), groupedDigits(cloud.points_in_file)));
+      trf("{}: {} of {} points shown", name, groupedDigits(cloud.points.size()), groupedDigits(cloud.points_in_file)));
   if (!editor.showsLiveScan()) return;
   beside(editor, editor.px(180));
   ImGui::AlignTextToFramePadding();
@@ -198,6 +198,21 @@ std::string walkLine(const Editor& editor) {
   line += trf("   eye {:.2f} m   {:.1f} m/s", walk.eyeHeight_m(), walk.speed_mps(false));
   if (const auto note = walk.note(); !note.empty()) line += "   " + note;
   return line;
+}
+
+// What has become of the clouds that are shown; mostly "".
+std::string cloudTrouble(const Editor& editor) {
+  const auto& missing = editor.missingClouds();
+  if (!missing.empty())
+    return missing.front().filename().string() +
+           " is no longer there: put it back to see all of it. What has been read stays on view.";
+  const std::string why = editor.scene != nullptr ? editor.scene->trouble() : "";
+  return why.empty() ? why : "Some points cannot be read: " + why + ". What has been read stays on view.";
+}
+
+void drawCloudTrouble(const Editor& editor, ImVec2 origin, ImVec2 size) {
+  constexpr ImU32 kWarning = IM_COL32(150, 84, 16, 240);
+  if (const auto words = cloudTrouble(editor); !words.empty()) drawBanner(editor, origin, size, words, 80, kWarning);
 }
 
 void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
@@ -391,6 +406,7 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   drawConfidenceLegend(editor, origin, size);
   drawDeviationLegend(editor, origin, size);
   drawToolHint(editor, origin, size);
+  drawCloudTrouble(editor, origin, size);
 }
 
 }  // namespace standpoint

@@ -115,7 +115,8 @@ void viewMenu(Editor& editor) {
   submenu(editor, "      Look from###menu-look",
           {"view-front", "view-back", "view-right", "view-left", "view-top", "view-before"});
   items(editor, {"view-plan", "view-parallel", "", "hide", "isolate", "show-all", "", "edges", "grid", "walkable",
-                 "shapes", "shaded-points", "labels"});
+                 "shapes", "labels"});
+  submenu(editor, "      Points###menu-points", {"points-larger", "points-smaller", "shaded-points"});
   submenu(editor, "      More labels###menu-labels", {"room-names", "labels-through-walls"});
   items(editor, {"", "walk", "teleport", "look-from-station", ""});
   submenu(editor, ICON_PAINT "  Colour by###menu-colour",

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <numeric>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -70,12 +69,6 @@ void Layer::drawLines(std::array<double, 3> colour, double opacity, double width
   property->SetLineWidth(static_cast<float>(width));
 }
 
-void Layer::drawPoints() {
-  actor->GetProperty()->SetLighting(false);
-  mapper->SetScalarModeToUsePointData();
-  mapper->SetColorModeToDirectScalars();
-}
-
 void Layer::show(const MergedTriangles& triangles) {
   vtkNew<vtkPolyData> data;
   data->SetPoints(pointsOf(triangles.positions));
@@ -108,22 +101,6 @@ void Layer::show(const MergedLines& lines) {
   data->SetPoints(pointsOf(lines.positions));
   data->SetLines(cellsOf(lines.ends, 2));
   set(data, lines.ends.empty());
-}
-
-void Layer::show(const Cloud& cloud, std::size_t step) {
-  std::vector<float> positions;
-  std::vector<Rgba> colours;
-  for (std::size_t i = 0; i < cloud.colours.size(); i += step) {
-    positions.insert(positions.end(), {cloud.positions[3 * i], cloud.positions[3 * i + 1], cloud.positions[3 * i + 2]});
-    colours.push_back(cloud.colours[i]);
-  }
-  std::vector<std::int64_t> indices(colours.size());
-  std::iota(indices.begin(), indices.end(), std::int64_t{0});
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(pointsOf(positions));
-  data->SetVerts(cellsOf(indices, 1));
-  data->GetPointData()->SetScalars(coloursOf(colours));
-  set(data, colours.empty());
 }
 
 void Layer::set(vtkPolyData* data, bool empty) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -14,7 +13,6 @@
 #include <vtkTexture.h>
 
 #include "core/mesh.h"
-#include "editor/model/cloud.h"
 #include "editor/model/graphics.h"
 #include "editor/viewport/merged_scene.h"
 
@@ -31,12 +29,10 @@ struct Layer {
   // before what coincides with it.
   void drawSurface(double offset);
   void drawLines(std::array<double, 3> colour, double opacity, double width);
-  void drawPoints();
 
   void show(const MergedTriangles& triangles);
   void show(const PaintedTriangles& painted, vtkTexture* texture);
   void show(const MergedLines& lines);
-  void show(const Cloud& cloud, std::size_t step = 1);  // every `step`-th point
   void set(vtkPolyData* data, bool empty);
   // The same triangles in other colours: their places stay where the graphics card has them.
   void paint(const std::vector<Rgba>& colours);

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include <vtkImageData.h>
-#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkProperty.h>
 
@@ -45,9 +44,8 @@ SceneLayers::SceneLayers(vtkRenderer* renderer) : renderer_(renderer), model_(re
   walkable_.drawSurface(-1);
   walkable_.actor->GetProperty()->SetAmbient(0.8);
   outline_.drawLines({0.42, 0.71, 1.0}, 1, 2);
-  cloud_.drawPoints();
   for (Layer* layer : {&grid_, &shadow_, &selected_, &walkable_}) layer->actor->ForceTranslucentOn();
-  for (Layer* layer : {&shadow_, &shapes_, &selected_, &walkable_, &outline_, &grid_, &cloud_}) layer->hide();
+  for (Layer* layer : {&shadow_, &shapes_, &selected_, &walkable_, &outline_, &grid_}) layer->hide();
   arrange();
 }
 
@@ -60,8 +58,7 @@ void SceneLayers::arrange() {
   model_.addTransparent();
   for (Layer* layer : {&shapes_, &selected_, &walkable_}) renderer_->AddActor(layer->actor);
   model_.addEdges();
-  for (Layer* layer : {&outline_, &cloud_}) renderer_->AddActor(layer->actor);
-  for (const auto& u : underlays_) renderer_->AddActor(u->layer.actor);
+  renderer_->AddActor(outline_.actor);
 }
 
 void SceneLayers::update(const ViewState& state, const ViewState* last) {
@@ -79,9 +76,6 @@ void SceneLayers::update(const ViewState& state, const ViewState* last) {
     outline_.actor->GetProperty()->SetColor(0.05, 0.36, 0.78);
   else if (theme)
     outline_.actor->GetProperty()->SetColor(0.42, 0.71, 1.0);
-  if (last == nullptr || last->cloud != state.cloud) updateCloud(state);
-  if (last == nullptr || last->underlays != state.underlays || last->cloud != state.cloud) updateUnderlays(state);
-  reach_ = reachOf(state);
   updateCut(state);
 }
 
@@ -89,8 +83,6 @@ void SceneLayers::setPixels(int factor) {
   model_.setLineWidth(static_cast<float>(factor));
   grid_.actor->GetProperty()->SetLineWidth(static_cast<float>(factor));
   outline_.actor->GetProperty()->SetLineWidth(static_cast<float>(2 * factor));
-  cloud_.actor->GetProperty()->SetPointSize(static_cast<float>(2 * factor));
-  for (const auto& u : underlays_) u->layer.actor->GetProperty()->SetPointSize(static_cast<float>(2 * factor));
 }
 
 void SceneLayers::updateSelection(const ViewState& state) {
@@ -109,38 +101,6 @@ void SceneLayers::updateCollision(const ViewState& state) {
   if (state.walkable) walkable_.show(mergeWalkable(state.collision->walkable, {72, 200, 130, 120}));
 }
 
-void SceneLayers::updateCloud(const ViewState& state) {
-  cloud_.hide();
-  if (state.cloud) cloud_.show(*state.cloud);
-}
-
-// Above what can be turned smoothly each shows every k-th point of its sample.
-void SceneLayers::updateUnderlays(const ViewState& state) {
-  std::uint64_t points = 0;
-  for (const auto& u : state.underlays) points += u.cloud->colours.size();
-  const auto step = static_cast<std::size_t>(points / kMostShownPoints + 1);
-  while (underlays_.size() < state.underlays.size()) {
-    underlays_.push_back(std::make_unique<UnderlayLayer>());
-    underlays_.back()->layer.drawPoints();
-    renderer_->AddActor(underlays_.back()->layer.actor);
-    underlays_.back()->layer.actor->GetProperty()->SetPointSize(cloud_.actor->GetProperty()->GetPointSize());
-  }
-  for (std::size_t i = 0; i < underlays_.size(); ++i) {
-    auto& [layer, cloud, shown_step] = *underlays_[i];
-    layer.hide();
-    if (state.cloud || i >= state.underlays.size()) continue;
-    const auto& wanted = state.underlays[i];
-    if (cloud != wanted.cloud || shown_step != step) layer.show(*wanted.cloud, step);
-    cloud = wanted.cloud;
-    shown_step = step;
-    vtkNew<vtkMatrix4x4> matrix;
-    for (int row = 0; row < 4; ++row)
-      for (int column = 0; column < 4; ++column) matrix->SetElement(row, column, wanted.local_from_cloud(row, column));
-    layer.actor->SetUserMatrix(matrix);
-    layer.actor->SetVisibility(1);
-  }
-}
-
 void SceneLayers::cast(const ViewState& state, const GroundShadow& shadow) {
   shadow_.hide();
   if (shadow.darkness.empty()) return;
@@ -156,19 +116,6 @@ void SceneLayers::cast(const ViewState& state, const GroundShadow& shadow) {
   shadow_.show(painted, textureOf(shadow));
 }
 
-// Of all that is shown; what lies behind it is not drawn.
-Bounds SceneLayers::reachOf(const ViewState& state) const {
-  Bounds reach = bounds_;
-  if (!state.cloud)
-    for (const auto& u : underlays_)
-      if (u->layer.actor->GetVisibility() != 0) {
-        const double* b = u->layer.actor->GetBounds();
-        reach.extend(Eigen::Vector3d(b[0], b[2], b[4]));
-        reach.extend(Eigen::Vector3d(b[1], b[3], b[5]));
-      }
-  return reach;
-}
-
 void SceneLayers::updateGrid(const ViewState& state) {
   grid_.hide();
   if (!state.grid || !state.environment || bounds_.empty()) return;
@@ -179,8 +126,7 @@ void SceneLayers::updateGrid(const ViewState& state) {
 void SceneLayers::updateCut(const ViewState& state) {
   const auto cut = [&](Layer& layer) { layer.cut(state.cut_height_m); };
   model_.forEachLayer(cut);
-  for (Layer* layer : {&shapes_, &selected_, &walkable_, &outline_, &cloud_}) cut(*layer);
-  for (const auto& u : underlays_) cut(u->layer);
+  for (Layer* layer : {&shapes_, &selected_, &walkable_, &outline_}) cut(*layer);
 }
 
 }  // namespace standpoint

@@ -26,29 +26,19 @@ class SceneLayers {
   void cast(const ViewState& state, const GroundShadow& shadow);
   void setPixels(int factor);  // of the picture that is drawn, for each of the picture that is seen
   const Bounds& bounds() const { return bounds_; }  // of the environment
-  const Bounds& reach() const { return reach_; }    // of all that is shown
 
  private:
-  struct UnderlayLayer {
-    Layer layer;
-    std::shared_ptr<const Cloud> cloud;
-    std::size_t step = 0;
-  };
   void arrange();
   void updateSelection(const ViewState& state);
   void updateCollision(const ViewState& state);
-  void updateCloud(const ViewState& state);
-  void updateUnderlays(const ViewState& state);
   void updateGrid(const ViewState& state);
   void updateCut(const ViewState& state);
-  Bounds reachOf(const ViewState& state) const;
 
   vtkRenderer* renderer_;
   EdgeCache edge_cache_;
   ModelPieces model_;
-  Layer shadow_, shapes_, selected_, walkable_, outline_, grid_, cloud_;
-  std::vector<std::unique_ptr<UnderlayLayer>> underlays_;
-  Bounds bounds_, reach_;
+  Layer shadow_, shapes_, selected_, walkable_, outline_, grid_;
+  Bounds bounds_;
 };
 
 }  // namespace standpoint

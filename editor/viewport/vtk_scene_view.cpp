@@ -11,9 +11,9 @@
 #include <vector>
 
 #include <vtkCamera.h>
-#include <vtkEDLShading.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkLight.h>
+#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOpaquePass.h>
@@ -27,6 +27,8 @@
 #include "core/units.h"
 #include "editor/viewport/backdrop.h"
 #include "editor/viewport/finish.h"
+#include "editor/viewport/point_composer.h"
+#include "editor/viewport/point_layers.h"
 #include "editor/viewport/scene_layers.h"
 
 namespace standpoint {
@@ -55,18 +57,19 @@ class ForeignContextWindow : public vtkGenericOpenGLRenderWindow {
 };
 vtkStandardNewMacro(ForeignContextWindow);
 
-// What is opaque, with something behind it.
-class PassWithBackdrop : public vtkOpaquePass {
+// What is opaque, with something behind it and something among it.
+class PassWithOurs : public vtkOpaquePass {
  public:
-  static PassWithBackdrop* New();
-  vtkTypeMacro(PassWithBackdrop, vtkOpaquePass);
-  std::function<void()> draw_behind;
+  static PassWithOurs* New();
+  vtkTypeMacro(PassWithOurs, vtkOpaquePass);
+  std::function<void()> draw_behind, draw_among;
   void Render(const vtkRenderState* state) override {
     if (draw_behind) draw_behind();
     vtkOpaquePass::Render(state);
+    if (draw_among) draw_among();
   }
 };
-vtkStandardNewMacro(PassWithBackdrop);
+vtkStandardNewMacro(PassWithOurs);
 
 bool drawnByProcessor() {
   const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
@@ -90,6 +93,7 @@ class VtkSceneView : public SceneView {
   }
   ~VtkSceneView() override {
     backdrop_.reset();
+    composer_.reset();
     finish_.reset();
     for (const auto& p : pixels_) glDeleteTextures(1, &p.texture);
     window_->Finalize();
@@ -115,6 +119,10 @@ class VtkSceneView : public SceneView {
       if (shading_) finish().begin();
       shown_ = finished(state);
     } else if (refining()) {
+      if (points_.pending() && points_.refine()) {
+        takePoints();
+        window_->Render();
+      }
       shown_ = finished(state);
     }
     if (shown_ != 0) smooth(shown_);
@@ -122,8 +130,10 @@ class VtkSceneView : public SceneView {
   }
 
   bool refining() const override {
-    return layers_.building() || (fine_wanted_ && !fine_) || (shading_ && fine_ && !finish_->shaded());
+    return layers_.building() || (fine_wanted_ && !fine_) ||
+           (fine_ && ((shading_ && !finish_->shaded()) || points_.pending()));
   }
+  std::string trouble() const override { return points_.trouble(); }
 
   GraphicsMeans means() override {
     GraphicsMeans means{.by_processor = drawnByProcessor()};
@@ -196,13 +206,32 @@ class VtkSceneView : public SceneView {
     layers_.setPixels(factor_);
     const ViewState* last = drawn_ ? &*drawn_ : nullptr;
     layers_.update(state, last);
+    if (last == nullptr || last->cloud != state.cloud || last->underlays != state.underlays) points_.update(state);
     if (last == nullptr || last->graphics.theme != state.graphics.theme) updateTheme(state.graphics.theme);
     updateCamera(state.camera);
     updateBackdrop(state);
-    const bool points = fine && state.cloud && state.shaded_points;
-    renderer_->SetPass(points ? static_cast<vtkRenderPass*>(depth_shading_) : steps_);
+    if (!points_.empty()) {
+      points_.draw(state, pointLens(state.camera), width_, height_);
+      takePoints();
+    }
     window_->Render();
     drawn_ = state;
+  }
+
+  PointLens pointLens(const Camera& camera) {
+    auto* vtk = renderer_->GetActiveCamera();
+    PointLens lens;
+    auto* matrix = vtk->GetCompositeProjectionTransformMatrix(static_cast<double>(width_) / height_, -1, 1);
+    for (int row = 0; row < 4; ++row)
+      for (int column = 0; column < 4; ++column) lens.clip_from_local(row, column) = matrix->GetElement(row, column);
+    const double* range = vtk->GetClippingRange();
+    lens.depths = {range[0], range[1], camera.orthographic};
+    return lens;
+  }
+
+  void takePoints() {
+    if (!composer_) composer_ = std::make_unique<PointComposer>();
+    composer_->take(points_.picture());
   }
 
   // What VTK has drawn last; without colours where it could not.
@@ -278,10 +307,12 @@ class VtkSceneView : public SceneView {
   void setUpPasses() {
     vtkNew<vtkTranslucentPass> translucent;
     steps_->SetTranslucentPass(translucent);
-    vtkNew<PassWithBackdrop> opaque;
+    vtkNew<PassWithOurs> opaque;
     opaque->draw_behind = [this] { drawBackdrop(); };
+    opaque->draw_among = [this] {
+      if (composer_ && !points_.empty()) composer_->draw();
+    };
     steps_->SetOpaquePass(opaque);
-    depth_shading_->SetDelegatePass(steps_);
     renderer_->SetPass(steps_);
   }
 
@@ -351,7 +382,8 @@ class VtkSceneView : public SceneView {
     vtk->SetViewAngle(camera.view_angle_rad / kRadPerDeg);
     vtk->SetParallelProjection(camera.orthographic ? 1 : 0);
     vtk->SetParallelScale(camera.heightAtTarget_m() / 2);
-    const Bounds& reached = layers_.reach();
+    Bounds reached = layers_.bounds();
+    reached.extend(points_.bounds());
     if (reached.empty()) {
       vtk->SetClippingRange(0.1, 1000);
       return;
@@ -372,9 +404,9 @@ class VtkSceneView : public SceneView {
   vtkNew<ForeignContextWindow> window_;
   vtkNew<vtkRenderer> renderer_;
   vtkNew<vtkRenderStepsPass> steps_;
-  vtkNew<vtkEDLShading>
-      depth_shading_;  // eye-dome lighting, of a bare cloud at rest: it costs as much as a million points
   SceneLayers layers_{renderer_};
+  PointLayers points_;
+  std::unique_ptr<PointComposer> composer_;  // made when the first points are drawn
   struct Sky {
     Camera camera;
     Theme theme;

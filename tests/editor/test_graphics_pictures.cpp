@@ -100,6 +100,59 @@ class Levels : public ::testing::Test {
   ViewState state;
 };
 
+// A sheet of points across the room, 2 m behind its open side, as an underlay.
+ShownUnderlay sheet(double x0, double x1, double y) {
+  auto cloud = std::make_shared<Cloud>();
+  for (double x = x0; x < x1; x += 0.01)
+    for (double z = 0.02; z < 3; z += 0.01) {
+      CloudPoint p;
+      p.position_m = {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+      cloud->points.push_back(p);
+      cloud->colours.push_back({0, 255, 0, 255});
+    }
+  return {cloud, Eigen::Matrix4d::Identity()};
+}
+
+bool green(const Drawn& d, int x, int y) {
+  const auto* c = &d.rgba[static_cast<std::size_t>(y * kWidth + x) * 4];
+  return c[1] > 200 && c[0] < 60 && c[2] < 60;
+}
+
+// The eye is 6 m before the sheet, 1 m of which is 41 pixels then.
+TEST_F(Levels, PointsAreWhereTheModelsPlacesAre) {
+  for (const bool fine : {false, true}) {
+    state.underlays = {sheet(2, 4, 2)};
+    const Drawn drawn = draw(fine);
+    EXPECT_TRUE(green(drawn, 160, 120));
+    EXPECT_TRUE(green(drawn, 120, 120)) << "0.9 m to the left";
+    EXPECT_TRUE(green(drawn, 200, 120));
+    EXPECT_FALSE(green(drawn, 110, 120)) << "1.2 m to the left";
+    EXPECT_FALSE(green(drawn, 210, 120));
+    state.cut_height_m = 1.5;
+    const Drawn cut = draw(fine);
+    EXPECT_FALSE(green(cut, 160, 130)) << "above the cut";
+    EXPECT_TRUE(green(cut, 160, 110));
+    state.cut_height_m.reset();
+  }
+}
+
+TEST_F(Levels, PointsBehindAWallAreHiddenByIt) {
+  state.underlays = {sheet(1, 5, 4.5)};
+  EXPECT_FALSE(green(draw(false), 160, 120));
+  state.environment.reset();
+  EXPECT_TRUE(green(draw(false), 160, 120)) << "and seen without it";
+}
+
+TEST_F(Levels, AScanIsRefinedUntilAllOfItIsThere) {
+  auto cloud = std::make_shared<Cloud>(*sheet(0, 6, 2).cloud);
+  state.cloud = cloud;
+  const Drawn drawn = draw(true);
+  EXPECT_FALSE(view().refining());
+  EXPECT_TRUE(green(drawn, 160, 120));
+  state.camera.orthographic = true;
+  EXPECT_TRUE(green(draw(true), 160, 120)) << "in parallel, too";
+}
+
 TEST_F(Levels, ARoomHasDarkerCornersAtTheHighestLevelAndOnlyThere) {
   state.camera.target = {3, 1, 1.5};
   state.camera.distance_m = 0.5;
