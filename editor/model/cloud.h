@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -15,6 +14,8 @@
 #include "core/points.h"
 #include "core/progress.h"
 #include "core/result.h"
+#include "editor/points/cloud_colours.h"
+#include "pointclouds/octree/cloud_point.h"
 #include "project/task.h"
 
 namespace standpoint {
@@ -22,8 +23,10 @@ namespace standpoint {
 // A point cloud as it is shown over the model: an even sample of the file's points, in the local frame.
 struct Cloud {
   std::filesystem::path file;
-  std::vector<float> positions;                      // x, y, z
-  std::vector<std::array<std::uint8_t, 4>> colours;  // the scan's own, shaded by its intensity
+  CloudHeader header;
+  std::vector<CloudPoint> points;  // relative to header.origin_m
+  CloudColouring colouring;
+  std::vector<PointColour> colours;  // of the points, by colourOf() and `colouring`
   std::uint64_t points_in_file = 0;
 };
 
@@ -33,27 +36,21 @@ constexpr std::uint64_t kMostShownPoints = 600000;  // what software rendering s
 class CloudSampler : public PointSink {
  public:
   CloudSampler(std::uint64_t step, std::uint64_t most, const Eigen::Vector3d& shift_m)
-      : step_(step), most_(most), shift_m_(shift_m) {}
+      : step_(step), most_(most), maker_(shift_m) {}
   Result<void> begin(const ScanHeader& header) override;
   Result<void> write(const PointBlock& block) override;
   Result<void> end() override { return {}; }
   Result<void> close() override { return {}; }
 
-  // The colours shaded by intensity, from what nearly all points have at least to what nearly all have at most: formats
-  // state the sensor's possible range, of which a scan fills a corner. Without any intensity height stands for it.
-  Cloud shaded() const;
+  Cloud coloured() const;                       // what there is so far
   std::uint64_t seen() const { return seen_; }  // points, kept or not
-  bool empty() const { return colours_.empty(); }
+  bool empty() const { return points_.empty(); }
 
  private:
   void halve();
   std::uint64_t step_, most_, seen_ = 0;
-  Eigen::Vector3d shift_m_;
-  Pose pose_;
-  double low_ = 0, span_ = 1;
-  bool coloured_ = false;
-  std::vector<float> positions_, fractions_;
-  std::vector<std::array<std::uint8_t, 4>> colours_;  // not shaded
+  CloudPointMaker maker_;
+  std::vector<CloudPoint> points_;
 };
 
 // Every k-th point, so that at most `most` are kept; memory does not grow with the file.

@@ -36,7 +36,7 @@ std::shared_ptr<const Cloud> LiveCloud::newer(bool all) {
   if (!all && given_ > 0 && Clock::now() - given_at_ < kPause) return nullptr;
   given_ = sampler_.seen();
   given_at_ = Clock::now();
-  return std::make_shared<const Cloud>(sampler_.shaded());
+  return std::make_shared<const Cloud>(sampler_.coloured());
 }
 
 }  // namespace standpoint

@@ -85,7 +85,7 @@ void Model::followLiveScan() {
   const auto& finished = session.finished();
   const auto scan =
       std::find_if(finished.begin(), finished.end(), [](const FinishedTask& t) { return t.verb == "scan"; });
-  if (scan == finished.end() || !scan->ok || cloud_->colours.empty()) cloud_.reset();  // back to the model
+  if (scan == finished.end() || !scan->ok || cloud_->points.empty()) cloud_.reset();  // back to the model
 }
 
 void Model::say(std::string text) {

@@ -177,7 +177,7 @@ void cloudChip(Editor& editor) {
     return;
   }
   const std::string name = cloud.file.empty() ? "Scan" : cloud.file.filename().string();
-  ui::tooltip(fmt::format("{}: {} of {} points shown", name, groupedDigits(cloud.colours.size()),
+  ui::tooltip(fmt::format("{}: {} of {} points shown", name, groupedDigits(cloud.points.size()),
                           groupedDigits(cloud.points_in_file)));
   if (!editor.showsLiveScan()) return;
   beside(editor, editor.px(180));

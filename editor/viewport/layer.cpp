@@ -113,8 +113,9 @@ void Layer::show(const MergedLines& lines) {
 void Layer::show(const Cloud& cloud, std::size_t step) {
   std::vector<float> positions;
   std::vector<Rgba> colours;
-  for (std::size_t i = 0; i < cloud.colours.size(); i += step) {
-    positions.insert(positions.end(), {cloud.positions[3 * i], cloud.positions[3 * i + 1], cloud.positions[3 * i + 2]});
+  for (std::size_t i = 0; i < cloud.points.size(); i += step) {
+    const auto& place = cloud.points[i].position_m;
+    positions.insert(positions.end(), place.begin(), place.end());
     colours.push_back(cloud.colours[i]);
   }
   std::vector<std::int64_t> indices(colours.size());

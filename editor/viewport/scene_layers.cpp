@@ -117,7 +117,7 @@ void SceneLayers::updateCloud(const ViewState& state) {
 // Above what can be turned smoothly each shows every k-th point of its sample.
 void SceneLayers::updateUnderlays(const ViewState& state) {
   std::uint64_t points = 0;
-  for (const auto& u : state.underlays) points += u.cloud->colours.size();
+  for (const auto& u : state.underlays) points += u.cloud->points.size();
   const auto step = static_cast<std::size_t>(points / kMostShownPoints + 1);
   while (underlays_.size() < state.underlays.size()) {
     underlays_.push_back(std::make_unique<UnderlayLayer>());

@@ -81,8 +81,10 @@ CloudPoint CloudPointMaker::make(const PointBlock& block, std::size_t i, const E
   for (int k = 0; k < 3; ++k) p.position_m[static_cast<std::size_t>(k)] = static_cast<float>(place_m[k]);
   p.colour =
       coloured_ ? std::array{block.red[i], block.green[i], block.blue[i]} : std::array<std::uint8_t, 3>{255, 255, 255};
-  const double intensity = (block.intensity[i] - low_) * scale_;
-  p.intensity = intensity > 0 ? static_cast<std::uint16_t>(std::min(intensity, 65535.0) + 0.5) : std::uint16_t{0};
+  if (scale_ > 0) {
+    const double intensity = (block.intensity[i] - low_) * scale_;
+    p.intensity = intensity > 0 ? static_cast<std::uint16_t>(std::min(intensity, 65535.0) + 0.5) : std::uint16_t{0};
+  }
   p.station = static_cast<std::uint16_t>(header_.stations.size() - 1);
   if (labelled_) {
     p.product = labelOf(block.product, i, product_);

@@ -23,7 +23,7 @@ struct CloudPoint {
   std::array<float, 3> position_m = {};       // from the cloud's or the node's origin, axes of the file
   std::array<std::uint8_t, 3> colour = {};    // red, green, blue; white without colour
   std::uint8_t flags = 0;                     // point_flag
-  std::uint16_t intensity = 0;                // 0..65535 of CloudStation::intensity_min to intensity_max
+  std::uint16_t intensity = 32768;            // 0..65535 of CloudStation::intensity_min to intensity_max
   std::uint16_t station = 0;                  // index into CloudHeader::stations
   std::uint16_t product = kNoLabel;           // index into CloudHeader::products
   std::uint16_t material = kNoLabel;          // index into CloudHeader::materials

@@ -176,8 +176,8 @@ TEST_F(ScanPanel, ScansWithWhatIsSetAndTheDocumentRemembersIt) {
   EXPECT_FALSE(editor.showsLiveScan());
   const auto& scan = editor.session.document().job->stations[0].scans.back();
   EXPECT_EQ(editor.cloud()->points_in_file, scan.points);
-  EXPECT_LE(editor.cloud()->colours.size(), kMostShownPoints);
-  EXPECT_GE(editor.cloud()->colours.size(), std::min<std::uint64_t>(scan.points, kMostShownPoints / 2) - 1);
+  EXPECT_LE(editor.cloud()->points.size(), kMostShownPoints);
+  EXPECT_GE(editor.cloud()->points.size(), std::min<std::uint64_t>(scan.points, kMostShownPoints / 2) - 1);
   ASSERT_TRUE(editor.session.errors().empty()) << describe(editor.session.errors().front().error);
   ASSERT_TRUE(editor.session.document().scanning);
   EXPECT_EQ(*editor.session.document().scanning, wanted);
@@ -200,14 +200,14 @@ TEST(CloudSampler, KeepsAnEvenPartOfAnyNumberOfPoints) {
   CloudSampler sampler(1, 100, {10, 0, 0});
   ASSERT_TRUE(sampler.begin(ScanHeader()));
   for (int from = 0; from < 1000; from += 50) ASSERT_TRUE(sampler.write(pointsAlongX(from, 50)));
-  const auto cloud = sampler.shaded();
+  const auto cloud = sampler.coloured();
   EXPECT_EQ(cloud.points_in_file, 1000U);
-  ASSERT_GT(cloud.colours.size(), 50U);
-  ASSERT_LE(cloud.colours.size(), 100U);
-  const float step = cloud.positions[3] - cloud.positions[0];
-  for (std::size_t i = 0; i < cloud.colours.size(); ++i)
-    EXPECT_EQ(cloud.positions[3 * i], static_cast<float>(i) * step - 10) << "shifted, none left out";
-  EXPECT_GT(static_cast<float>(cloud.colours.size()) * step, 999);
+  ASSERT_GT(cloud.points.size(), 50U);
+  ASSERT_LE(cloud.points.size(), 100U);
+  const float step = cloud.points[1].position_m[0] - cloud.points[0].position_m[0];
+  for (std::size_t i = 0; i < cloud.points.size(); ++i)
+    EXPECT_EQ(cloud.points[i].position_m[0], static_cast<float>(i) * step - 10) << "shifted, none left out";
+  EXPECT_GT(static_cast<float>(cloud.points.size()) * step, 999);
 }
 
 TEST(LiveCloud, WakesWithTheFirstPointsAndGivesNothingTwice) {

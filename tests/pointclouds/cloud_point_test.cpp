@@ -87,7 +87,7 @@ TEST(CloudPointMaker, SaysWhatIsNotKnown) {
   EXPECT_EQ(p.material, kNoLabel);
   EXPECT_EQ(p.incidence_deg, kNoIncidence);
   EXPECT_EQ(p.residual_tenth_mm, kNoResidual);
-  EXPECT_EQ(p.intensity, 0);
+  EXPECT_EQ(p.intensity, 32768) << "in the middle: neither dark nor bright";
   EXPECT_EQ(maker.header().channels, 0U);
 }
 
