@@ -210,7 +210,8 @@ TEST_F(Preview, OfADroppedCloudWaitsForAModelAndThenLiesUnderIt) {
   // What stands in the sample, led through the matrix, is where the file has it, less the shift.
   const auto& [cloud, matrix] = state.underlays[0];
   ASSERT_EQ(cloud->colours.size(), 2u);
-  const Eigen::Vector4d last(cloud->positions[3], cloud->positions[4], cloud->positions[5], 1);
+  const auto& place = cloud->points[1].position_m;
+  const Eigen::Vector4d last(place[0], place[1], place[2], 1);
   const Eigen::Vector3d there = (matrix * last).head<3>() + editor.shift_m();
   EXPECT_LT((there - Eigen::Vector3d(1, 2, 3)).norm(), 1e-4);
   EXPECT_GT(cloud->colours[1][0], cloud->colours[0][0]) << "the brighter point is brighter";
