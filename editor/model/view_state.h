@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/environment.h"
+#include "editor/inspect/clip_box.h"
 #include "editor/model/camera.h"
 #include "editor/model/cloud.h"
 #include "editor/model/deviation_view.h"
@@ -54,6 +55,7 @@ struct ViewState {
   std::shared_ptr<const HiddenProducts> hidden;
   std::shared_ptr<const std::vector<std::uint32_t>> selected;
   std::optional<double> cut_height_m;
+  std::optional<ClipBox> clip;
   ColourMode colour = ColourMode::model;
   double wavelength_nm = kReflectanceWavelength_nm;  // at which reflectance is shown
   bool edges = true;
@@ -62,6 +64,8 @@ struct ViewState {
   bool shapes = false;                 // collision shapes instead of the model
   bool shaded_points = false;          // a cloud at rest is shaded by depth (eye-dome lighting)
   std::shared_ptr<const Cloud> cloud;  // a scan instead of the model; null: none
+  std::shared_ptr<const std::vector<PointColour>> cloud_colours;  // of its points; null: its own
+  int point_size = 2;                                             // pixels
   std::vector<ShownUnderlay> underlays;
   Camera camera;
   GraphicsLook graphics;

@@ -79,18 +79,27 @@ void SceneLayers::update(const ViewState& state, const ViewState* last) {
     outline_.actor->GetProperty()->SetColor(0.05, 0.36, 0.78);
   else if (theme)
     outline_.actor->GetProperty()->SetColor(0.42, 0.71, 1.0);
-  if (last == nullptr || last->cloud != state.cloud) updateCloud(state);
+  if (last == nullptr || last->cloud != state.cloud)
+    updateCloud(state);
+  else if (state.cloud && last->cloud_colours != state.cloud_colours)
+    cloud_.paintPoints(state.cloud_colours ? *state.cloud_colours : state.cloud->colours);
+  if (point_size_ != state.point_size) {
+    point_size_ = state.point_size;
+    setPixels(pixels_);
+  }
   if (last == nullptr || last->underlays != state.underlays || last->cloud != state.cloud) updateUnderlays(state);
   reach_ = reachOf(state);
   updateCut(state);
 }
 
 void SceneLayers::setPixels(int factor) {
+  pixels_ = factor;
   model_.setLineWidth(static_cast<float>(factor));
   grid_.actor->GetProperty()->SetLineWidth(static_cast<float>(factor));
   outline_.actor->GetProperty()->SetLineWidth(static_cast<float>(2 * factor));
-  cloud_.actor->GetProperty()->SetPointSize(static_cast<float>(2 * factor));
-  for (const auto& u : underlays_) u->layer.actor->GetProperty()->SetPointSize(static_cast<float>(2 * factor));
+  cloud_.actor->GetProperty()->SetPointSize(static_cast<float>(point_size_ * factor));
+  for (const auto& u : underlays_)
+    u->layer.actor->GetProperty()->SetPointSize(static_cast<float>(point_size_ * factor));
 }
 
 void SceneLayers::updateSelection(const ViewState& state) {
@@ -111,7 +120,9 @@ void SceneLayers::updateCollision(const ViewState& state) {
 
 void SceneLayers::updateCloud(const ViewState& state) {
   cloud_.hide();
-  if (state.cloud) cloud_.show(*state.cloud);
+  if (!state.cloud) return;
+  cloud_.show(*state.cloud);
+  if (state.cloud_colours) cloud_.paintPoints(*state.cloud_colours);
 }
 
 // Above what can be turned smoothly each shows every k-th point of its sample.
@@ -176,8 +187,14 @@ void SceneLayers::updateGrid(const ViewState& state) {
   grid_.set(groundGrid(bounds_, state.graphics.theme), false);
 }
 
+// OpenGL has planes for a box and no more, so that a cut lowers the box's top.
 void SceneLayers::updateCut(const ViewState& state) {
-  const auto cut = [&](Layer& layer) { layer.cut(state.cut_height_m); };
+  std::vector<ClipPlane> kept;
+  if (const auto box = combined(state.clip, state.cut_height_m))
+    for (int face = 0; face < kClipFaces; ++face) kept.push_back(planeOf(*box, face));
+  else if (state.cut_height_m)
+    kept.push_back({{0, 0, *state.cut_height_m}, -Eigen::Vector3d::UnitZ()});
+  const auto cut = [&](Layer& layer) { layer.cut(kept); };
   model_.forEachLayer(cut);
   for (Layer* layer : {&shapes_, &selected_, &walkable_, &outline_, &cloud_}) cut(*layer);
   for (const auto& u : underlays_) cut(u->layer);

@@ -49,6 +49,7 @@ class SceneLayers {
   Layer shadow_, shapes_, selected_, walkable_, outline_, grid_, cloud_;
   std::vector<std::unique_ptr<UnderlayLayer>> underlays_;
   Bounds bounds_, reach_;
+  int point_size_ = 2, pixels_ = 1;
 };
 
 }  // namespace standpoint
