@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// bench_opening MODEL...: the longest frames of the whole editor from the request to open a model until everything that is
-// made in the background for it is there, in a window of 1280×800 drawn by the machine's OpenGL without a display (EGL).
-// The processor time of the drawing thread says the same while others work on the machine, too.
+// bench_opening MODEL...: the longest frames of the whole editor from the request to open a model until everything that
+// is made in the background for it is there, in a window of 1280×800 drawn by the machine's OpenGL without a display
+// (EGL). The processor time of the drawing thread says the same while others work on the machine, too.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -19,7 +19,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double sinceMs(Clock::time_point from) { return std::chrono::duration<double, std::milli>(Clock::now() - from).count(); }
+double sinceMs(Clock::time_point from) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - from).count();
+}
 
 double threadMs() {
   timespec t{};

@@ -23,6 +23,9 @@ void reset(Editor& editor) {
   editor.selection.clear();
   editor.visibility.showAll();
   editor.visibility.cut_height_m.reset();
+  editor.view.clip.box.reset();
+  editor.wall.clear();
+  editor.view.points_by = ColourBy::natural;
   editor.view.colour = ColourMode::model;
   editor.view.walkable = false;
   editor.view.tool = Tool::select;
@@ -172,6 +175,39 @@ void scan(Editor& editor) {
   editor.update();
 }
 
+// The same in the workspace Inspect, coloured by what it is asked for.
+void inspectScan(Editor& editor, ColourBy by) {
+  scan(editor);
+  editor.workspace = Workspace::inspect;
+  editor.wanted_tab = {"points", "measure", "panorama"};
+  if (!editor.cloud()) return;
+  editor.view.points_by = by;
+  editor.update();
+  editor.point_painter.wait();
+  editor.update();
+  if (const auto cloud = editor.wallCloud()) editor.showPanorama(*cloud);
+  editor.panorama.wait();
+  editor.update();
+}
+void pointsByMaterial(Editor& editor) { inspectScan(editor, ColourBy::material); }
+
+// The wall that the first station looks at, fitted, with the residuals of the scan's points by the model.
+void wall(Editor& editor) {
+  inspectScan(editor, ColourBy::deviation);
+  editor.wanted_tab = {"clip", "wall", "compare"};
+  const auto scene = editor.picker.scene();
+  const auto& job = editor.session.document().job;
+  if (!editor.cloud() || !scene || job->stations.empty()) return;
+  const Eigen::Vector3d from = job->stations.front().true_pose.translation;
+  const auto hit = scene->intersect(from, Eigen::Vector3d(1, 0.2, 0.02).normalized(), 100);
+  if (!hit) return;
+  editor.measureWall(hit->position, hit->normal);
+  editor.wall.wait();
+  editor.update();
+  editor.clipSection(from, Eigen::Vector3d::UnitZ());
+  editor.view.clip.box->half.z() = 1.1;
+}
+
 // What is open, as the import preview shows it.
 void importPreview(Editor& editor) {
   const auto& document = editor.session.document();
@@ -194,6 +230,8 @@ constexpr std::array kPictures = {Picture{"1-overview", overview},
                                   Picture{"13-coverage", coverage},
                                   Picture{"14-coverage-spacing", coverageSpacing},
                                   Picture{"15-scan", scan},
+                                  Picture{"16-points-by-material", pointsByMaterial},
+                                  Picture{"17-wall", wall},
                                   Picture{"7-import-preview", importPreview},
                                   Picture{"6-palette", palette}};
 

@@ -18,6 +18,7 @@
 #include "optimizer/optimizer.h"
 #include "scanners/radiometry/atmosphere.h"
 #include "scanners/radiometry/effects.h"
+#include "survey/measuring/measurement.h"
 
 namespace standpoint {
 
@@ -109,6 +110,7 @@ struct Document {
   std::shared_ptr<const ScanChoice> scanning;  // null until something was scanned
   std::vector<std::shared_ptr<const Underlay>> underlays;
   std::shared_ptr<const Verification> verification;
+  std::shared_ptr<const std::vector<Measurement>> measurements;  // null: none yet
 
   // What is shown, walked in and scanned: the lighter environment where there is one.
   const std::shared_ptr<const Environment>& environment() const {

@@ -2,10 +2,13 @@
 #include "editor/model/desktop_opener.h"
 
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <spawn.h>
+#include <sstream>
 #include <sys/wait.h>
 #include <thread>
+#include <unistd.h>
 #include <utility>
 
 #include <fmt/format.h>
@@ -59,6 +62,21 @@ const std::string& DesktopOpener::problem() {
       problem_ = trf("'{}' could not open the file (exit code {}). File: {}", program_, *status, path_.string());
   }
   return problem_;
+}
+
+std::string firstProgram(std::span<const char* const> names) {
+  const char* path = std::getenv("PATH");
+  for (const char* name : names) {
+    std::istringstream folders(path == nullptr ? "" : path);
+    for (std::string folder; std::getline(folders, folder, ':');)
+      if (::access((std::filesystem::path(folder) / name).c_str(), X_OK) == 0) return name;
+  }
+  return {};
+}
+
+std::string cloudCompareProgram() {
+  static constexpr const char* kNames[] = {"CloudCompare", "cloudcompare", "cloudcompare.CloudCompare"};
+  return firstProgram(kNames);
 }
 
 }  // namespace standpoint

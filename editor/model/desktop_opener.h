@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "project/task.h"
@@ -28,5 +29,10 @@ class DesktopOpener {
   std::filesystem::path path_;
   std::unique_ptr<Task<int>> task_;  // ends with the exit status of the program, or -1
 };
+
+// The first of these programs that the search path has; "" where it has none.
+std::string firstProgram(std::span<const char* const> names);
+// What CloudCompare is called on this machine; "" where it is not installed.
+std::string cloudCompareProgram();
 
 }  // namespace standpoint

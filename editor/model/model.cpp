@@ -51,7 +51,7 @@ std::optional<ScanSettings> Model::plannedSettings() const {
 
 bool Model::jobRuns() const {
   return !session.running().empty() || readingCloud() || preview.reading() || deviation.busy() ||
-         !underlays.reading().empty() || walk_ground.preparing();
+         !underlays.reading().empty() || walk_ground.preparing() || wall.busy() || panorama.busy();
 }
 
 void Model::showCloud(const std::filesystem::path& file) {
@@ -127,6 +127,13 @@ void Model::update() {
   graphics.choose(settings.graphics);
   session.poll();
   followLiveScan();
+  wall.poll();
+  panorama.poll();
+  for (auto* opener : {&folder_opener, &cloud_compare}) {
+    if (opener->problem().empty()) continue;
+    session.errors().push_back({"Cannot open a file", Error{ErrorKind::file_system, opener->problem(), {}}});
+    opener->forget();
+  }
   followCloud();
   if (session.revision() != seen_revision_) {
     seen_revision_ = session.revision();
@@ -134,6 +141,7 @@ void Model::update() {
     chooseWantedStation();
     adoptDocument();
   }
+  followPointColours();
   followWalking(*this);
   followStationView(*this);
   followPreview();
@@ -243,8 +251,10 @@ void Model::adoptDocument() {
   visibility.cut_height_m.reset();
   cloud_.reset();
   view.tool = Tool::select;
-  view.measured_from.reset();
-  view.measured_to.reset();
+  view.measuring.points.clear();
+  view.clip.box.reset();
+  wall.clear();
+  panorama.clear();
   view.hover.reset();
   outliner = {imported_ ? Outliner(*imported_) : Outliner(), outliner.made + 1, {}};
   if (imported_) look(view.camera, StandardView::corner);
@@ -258,6 +268,7 @@ ViewState Model::viewState() const {
   state.camera = view.camera;
   state.graphics = graphicsLook();
   state.colour = view.colour;
+  if (preview.outcome() == nullptr) state.clip = view.clip.box;
   state.wavelength_nm = view.wavelength_nm;
   state.edges = view.edges;
   state.grid = view.grid;
@@ -282,6 +293,8 @@ ViewState Model::viewState() const {
   state.walkable = view.walkable && document.collision;
   state.shapes = view.shapes && document.collision;
   state.cloud = cloud_;
+  if (const auto* painted = point_painter.of(cloud_); painted != nullptr && painted->by == view.points_by)
+    state.cloud_paint = painted->paint;
   if (!visibility.alone()) state.underlays = underlays.shown(document);
   return state;
 }

@@ -11,12 +11,20 @@
 #include <string>
 #include <vector>
 
+#include "editor/inspect/clip_box.h"
+#include "editor/inspect/inspected_clouds.h"
+#include "editor/inspect/measuring.h"
+#include "editor/inspect/panorama_view.h"
+#include "editor/inspect/point_colour.h"
+#include "editor/inspect/point_painter.h"
+#include "editor/inspect/wall_view.h"
 #include "editor/labels/room_labels.h"
 #include "editor/model/budget_preview.h"
 #include "editor/model/camera.h"
 #include "editor/model/catalogue.h"
 #include "editor/model/cloud.h"
 #include "editor/model/cloud_loader.h"
+#include "editor/model/desktop_opener.h"
 #include "editor/model/expected_view.h"
 #include "editor/model/graphics.h"
 #include "editor/model/guide.h"
@@ -44,7 +52,19 @@
 namespace standpoint {
 
 // What the next click in the viewport does.
-enum class Tool { select, placeStation, placeRow, placeTarget, measure, walk, takeMaterial, paintMaterial, layWay };
+enum class Tool {
+  select,
+  placeStation,
+  placeRow,
+  placeTarget,
+  measure,
+  pickWall,
+  pickSection,
+  walk,
+  takeMaterial,
+  paintMaterial,
+  layWay
+};
 
 // Which of the two models is looked at; there is one only until it has been optimised.
 enum class ModelSide { lighter, original, both };
@@ -73,6 +93,17 @@ struct ViewBeforeStation {
   std::optional<double> cut_height_m;
 };
 
+// What of the scene is cut away around a box or a section.
+struct ClipState {
+  std::optional<ClipBox> box;
+  double thickness_m = 0.2;  // of the next section
+  bool handles = true;       // its faces can be pulled in the view
+  int face = -1;             // that is pulled
+  int hovered = -1;
+  ClipBox before;     // as it was when that began
+  double grip_m = 0;  // where along the face's axis it was taken
+};
+
 struct ViewportState {
   Camera camera;
   ColourMode colour = ColourMode::model;
@@ -89,7 +120,11 @@ struct ViewportState {
   Eigen::Vector3d pivot = Eigen::Vector3d::Zero();
   double pivot_depth_m = 1;
   Eigen::Vector2d size = {800, 600};  // of the picture, in interface points
-  std::optional<Eigen::Vector3d> measured_from, measured_to;
+  ClipState clip;
+  ColourBy points_by = ColourBy::natural;  // of the scan that is shown
+  Measuring measuring;
+  bool measurements = true;                    // kept ones are drawn
+  std::optional<Eigen::Vector3d> measured_at;  // under the pointer while a tool measures: of a cloud, or the model
   bool dragging = false;
   Camera camera_before_drag;  // which Esc brings back
   bool dragged = false;
@@ -112,17 +147,25 @@ struct OutlinerView {
   std::optional<std::uint32_t> scroll_to;  // product to bring into view
 };
 
-// Chosen in the lists of the survey and in the view: indices into the job and into the underlays, -1 for none.
+// Chosen in the lists of the survey and in the view: indices into the job, the underlays and the
+// measurements, -1 for none.
 struct SurveyChoice {
   int station = -1;
   int target = -1;
   int underlay = -1;
+  int measurement = -1;
 };
 
 // Chosen in the lists of materials or with the eyedropper; a remedy and the brush use it.
 struct ChosenMaterial {
   std::string id;           // "" with `unassigned`, or when none is
   bool unassigned = false;  // the row of the surfaces that have none
+};
+
+// How the next wall is measured.
+struct WallChoice {
+  double radius_m = 0.5, roughness_radius_m = 0.05;
+  std::filesystem::path cloud;  // empty: the one that is shown, else that of the chosen station
 };
 
 // What counts as seen when scans are planned.
@@ -172,6 +215,12 @@ struct Model : Style {
   ChosenMaterial material;
   ScanChoice scan_choice{.instrument = "leica-rtc360"};  // what the next scan is set to
   SeenLimits seen;
+  WallView wall;
+  WallChoice wall_choice;
+  PanoramaView panorama;
+  PointPainter point_painter;
+  DesktopOpener folder_opener;
+  DesktopOpener cloud_compare{cloudCompareProgram()};
   Body walker{0.25, 1.70};  // who walks through the model, and for whom its surface is computed
 
   // What the status bar says for a while, though nobody has asked.
@@ -217,6 +266,22 @@ struct Model : Style {
   // Of the clouds that are shown, the files that are no longer there; looked for every other second.
   const std::vector<std::filesystem::path>& missingClouds() const { return missing_clouds_; }
   bool jobRuns() const;  // a bar moves
+  // The first point of the clouds that are shown, or place of the model, that the ray meets; within `reach_px` pixels
+  // of it for points.
+  std::optional<Eigen::Vector3d> measurableAt(const ViewRay& ray, double reach_px) const;
+  // The cloud in which a wall is measured; null with the reason in `why_not`.
+  std::optional<InspectedCloud> wallCloud(std::string* why_not = nullptr) const;
+  void showPanorama(const InspectedCloud& cloud);
+  // How to read the colours of the scan that is shown; null while they are made, or where they are its own.
+  const PointLegend* pointLegend() const;
+  // From nearby, out of the direction in which `from` lies; local frame.
+  void jumpTo(const Eigen::Vector3d& place, const Eigen::Vector3d& from);
+  void clipAroundSelection();  // around everything when nothing is selected
+  // A section of the thickness that is set; local frame.
+  void clipSection(const Eigen::Vector3d& place, const Eigen::Vector3d& normal);
+  void lookAlongClip();
+  // Starts to measure the wall at this place of the local frame.
+  void measureWall(const Eigen::Vector3d& place, const std::optional<Eigen::Vector3d>& normal);
   Bounds visibleBounds() const;
   Bounds buildingBounds() const;  // what is visible without the terrain around it
   Bounds selectionBounds() const;
@@ -231,6 +296,7 @@ struct Model : Style {
 
  private:
   void adoptDocument();
+  void followPointColours();
   void chooseWantedStation();
   void followPreview();
   void startWaitingCloud();

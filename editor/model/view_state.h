@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/environment.h"
+#include "editor/inspect/clip_box.h"
 #include "editor/model/camera.h"
 #include "editor/model/cloud.h"
 #include "editor/model/deviation_view.h"
@@ -56,15 +57,17 @@ struct ViewState {
   std::shared_ptr<const HiddenProducts> hidden;
   std::shared_ptr<const std::vector<std::uint32_t>> selected;
   std::optional<double> cut_height_m;
+  std::optional<ClipBox> clip;
   ColourMode colour = ColourMode::model;
   double wavelength_nm = kReflectanceWavelength_nm;  // at which reflectance is shown
   bool edges = true;
   bool grid = true;
   bool walkable = false;
-  bool shapes = false;                 // collision shapes instead of the model
-  bool shaded_points = false;          // clouds are shaded by depth (eye-dome lighting)
-  int point_size_px = 2;               // of the square that a point covers
-  std::shared_ptr<const Cloud> cloud;  // a scan instead of the model; null: none
+  bool shapes = false;                            // collision shapes instead of the model
+  bool shaded_points = false;                     // clouds are shaded by depth (eye-dome lighting)
+  int point_size_px = 2;                          // of the square that a point covers
+  std::shared_ptr<const Cloud> cloud;             // a scan instead of the model; null: none
+  std::shared_ptr<const CloudPaint> cloud_paint;  // null: its own colours
   std::vector<ShownUnderlay> underlays;
   Camera camera;
   GraphicsLook graphics;

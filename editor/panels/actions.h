@@ -56,6 +56,19 @@ class Actions {
   virtual void set(const ScanChoice& scan) = 0;
   virtual void set(const SeenLimits& limits) = 0;
   virtual void set(const Body& walker) = 0;
+  virtual void set(const WallChoice& wall) = 0;
+  virtual void measureWall(const Eigen::Vector3d& place, const std::optional<Eigen::Vector3d>& normal) = 0;  // local
+  virtual void showMeasurements(bool shown) = 0;
+  virtual void clip(const ClipBox& box) = 0;
+  virtual void colourPointsBy(ColourBy colour) = 0;
+  virtual void pointSize(int pixels) = 0;
+  virtual void showPanorama(const InspectedCloud& cloud) = 0;
+  virtual void jumpTo(const Eigen::Vector3d& place, const Eigen::Vector3d& from) = 0;  // local frame
+  // For Dear ImGui's AddImage, with v from 0 to 1; 0 where nothing can be drawn.
+  virtual std::uint64_t texture(const std::shared_ptr<const PixelPicture>& picture) = 0;
+  virtual void openFolderOf(const std::filesystem::path& file) = 0;  // with what the desktop has for folders
+  virtual void openInCloudCompare(const std::filesystem::path& file) = 0;
+  virtual void clipThickness(double thickness_m) = 0;  // of the next section, and of one that is shown
 
   // What is made beside the interface while somebody asks for it, in each frame anew.
   virtual void wantBudget(SimplificationRequest request) = 0;

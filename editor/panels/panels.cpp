@@ -12,9 +12,13 @@ namespace standpoint {
   ROW(drawSurveyPanel, "survey", "Survey", ICON_STATION, N, N, N, N, L, L, L)                 \
   ROW(drawOutlinerPanel, "outliner", "Outliner", ICON_LIST, L, L, L, L, L, N, L)              \
   ROW(drawGuidePanel, "guide", "Guide", ICON_FLAG, L, L, L, L, L, L, L)                       \
+  ROW(drawPointsPanel, "points", "Points", ICON_DROP, N, N, N, N, N, N, L)                    \
+  ROW(drawClipPanel, "clip", "Clip", ICON_CUT, N, N, N, N, N, N, L)                           \
   ROW(drawScanPanel, "scan", "Scan", ICON_PLAY, N, N, N, N, R, N, N)                          \
   ROW(drawPlanPanel, "plan", "Plan", ICON_EYE, N, N, N, N, R, N, N)                           \
   ROW(drawInstrumentPanel, "instrument", "Instrument", ICON_TABLET, N, N, N, N, N, R, N)      \
+  ROW(drawMeasurePanel, "measure", "Measure", ICON_MEASURE, N, N, N, N, N, N, R)              \
+  ROW(drawWallPanel, "wall", "Wall", ICON_CROSSHAIRS, N, N, N, N, N, N, R)                    \
   ROW(drawQualityPanel, "quality", "Quality", ICON_CHECK_CIRCLE, N, N, N, N, R, R, R)         \
   ROW(drawMaterialCardPanel, "material", "Material", ICON_PAINT, N, N, R, N, N, N, N)         \
   ROW(drawVerifyPanel, "verify", "Measured", ICON_CHECK_CIRCLE, N, N, R, N, N, N, R)          \
@@ -24,6 +28,8 @@ namespace standpoint {
   ROW(drawCollisionPanel, "collision", "Collision", ICON_WALK, R, N, N, N, N, N, N)           \
   ROW(drawFindingsPanel, "findings", "Findings", ICON_FLAG, N, N, B, N, N, N, N)              \
   ROW(drawTargetsPanel, "targets", "Targets", ICON_TARGET, N, N, N, N, B, N, N)               \
+  ROW(drawPanoramaPanel, "panorama", "Panorama", ICON_EYE, N, N, N, N, N, N, B)               \
+  ROW(drawComparePanel, "compare", "Compare", ICON_COMPRESS, N, N, N, N, N, N, B)             \
   ROW(drawLogPanel, "log", "Log", ICON_LOG, B, B, B, B, B, B, B)                              \
   ROW(drawTasksPanel, "tasks", "Tasks", ICON_TASKS, B, B, B, B, B, B, B)
 

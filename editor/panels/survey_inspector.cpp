@@ -336,28 +336,6 @@ void drawUnderlay(const Model& model, SurveyEdit& edit, Actions& actions, const 
   underlayButtons(model, actions, underlay, why);
 }
 
-bool drawMeasured(const Model& model, Actions& actions) {
-  const auto &from = model.view.measured_from, &to = model.view.measured_to;
-  if (!from || !to) return false;
-  const Eigen::Vector3d way = *to - *from;
-  ui::heading(model, "Measured distance");
-  if (ui::beginProperties("measured", 0.36F)) {
-    ui::property("Distance", metres(way.norm(), 4));
-    ui::property("Horizontal", metres(way.head<2>().norm(), 4));
-    ui::property("Vertical", metres(way.z(), 4));
-    ui::property("From", coordinates(*from + model.shift_m()));
-    ui::property("To", coordinates(*to + model.shift_m()));
-    ui::endProperties();
-  }
-  const float width = columnWidth(2);
-  if (smallButton(ICON_LIST, "Copy", "copy-measured", width, {}, "Copy the distance"))
-    ImGui::SetClipboardText(metres(way.norm(), 4).c_str());
-  ImGui::SameLine();
-  if (smallButton(ICON_CLOSE, "Clear", "clear-measured", width, {}, "Clear the measurement and leave the tool"))
-    actions.run("select-none");
-  return true;
-}
-
 template <class Things>
 auto* chosenOf(const Things& things, int index) {
   return index >= 0 && index < static_cast<int>(things.size()) ? &things[static_cast<std::size_t>(index)] : nullptr;
@@ -367,7 +345,7 @@ auto* chosenOf(const Things& things, int index) {
 
 bool drawSurveyInspector(const Model& model, PanelStates& states, Actions& actions) {
   auto& state = states.of<SurveyInspectorState>();
-  bool any = drawMeasured(model, actions);
+  bool any = false;
   const auto job = model.session.document().job;  // a copy: a button may change it
   const auto underlays = model.session.document().underlays;
   const auto chosen = model.survey;

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <vector>
 
 #include "pointclouds/octree/cloud_point.h"
 
@@ -21,6 +23,15 @@ struct CloudColouring {
 };
 // `points`: all, or an even part of them.
 CloudColouring colouringOf(std::span<const CloudPoint> points, std::uint32_t channels);
+
+// Colours of points relative to the cloud's origin, one for each; from any thread.
+using PaintOfPoints = std::function<std::vector<PointColour>(std::span<const CloudPoint> points)>;
+
+// Other colours for a cloud than its own: of the points that are in memory, and how the others are painted.
+struct CloudPaint {
+  std::vector<PointColour> colours;
+  PaintOfPoints others;
+};
 
 // `height_m`: above the cloud's origin. It is not the record's own where that is relative to a node.
 PointColour colourOf(const CloudPoint& point, float height_m, const CloudColouring& colouring);

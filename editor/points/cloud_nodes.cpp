@@ -30,9 +30,13 @@ PackedPoints emptyFor(std::size_t points) {
 }
 
 // Those of a node are in such an order already.
-PackedPoints packedNode(const OctreeNode& node, std::span<const CloudPoint> points, const CloudColouring& colouring) {
+PackedPoints packedNode(const OctreeNode& node, std::span<const CloudPoint> points, const PaintOfPoints& paint) {
+  std::vector<CloudPoint> in_cloud(points.begin(), points.end());
+  for (auto& p : in_cloud)
+    for (std::size_t k = 0; k < 3; ++k) p.position_m[k] += static_cast<float>(node.min_m[static_cast<Eigen::Index>(k)]);
+  const auto colours = paint(in_cloud);
   PackedPoints to = emptyFor(points.size());
-  for (const auto& p : points) add(to, p, colourOf(p, static_cast<float>(node.min_m.z()) + p.position_m[2], colouring));
+  for (std::size_t i = 0; i < points.size(); ++i) add(to, points[i], colours[i]);
   return to;
 }
 
@@ -51,6 +55,15 @@ PackedPoints packed(std::span<const CloudPoint> points, std::span<const PointCol
   return to;
 }
 
+PaintOfPoints ownPaint(const CloudColouring& colouring) {
+  return [colouring](std::span<const CloudPoint> points) {
+    std::vector<PointColour> colours;
+    colours.reserve(points.size());
+    for (const auto& p : points) colours.push_back(colourOf(p, p.position_m[2], colouring));
+    return colours;
+  };
+}
+
 std::uint64_t mostNodeBytes() {
   constexpr std::uint64_t kMost = std::uint64_t{2} << 30;
   const auto pages = ::sysconf(_SC_PHYS_PAGES), page_bytes = ::sysconf(_SC_PAGESIZE);
@@ -58,9 +71,8 @@ std::uint64_t mostNodeBytes() {
   return std::min(kMost, static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_bytes) / 4);
 }
 
-CloudNodes::CloudNodes(std::shared_ptr<const OctreeFile> octree, const CloudColouring& colouring,
-                       std::uint64_t most_bytes)
-    : octree_(std::move(octree)), colouring_(colouring), most_bytes_(most_bytes), reader_([this] { work(); }) {}
+CloudNodes::CloudNodes(std::shared_ptr<const OctreeFile> octree, PaintOfPoints paint, std::uint64_t most_bytes)
+    : octree_(std::move(octree)), paint_(std::move(paint)), most_bytes_(most_bytes), reader_([this] { work(); }) {}
 
 CloudNodes::~CloudNodes() {
   {
@@ -139,7 +151,7 @@ void CloudNodes::work() {
     reading_ = true;
     lock.unlock();
     Result<std::vector<CloudPoint>> points = octree_->read(index);
-    Node made = points ? std::make_shared<const PackedPoints>(packedNode(node, *points, colouring_)) : nullptr;
+    Node made = points ? std::make_shared<const PackedPoints>(packedNode(node, *points, paint_)) : nullptr;
     lock.lock();
     reading_ = false;
     if (made) {

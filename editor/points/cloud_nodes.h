@@ -23,6 +23,8 @@ namespace standpoint {
 // In an order drawn by lot, the same each time: any part from the first on is an even one.
 PackedPoints packed(std::span<const CloudPoint> points, std::span<const PointColour> colours);
 
+PaintOfPoints ownPaint(const CloudColouring& colouring);  // by colourOf()
+
 std::uint64_t mostNodeBytes();  // a quarter of the machine's memory, at most 2 GB
 
 // The nodes of an octree that are in memory, coloured and ready to be drawn. A thread reads those that are wanted and
@@ -30,7 +32,7 @@ std::uint64_t mostNodeBytes();  // a quarter of the machine's memory, at most 2 
 class CloudNodes {
  public:
   using Node = std::shared_ptr<const PackedPoints>;
-  CloudNodes(std::shared_ptr<const OctreeFile> octree, const CloudColouring& colouring, std::uint64_t most_bytes);
+  CloudNodes(std::shared_ptr<const OctreeFile> octree, PaintOfPoints paint, std::uint64_t most_bytes);
   ~CloudNodes();
   CloudNodes(const CloudNodes&) = delete;
   CloudNodes& operator=(const CloudNodes&) = delete;
@@ -50,7 +52,7 @@ class CloudNodes {
   void work();
   bool makeRoom(std::uint64_t bytes);
   std::shared_ptr<const OctreeFile> octree_;
-  CloudColouring colouring_;
+  PaintOfPoints paint_;
   std::uint64_t most_bytes_;
 
   mutable std::mutex mutex_;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstring>
+#include <vector>
 
 #include <imgui.h>
 
@@ -14,12 +15,14 @@
 #include "editor/shell/editor.h"
 #include "editor/shell/escape.h"
 #include "editor/shell/import_preview.h"
+#include "editor/shell/inspect_actions.h"
 #include "editor/shell/tour_card.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keyboard.h"
 #include "editor/widgets/widgets.h"
 #include "editor/words/sentences.h"
 #include "project/model/treatments.h"
+#include "project/survey/measure_verb.h"
 #include "project/survey/survey_verbs.h"
 
 namespace standpoint {
@@ -88,26 +91,37 @@ std::pair<const char*, std::string> chosenInSurvey(const Editor& e) {
     return {"station", job->stations[static_cast<std::size_t>(state.station)].name};
   if (job && state.target >= 0 && state.target < static_cast<int>(job->targets.size()))
     return {"target", job->targets[static_cast<std::size_t>(state.target)].name};
+  const auto& measurements = e.session.document().measurements;
+  if (measurements && state.measurement >= 0 && state.measurement < static_cast<int>(measurements->size()))
+    return {"measure", (*measurements)[static_cast<std::size_t>(state.measurement)].name};
   return {"station", ""};
 }
 void removeChosen(Editor& e) {
   const auto [verb, name] = chosenInSurvey(e);
-  const auto title =
-      std::string_view(verb) == "target" ? trf("Remove target {}", name) : trf("Remove station {}", name);
+  const bool measurement = std::string_view(verb) == "measure";
+  const auto title = measurement                          ? trf("Remove measurement {}", name)
+                     : std::string_view(verb) == "target" ? trf("Remove target {}", name)
+                                                          : trf("Remove station {}", name);
   if (std::string_view(verb) == "target")
     e.session.start(TargetOptions{.remove = name}, title);
+  else if (measurement)
+    e.session.start(MeasureOptions{.remove = name}, title);
   else
     e.session.start(StationOptions{.remove = name}, title);
 }
 void renameChosen(Editor& e) {
   e.rename_wanted = true;
-  if (e.workspace == Workspace::instrument) e.workspace = Workspace::survey;
-  e.wanted_tab[1] = "inspector";
+  const bool measurement = e.survey.measurement >= 0;
+  if (measurement)
+    e.workspace = Workspace::inspect;
+  else if (e.workspace == Workspace::instrument)
+    e.workspace = Workspace::survey;
+  e.wanted_tab[1] = measurement ? "measure" : "inspector";
 }
 std::string whyRenameNot(const Editor& e) {
   const auto& chosen = e.survey;
-  const bool any = chosen.station >= 0 || chosen.target >= 0 || chosen.underlay >= 0;
-  return any ? "" : "Select a station, target or underlay first";
+  const bool any = chosen.station >= 0 || chosen.target >= 0 || chosen.underlay >= 0 || chosen.measurement >= 0;
+  return any ? "" : "Select a station, target, underlay or measurement first";
 }
 std::string whyDuplicateNot(const Editor& e) {
   if (auto why = e.session.whyNot("station"); !why.empty()) return why;
@@ -117,7 +131,7 @@ std::string whyDuplicateNot(const Editor& e) {
 std::string whyRemoveNot(const Editor& e) {
   const auto [verb, name] = chosenInSurvey(e);
   if (auto why = e.session.whyNot(verb); !why.empty()) return why;
-  return name.empty() ? "Select a station or target in the Survey panel first" : "";
+  return name.empty() ? "Select a station, target or measurement in its list first" : "";
 }
 
 // What is said of the selection, each product by what it keeps through an update of the model.
@@ -171,7 +185,7 @@ std::string whyStationNot(const Editor& e) { return e.session.whyNot("station");
 std::string whyTargetNot(const Editor& e) { return e.session.whyNot("target"); }
 std::string whyScanNot(const Editor& e) { return e.session.whyNot("scan"); }
 
-const std::array kActions = {
+const std::array kOwn = {
     Action{"new", "New project", ICON_FILE_NEW, {'N', true}, newProject, whyOpenNot},
     Action{"open", "Open project…", ICON_FOLDER_OPEN, {'O', true}, openProject, whyOpenNot},
     Action{"import", "Import model…", ICON_IMPORT, {'I', true}, importModel, whyImportNot},
@@ -263,13 +277,13 @@ const std::array kActions = {
     Action{"points-larger",
            "Larger points",
            "",
-           {},
+           {kKeyPlus, false, false, true},
            [](Editor& e) { ++e.view.point_size_px; },
            whyNotLarger},
     Action{"points-smaller",
            "Smaller points",
            "",
-           {},
+           {kKeyMinus, false, false, true},
            [](Editor& e) { --e.view.point_size_px; },
            whyNotSmaller},
     Action{"labels", "Labels", "", {}, [](Editor& e) { e.view.labels = !e.view.labels; }, nullptr},
@@ -412,8 +426,18 @@ const std::array kActions = {
              showWorkspace(e, Workspace::survey);
            },
            whyTargetNot},
-    Action{"rename", "Rename selected station, target or underlay", ICON_PENCIL, {kKeyF2}, renameChosen, whyRenameNot},
-    Action{"remove", "Remove selected station or target", ICON_TRASH, {kKeyDelete}, removeChosen, whyRemoveNot},
+    Action{"rename",
+           "Rename selected station, target, underlay or measurement",
+           ICON_PENCIL,
+           {kKeyF2},
+           renameChosen,
+           whyRenameNot},
+    Action{"remove",
+           "Remove selected station, target or measurement",
+           ICON_TRASH,
+           {kKeyDelete},
+           removeChosen,
+           whyRemoveNot},
     Action{"take-material",
            "Pick material from a surface",
            ICON_DROP,
@@ -432,8 +456,6 @@ const std::array kActions = {
              showWorkspace(e, Workspace::materials);
            },
            whyPaintNot},
-    Action{
-        "measure", "Measure distance", ICON_MEASURE, {'M'}, [](Editor& e) { e.view.tool = Tool::measure; }, whyNoModel},
     Action{"scan",
            "Scan…",
            ICON_PLAY,
@@ -529,10 +551,17 @@ bool leavesText(const Shortcut& s) { return s.ctrl && std::strchr("ACVXYZ", s.ke
 
 }  // namespace
 
-std::span<const Action> actions() { return kActions; }
+std::span<const Action> actions() {
+  static const std::vector<Action> all = [] {
+    std::vector<Action> joined(kOwn.begin(), kOwn.end());
+    joined.insert(joined.end(), inspectActions().begin(), inspectActions().end());
+    return joined;
+  }();
+  return all;
+}
 
 const Action* findAction(const char* id) {
-  for (const auto& action : kActions)
+  for (const auto& action : actions())
     if (std::strcmp(action.id, id) == 0) return &action;
   return nullptr;
 }
@@ -563,7 +592,7 @@ std::string shortcutText(const Shortcut& s) {
 void runShortcuts(Editor& editor) {
   const auto& io = ImGui::GetIO();
   if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
-  for (const auto& action : kActions) {
+  for (const auto& action : actions()) {
     const auto& s = action.shortcut;
     if (s.key == kKeyEscape) continue;  // closeTopmost
     if (io.WantTextInput && !leavesText(s)) continue;

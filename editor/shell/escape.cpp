@@ -46,7 +46,7 @@ bool holdsWidget() {
 bool dragsInView(const Editor& editor) {
   const auto& view = editor.view;
   return view.teleport.active() || view.dragged_station >= 0 || view.handle != StationHandle::none ||
-         view.probe.dragged || (view.dragging && view.dragged);
+         view.probe.dragged || view.clip.face >= 0 || (view.dragging && view.dragged);
 }
 
 void endDrag(Editor& editor) {
@@ -63,6 +63,9 @@ void endDrag(Editor& editor) {
   } else if (view.probe.dragged) {
     view.probe.dragged = false;
     view.probe.position = view.probe.dragged_from;
+  } else if (view.clip.face >= 0) {
+    view.clip.box = view.clip.before;
+    view.clip.face = -1;
   } else if (view.dragging && view.dragged) {
     view.dragging = false;
     if (view.tool != Tool::walk) view.camera = view.camera_before_drag;
@@ -97,7 +100,8 @@ EscapeLayer escapeLayer(const Editor& editor) {
   if (editor.view.tool == Tool::walk || editor.walk_ground.preparing()) return EscapeLayer::walk;
   if (editor.view.tool != Tool::select) return EscapeLayer::tool;
   const auto& survey = editor.survey;
-  const bool chosen = !editor.selection.empty() || survey.station >= 0 || survey.target >= 0 || survey.underlay >= 0;
+  const bool chosen = !editor.selection.empty() || survey.station >= 0 || survey.target >= 0 || survey.underlay >= 0 ||
+                      survey.measurement >= 0;
   return chosen ? EscapeLayer::selection : EscapeLayer::none;
 }
 
@@ -121,11 +125,11 @@ void leaveTool(Editor& editor) {
   if (editor.walk_ground.preparing()) return editor.walk_ground.cancel();
   editor.view.refused_place.reset();
   if (editor.view.row_from) return editor.view.row_from.reset();  // the first end is chosen anew
+  if (editor.view.tool == Tool::measure && !editor.view.measuring.points.empty())
+    return editor.view.measuring.points.clear();  // begun anew
   if (editor.view.tool != Tool::select) {
     stopWalking(editor);
     editor.view.tool = Tool::select;
-    editor.view.measured_from.reset();
-    editor.view.measured_to.reset();
     return;
   }
   editor.selection.clear();

@@ -126,22 +126,6 @@ void drawRoomNames(Editor& editor, Pen& pen, const ViewState& state) {
   }
 }
 
-void drawMeasure(Editor& editor, Pen& pen) {
-  const auto& view = editor.view;
-  if (view.tool != Tool::measure || !view.measured_from) return;
-  const auto from = pen.at(*view.measured_from);
-  std::optional<Eigen::Vector3d> end = view.measured_to;
-  if (!end && view.hover) end = view.hover->position;
-  if (from) pen.circle(*from, 4, tone::kAccent, tone::kText);
-  if (!end) return;
-  pen.line(*view.measured_from, *end, tone::kAccent, 2);
-  const Eigen::Vector3d d = *end - *view.measured_from;
-  const auto to = pen.at(*end);
-  if (!to) return;
-  pen.circle(*to, 4, tone::kAccent, tone::kText);
-  pen.label(*to, fmt::format("{:.3f} m   (Δ {:.3f}  {:.3f}  {:.3f})", d.norm(), d.x(), d.y(), d.z()), tone::kText);
-}
-
 // Where a handheld scanner shall be carried.
 void drawWay(const Editor& editor, Pen& pen) {
   std::optional<Eigen::Vector3d> before;
@@ -193,7 +177,6 @@ void drawMarkers(Editor& editor, ImVec2 origin) {
   list.PushClipRect(
       origin,
       {origin.x + static_cast<float>(editor.view.size.x()), origin.y + static_cast<float>(editor.view.size.y())}, true);
-  drawMeasure(editor, pen);
   drawWay(editor, pen);
   drawPreview(editor, pen);
   drawStations(editor, pen, state);

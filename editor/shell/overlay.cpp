@@ -230,15 +230,22 @@ void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
   }
   if (editor.view.tool == Tool::select && looksFromStation(editor))
     return drawBanner(editor, origin, size, "Drag to look around   Alt+Left to go back", 26, kHint);
+  const auto& view = editor.view;
+  std::string measuring;
   const char* hint = nullptr;
-  switch (editor.view.tool) {
+  switch (view.tool) {
     case Tool::placeStation: hint = "Click the floor to add a station   Esc to leave"; break;
     case Tool::placeRow:
       hint = editor.view.row_from ? "Click the floor where the row ends   Esc to leave"
                                   : "Click the floor where the row begins   Esc to leave";
       break;
     case Tool::placeTarget: hint = "Click to place a target   Esc to leave"; break;
-    case Tool::measure: hint = "Click two points to measure   Esc to leave"; break;
+    case Tool::measure:
+      measuring = view.measuring.problem.empty() ? hintOf(view.measuring) : view.measuring.problem;
+      hint = measuring.c_str();
+      break;
+    case Tool::pickWall: hint = "Click a wall, floor or ceiling to measure its plane   Esc to leave"; break;
+    case Tool::pickSection: hint = "Click a wall to cut along it   Esc to leave"; break;
     case Tool::takeMaterial: hint = "Click a surface to pick its material   Esc to leave"; break;
     case Tool::paintMaterial: hint = "Click surfaces to assign the selected material   Esc to leave"; break;
     case Tool::layWay: hint = "Click the floor to add a waypoint   Esc to leave"; break;

@@ -61,6 +61,31 @@ void PanelActions::renameBegun() { editor_.rename_wanted = false; }
 void PanelActions::set(const ScanChoice& scan) { editor_.scan_choice = scan; }
 void PanelActions::set(const SeenLimits& limits) { editor_.seen = limits; }
 void PanelActions::set(const Body& walker) { editor_.walker = walker; }
+void PanelActions::set(const WallChoice& wall) { editor_.wall_choice = wall; }
+void PanelActions::measureWall(const Eigen::Vector3d& place, const std::optional<Eigen::Vector3d>& normal) {
+  editor_.measureWall(place, normal);
+}
+void PanelActions::showMeasurements(bool shown) { editor_.view.measurements = shown; }
+void PanelActions::clip(const ClipBox& box) { editor_.view.clip.box = box; }
+void PanelActions::colourPointsBy(ColourBy colour) { editor_.view.points_by = colour; }
+void PanelActions::pointSize(int pixels) { editor_.view.point_size_px = pixels; }
+void PanelActions::showPanorama(const InspectedCloud& cloud) { editor_.showPanorama(cloud); }
+void PanelActions::jumpTo(const Eigen::Vector3d& place, const Eigen::Vector3d& from) { editor_.jumpTo(place, from); }
+std::uint64_t PanelActions::texture(const std::shared_ptr<const PixelPicture>& picture) {
+  return editor_.scene == nullptr ? 0 : editor_.scene->texture(picture);
+}
+void PanelActions::openFolderOf(const std::filesystem::path& file) {
+  editor_.folder_opener.open(std::filesystem::absolute(file).parent_path(), editor_.wake);
+}
+void PanelActions::openInCloudCompare(const std::filesystem::path& file) {
+  editor_.cloud_compare.open(file, editor_.wake);
+}
+void PanelActions::clipThickness(double thickness_m) {
+  auto& clip = editor_.view.clip;
+  const int thin = clip.box ? thinAxis(*clip.box) : 0;
+  if (clip.box && std::abs(2 * clip.box->half[thin] - clip.thickness_m) < 1e-9) clip.box->half[thin] = thickness_m / 2;
+  clip.thickness_m = thickness_m;
+}
 
 void PanelActions::wantBudget(SimplificationRequest request) { editor_.previewed = std::move(request); }
 void PanelActions::wantDeviation() { editor_.wants_deviation = true; }

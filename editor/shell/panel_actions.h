@@ -42,6 +42,18 @@ class PanelActions final : public Actions {
   void set(const ScanChoice& scan) override;
   void set(const SeenLimits& limits) override;
   void set(const Body& walker) override;
+  void set(const WallChoice& wall) override;
+  void measureWall(const Eigen::Vector3d& place, const std::optional<Eigen::Vector3d>& normal) override;
+  void showMeasurements(bool shown) override;
+  void clip(const ClipBox& box) override;
+  void colourPointsBy(ColourBy colour) override;
+  void pointSize(int pixels) override;
+  void showPanorama(const InspectedCloud& cloud) override;
+  void jumpTo(const Eigen::Vector3d& place, const Eigen::Vector3d& from) override;
+  std::uint64_t texture(const std::shared_ptr<const PixelPicture>& picture) override;
+  void openFolderOf(const std::filesystem::path& file) override;
+  void openInCloudCompare(const std::filesystem::path& file) override;
+  void clipThickness(double thickness_m) override;
 
   void wantBudget(SimplificationRequest request) override;
   void wantDeviation() override;

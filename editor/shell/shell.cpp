@@ -144,7 +144,19 @@ void drawMenuBar(Editor& editor) {
   }
   if (ImGui::BeginMenu(ui::Label("Edit"))) {
     items(editor, {"undo", "redo", "", "select-all", "select-none", "", "rename", "duplicate-station", "remove", "",
-                   "take-material", "paint-material", "", "measure"});
+                   "take-material", "paint-material"});
+    submenu(
+        editor, "      Measure###menu-measure",
+        {"measure", "measure-height", "measure-angle", "measure-area", "measure-plane", "pick-wall", "measurements"});
+    submenu(editor, "      Colour points###menu-points",
+            {"points-by-natural", "points-by-rgb", "points-by-intensity", "points-by-range", "points-by-height",
+             "points-by-incidence", "points-by-product", "points-by-material", "points-by-return-number",
+             "points-by-flags", "points-by-residual", "points-by-deviation", "points-by-time", "points-by-station",
+             "points-larger", "points-smaller"});
+    items(editor, {"panorama", "compare-clouds"});
+    submenu(editor, "      Clip###menu-clip",
+            {"clip-box", "clip-none", "section-wall", "section-x", "section-y", "section-z", "clip-look", "clip-turn",
+             "clip-handles"});
     ImGui::EndMenu();
   }
   if (ImGui::BeginMenu(ui::Label("View"))) {

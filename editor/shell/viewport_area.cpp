@@ -8,12 +8,15 @@
 
 #include "editor/model/station_steps.h"
 #include "editor/shell/actions.h"
+#include "editor/shell/clip_handles.h"
 #include "editor/shell/coverage_overlay.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/expected_overlay.h"
+#include "editor/shell/inspect_tools.h"
 #include "editor/shell/material_brush.h"
 #include "editor/shell/overlay.h"
 #include "editor/shell/place_ghost.h"
+#include "editor/shell/points_legend.h"
 #include "editor/shell/row_overlay.h"
 #include "editor/shell/shell.h"
 #include "editor/shell/station_drag.h"
@@ -107,16 +110,6 @@ void placeTarget(Editor& editor, const RayHit& hit) {
   editor.session.start(options, trf("Add target {}", name));
 }
 
-void measure(Editor& editor, const RayHit& hit) {
-  auto& view = editor.view;
-  if (!view.measured_from || view.measured_to) {
-    view.measured_from = hit.position;
-    view.measured_to.reset();
-  } else {
-    view.measured_to = hit.position;
-  }
-}
-
 void layWay(Editor& editor, const RayHit& hit) {
   if (editor.on_way) editor.on_way(hit.position + editor.shift_m());
 }
@@ -129,7 +122,9 @@ void click(Editor& editor) {
     case Tool::placeStation: act = placeStation; break;
     case Tool::placeRow: act = layRow; break;
     case Tool::placeTarget: act = placeTarget; break;
-    case Tool::measure: act = measure; break;
+    case Tool::measure: return clickMeasure(editor);
+    case Tool::pickWall: return clickWall(editor);
+    case Tool::pickSection: return clickSection(editor);
     case Tool::takeMaterial: act = takeMaterial; break;
     case Tool::paintMaterial: act = paintMaterial; break;
     case Tool::layWay: act = layWay; break;
@@ -190,6 +185,7 @@ void handleMouse(Editor& editor, ImVec2 origin, bool hovered) {
     if (hovered && !editor.preview.isOpen())
       view.hover = editor.picker.pick(rayThrough(view.camera, pointer(origin), view.size), editor.viewState());
   }
+  followInspectTools(editor, origin, hovered && !editor.preview.isOpen());
   if (!view.dragging && aimTeleport(editor, hovered)) return;
   if (hovered && ImGui::IsMouseClicked(0)) view.refused_place.reset();
   if (hovered && !view.dragging && (ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2)))
@@ -299,12 +295,18 @@ void drawViewport(Editor& editor) {
       !previewed && !on_probe && dragStationHandle(editor, view.in_right_half ? right : origin, hovered);
   const bool on_station =
       !previewed && !on_probe && !on_handle && dragStation(editor, view.in_right_half ? right : origin, hovered);
-  if (!on_probe && !on_handle && !on_station) handleMouse(editor, view.in_right_half ? right : origin, hovered);
+  const bool on_clip = !previewed && !on_probe && !on_handle && !on_station &&
+                       dragClip(editor, view.in_right_half ? right : origin, hovered);
+  if (!on_probe && !on_handle && !on_station && !on_clip)
+    handleMouse(editor, view.in_right_half ? right : origin, hovered);
   handleWalking(editor);
   if (previewed) return;
   drawExpectedLegend(editor, origin, size);
   drawCoverageLegend(editor, origin, size);
+  drawPointsLegend(editor, origin, size);
   drawMarkers(editor, both ? right : origin);
+  drawClip(editor, both ? right : origin);
+  drawInspectMarks(editor, both ? right : origin);
   drawOverlay(editor, origin, whole);
   drawStationHandles(editor, both ? right : origin);
   drawRow(editor, both ? right : origin);

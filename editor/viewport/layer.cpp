@@ -110,15 +110,16 @@ void Layer::set(vtkPolyData* data, bool empty) {
   reveal(true);
 }
 
-void Layer::cut(std::optional<double> height_m) {
-  if (cut_height_m == height_m) return;
-  cut_height_m = height_m;
+void Layer::cut(const std::vector<ClipPlane>& kept) {
+  if (cut_by == kept) return;
+  cut_by = kept;
   mapper->RemoveAllClippingPlanes();
-  if (!height_m) return;
-  vtkNew<vtkPlane> plane;
-  plane->SetOrigin(0, 0, *height_m);
-  plane->SetNormal(0, 0, -1);
-  mapper->AddClippingPlane(plane);
+  for (const auto& [point, inward] : kept) {
+    vtkNew<vtkPlane> plane;
+    plane->SetOrigin(point.x(), point.y(), point.z());
+    plane->SetNormal(inward.x(), inward.y(), inward.z());
+    mapper->AddClippingPlane(plane);
+  }
 }
 
 void Layer::paint(const std::vector<Rgba>& colours) {

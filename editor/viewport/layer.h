@@ -13,6 +13,7 @@
 #include <vtkTexture.h>
 
 #include "core/mesh.h"
+#include "editor/inspect/clip_box.h"
 #include "editor/model/graphics.h"
 #include "editor/viewport/merged_scene.h"
 
@@ -23,7 +24,7 @@ struct Layer {
   vtkNew<vtkPolyDataMapper> mapper;
   vtkNew<vtkActor> actor;
   bool filled = false;  // there is something to be drawn
-  std::optional<double> cut_height_m;
+  std::vector<ClipPlane> cut_by;
 
   // How it is drawn, to be said once. Flat surfaces in the colours of their triangles; what has a smaller `offset` lies
   // before what coincides with it.
@@ -37,8 +38,9 @@ struct Layer {
   // The same triangles in other colours: their places stay where the graphics card has them.
   void paint(const std::vector<Rgba>& colours);
   void hide() { actor->SetVisibility(0); }
-  // What of it lies above that height is not drawn. Each change of a mapper's planes makes its buffers anew.
-  void cut(std::optional<double> height_m);
+  // What of it lies beyond one of at most six planes is not drawn. Each change of a mapper's planes makes its buffers
+  // anew.
+  void cut(const std::vector<ClipPlane>& kept);
   void reveal(bool shown) { actor->SetVisibility(shown && filled ? 1 : 0); }
 };
 

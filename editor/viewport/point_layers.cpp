@@ -43,19 +43,22 @@ Eigen::Matrix4d movedTo(const Eigen::Vector3d& place) {
 
 }  // namespace
 
-void PointLayers::show(std::shared_ptr<const Cloud> cloud, const Eigen::Matrix4d& local_from_cloud,
-                       std::vector<std::unique_ptr<Layer>>& before) {
-  const auto known = std::find_if(before.begin(), before.end(), [&](const auto& l) { return l && l->cloud == cloud; });
+void PointLayers::show(std::shared_ptr<const Cloud> cloud, std::shared_ptr<const CloudPaint> paint,
+                       const Eigen::Matrix4d& local_from_cloud, std::vector<std::unique_ptr<Layer>>& before) {
+  const auto known = std::find_if(before.begin(), before.end(),
+                                  [&](const auto& l) { return l && l->cloud == cloud && l->paint == paint; });
   std::unique_ptr<Layer> layer;
   if (known != before.end()) {
     layer = std::move(*known);
   } else {
     layer = std::make_unique<Layer>();
     if (cloud->octree)
-      layer->nodes = std::make_unique<CloudNodes>(cloud->octree, cloud->colouring, mostNodeBytes());
+      layer->nodes = std::make_unique<CloudNodes>(cloud->octree, paint ? paint->others : ownPaint(cloud->colouring),
+                                                  mostNodeBytes());
     else
-      layer->points = packed(cloud->points, cloud->colours);
+      layer->points = packed(cloud->points, paint ? paint->colours : cloud->colours);
     layer->cloud = std::move(cloud);
+    layer->paint = std::move(paint);
   }
   layer->local_from_cloud = local_from_cloud;
   bounds_.extend(moved(boundsOf(*layer->cloud), local_from_cloud));
@@ -69,11 +72,11 @@ void PointLayers::update(const ViewState& state) {
   bounds_ = {};
   if (state.cloud) {
     if (!state.cloud->points.empty())
-      show(state.cloud, movedTo(state.cloud->header.origin_m - state.cloud->shift_m), before);
+      show(state.cloud, state.cloud_paint, movedTo(state.cloud->header.origin_m - state.cloud->shift_m), before);
     return;
   }
   for (const auto& u : state.underlays)
-    if (!u.cloud->points.empty()) show(u.cloud, u.local_from_cloud, before);
+    if (!u.cloud->points.empty()) show(u.cloud, nullptr, u.local_from_cloud, before);
 }
 
 void PointLayers::addPart(const Layer& layer, std::shared_ptr<const PackedPoints> points,
@@ -86,8 +89,10 @@ void PointLayers::addPart(const Layer& layer, std::shared_ptr<const PackedPoints
   part.wanted = part.points->size();
   part.run.size_px = std::max(size_px_, static_cast<int>(std::lround(std::min(gap_px, kLargest_px))));
   enlarged_ |= part.run.size_px > size_px_;
-  if (cut_height_m_)
-    part.run.kept_sides.emplace_back(local_from_points.transpose() * Eigen::Vector4d(0, 0, -1, *cut_height_m_));
+  for (const auto& [point, inward] : kept_) {
+    const Eigen::Vector4d side(inward.x(), inward.y(), inward.z(), -inward.dot(point));
+    part.run.kept_sides.emplace_back(local_from_points.transpose() * side);
+  }
   parts_.push_back(std::move(part));
 }
 
@@ -173,7 +178,7 @@ void PointLayers::drawEvenly() {
 void PointLayers::draw(const ViewState& state, const PointLens& lens, int width, int height) {
   lens_ = lens;
   camera_ = state.camera;
-  cut_height_m_ = state.cut_height_m;
+  kept_ = keptSides(state.clip, state.cut_height_m);
   size_px_ = state.point_size_px;
   shade_ = state.shaded_points;
   width_ = width;

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +38,7 @@ class PointLayers {
  private:
   struct Layer {
     std::shared_ptr<const Cloud> cloud;
+    std::shared_ptr<const CloudPaint> paint;  // null: its own colours
     Eigen::Matrix4d local_from_cloud;
     PackedPoints points;                // of a cloud that is in memory
     std::unique_ptr<CloudNodes> nodes;  // of another one
@@ -48,8 +48,8 @@ class PointLayers {
     PointRun run;  // what of it has been drawn: [0, first)
     std::size_t wanted = 0;
   };
-  void show(std::shared_ptr<const Cloud> cloud, const Eigen::Matrix4d& local_from_cloud,
-            std::vector<std::unique_ptr<Layer>>& before);
+  void show(std::shared_ptr<const Cloud> cloud, std::shared_ptr<const CloudPaint> paint,
+            const Eigen::Matrix4d& local_from_cloud, std::vector<std::unique_ptr<Layer>>& before);
   void begin();
   void gather();
   void gatherNodes(const Layer& layer);
@@ -66,7 +66,7 @@ class PointLayers {
   PointPicture shaded_;
   // Of the picture that is drawn.
   std::vector<Part> parts_;
-  std::optional<double> cut_height_m_;
+  std::vector<ClipPlane> kept_;
   Camera camera_;
   PointLens lens_;
   int width_ = 0, height_ = 0, size_px_ = 2;

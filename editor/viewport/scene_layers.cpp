@@ -80,6 +80,7 @@ void SceneLayers::update(const ViewState& state, const ViewState* last) {
 }
 
 void SceneLayers::setPixels(int factor) {
+  pixels_ = factor;
   model_.setLineWidth(static_cast<float>(factor));
   grid_.actor->GetProperty()->SetLineWidth(static_cast<float>(factor));
   outline_.actor->GetProperty()->SetLineWidth(static_cast<float>(2 * factor));
@@ -124,7 +125,8 @@ void SceneLayers::updateGrid(const ViewState& state) {
 }
 
 void SceneLayers::updateCut(const ViewState& state) {
-  const auto cut = [&](Layer& layer) { layer.cut(state.cut_height_m); };
+  const auto kept = keptSides(state.clip, state.cut_height_m);
+  const auto cut = [&](Layer& layer) { layer.cut(kept); };
   model_.forEachLayer(cut);
   for (Layer* layer : {&shapes_, &selected_, &walkable_, &outline_}) cut(*layer);
 }

@@ -206,7 +206,9 @@ class VtkSceneView : public SceneView {
     layers_.setPixels(factor_);
     const ViewState* last = drawn_ ? &*drawn_ : nullptr;
     layers_.update(state, last);
-    if (last == nullptr || last->cloud != state.cloud || last->underlays != state.underlays) points_.update(state);
+    if (last == nullptr || last->cloud != state.cloud || last->cloud_paint != state.cloud_paint ||
+        last->underlays != state.underlays)
+      points_.update(state);
     if (last == nullptr || last->graphics.theme != state.graphics.theme) updateTheme(state.graphics.theme);
     updateCamera(state.camera);
     updateBackdrop(state);

@@ -137,6 +137,7 @@ struct Update {
   void survey() {
     outcome.document.job = before.job;
     outcome.document.underlays = before.underlays;
+    outcome.document.measurements = before.measurements;
     std::size_t scans = 0;
     for (const Station& s : before.job->stations) scans += s.scans.size();
     if (scans > 0) outcome.report.note("scan", fmt::format("{} scans show the previous model", scans));

@@ -15,6 +15,7 @@
 #include "project/materials/verification_json.h"
 #include "project/storage/project_json.h"
 #include "project/storage/project_lock.h"
+#include "project/survey/measure_verb.h"
 #include "project/survey/underlays.h"
 
 namespace standpoint {
@@ -161,6 +162,8 @@ Result<Document> fromJson(const json& project, const fs::path& folder, Report& r
       report.warn((folder / kProjectFile).string() + " /verification",
                   "the comparison with an underlay is damaged and was dropped; compare again with `standpoint verify`");
   }
+  if (project.contains("measurements"))
+    d.measurements = std::make_shared<const Measurements>(measurementsFrom(project.at("measurements"), report));
   if (project.contains("underlays")) d.underlays = underlaysFrom(project.at("underlays"), folder);
   return d;
 }
@@ -216,6 +219,8 @@ Result<void> saveChanges(const Document& before, const Document& document, const
 
   json project = documentToJson(document);
   if (!document.underlays.empty()) project["underlays"] = underlaysToJson(document.underlays, folder);
+  if (document.measurements && !document.measurements->empty())
+    project["measurements"] = measurementsToJson(*document.measurements);
   if (document.verification) project["verification"] = verificationToJson(*document.verification);
   const auto there = sharedParts(before, document, folder);
   std::set<std::string> named;

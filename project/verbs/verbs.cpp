@@ -9,6 +9,7 @@
 #include "project/model/optimize_verb.h"
 #include "project/model/treatments.h"
 #include "project/survey/assess_verb.h"
+#include "project/survey/measure_verb.h"
 #include "project/survey/register_verb.h"
 #include "project/survey/survey_verbs.h"
 #include "project/survey/underlays.h"
@@ -51,6 +52,8 @@ const std::vector<Verb>& table() {
              targetFields(), runTarget),
       verbOf("underlay", "Add point clouds as underlays of the model, or list them; the points stay in their files",
              S::changes, underlayFields(), runUnderlay),
+      verbOf("measure", "Measure distances, heights, angles, areas and planes between points, or list the measurements",
+             S::changes, measureFields(), runMeasure),
       verbOf("verify", "Compare the assigned materials with the intensities of an underlay", S::changes, verifyFields(),
              runVerify),
       verbOf("plan", "Forecast what the stations would see: coverage, overlap, points, time, holes, the next place",

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/inspect/inspected_clouds.h"
+
+#include <algorithm>
+
+namespace standpoint {
+
+std::vector<InspectedCloud> inspectedClouds(const Document& document) {
+  std::vector<InspectedCloud> clouds;
+  if (!document.georeference) return clouds;
+  const Eigen::Vector3d shift_m = document.georeference->shift_m;
+  Pose local_from_file;
+  local_from_file.translation = -shift_m;
+  for (int i = 0; document.job && i < static_cast<int>(document.job->stations.size()); ++i) {
+    const auto& station = document.job->stations[static_cast<std::size_t>(i)];
+    for (std::size_t k = station.scans.size(); k-- > 0;) {
+      const std::filesystem::path file = station.scans[k].file;
+      clouds.push_back({station.name + ", " + file.filename().string(), file, local_from_file, i, -1});
+    }
+  }
+  for (int i = 0; i < static_cast<int>(document.underlays.size()); ++i) {
+    const auto& underlay = *document.underlays[static_cast<std::size_t>(i)];
+    Pose pose = underlay.file_from_cloud;
+    pose.translation -= shift_m;
+    clouds.push_back({underlay.name, underlay.file, pose, -1, i});
+  }
+  return clouds;
+}
+
+const InspectedCloud* cloudOf(const std::vector<InspectedCloud>& clouds, const std::filesystem::path& file) {
+  const auto at = std::find_if(clouds.begin(), clouds.end(), [&](const auto& c) { return c.file == file; });
+  return at == clouds.end() ? nullptr : &*at;
+}
+
+Pose inverse(const Pose& pose) {
+  const Eigen::Quaterniond back = pose.rotation.conjugate();
+  return {back, -(back * pose.translation)};
+}
+
+}  // namespace standpoint

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "core/survey.h"
+#include "editor/inspect/colour_scale.h"
+#include "pointclouds/inspection/panorama.h"
+#include "project/task.h"
+
+namespace standpoint {
+
+struct PanoramaRequest {
+  std::string cloud;  // its label
+  std::filesystem::path file;
+  std::string scan;  // of the file; empty: the first that has a station
+  Pose local_from_cloud;
+};
+
+struct PanoramaRead {
+  PanoramaRequest request;
+  Panorama panorama;
+};
+
+// Rows from the top; what nothing came back from is dark.
+std::vector<Rgba8> paintPanorama(const Panorama& panorama, PanoramaChannel channel, const PanoramaShades& shades);
+
+// Which part of a panorama is shown, in fractions of it; `zoom` 1 shows all of its height. It is a ring: x wraps.
+struct PanoramaWindow {
+  double x = 0.5, y = 0.5, zoom = 1;  // the middle
+};
+// Keeps what is under `at` (0..1 of the shown part) where it is; `aspect` is width over height of the widget.
+PanoramaWindow zoomed(const PanoramaWindow& window, double factor, double at_x, double at_y, double aspect);
+PanoramaWindow panned(const PanoramaWindow& window, double by_x, double by_y,
+                      double aspect);  // fractions of the widget
+// Of the panorama, 0..1 each, at a place of the widget, 0..1 each.
+std::pair<double, double> panoramaAt(const PanoramaWindow& window, double at_x, double at_y, double aspect);
+
+// Reads in the background; a newer request ends an older one.
+class PanoramaView {
+ public:
+  void start(PanoramaRequest request, const std::function<void()>& wake);
+  bool busy() const { return task_ && !task_->done(); }
+  void wait() {
+    if (task_) task_->wait();
+  }
+  void poll();  // once a frame
+  const std::shared_ptr<const PanoramaRead>& result() const { return result_; }
+  const std::string& problem() const { return problem_; }
+  void clear();
+
+ private:
+  std::unique_ptr<Task<PanoramaRead>> task_;
+  std::shared_ptr<const PanoramaRead> result_;
+  std::string problem_;
+};
+
+}  // namespace standpoint

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "editor/panels/actions.h"
+#include "editor/panels/panel.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
+#include "project/verbs/file_verbs.h"
+
+namespace standpoint {
+
+namespace {
+
+struct CompareState {
+  std::filesystem::path a, b;
+  std::filesystem::path shown_a, shown_b;  // of the answer that is shown
+};
+
+std::string nameOf(const std::vector<InspectedCloud>& clouds, const std::filesystem::path& file) {
+  const auto* cloud = cloudOf(clouds, file);
+  return cloud != nullptr ? cloud->label : file.empty() ? "Choose a cloud" : file.filename().string();
+}
+
+// One of the project's clouds, or any file.
+void chooseCloud(const Model& model, Actions& actions, const char* id, const std::vector<InspectedCloud>& clouds,
+                 std::filesystem::path& file, PanelStates& states, bool is_a) {
+  ImGui::SetNextItemWidth(std::clamp((ImGui::GetWindowWidth() - model.px(290)) / 2, model.px(110), model.px(260)));
+  if (!ImGui::BeginCombo(id, nameOf(clouds, file).c_str())) return;
+  for (std::size_t i = 0; i < clouds.size(); ++i)
+    if (ImGui::Selectable((clouds[i].label + "###" + id + std::to_string(i)).c_str(), file == clouds[i].file))
+      file = clouds[i].file;
+  ImGui::Separator();
+  if (ImGui::Selectable("Another file…"))
+    actions.askForFile(FileDialogState::Purpose::openFile, "Choose a point cloud", "Choose",
+                       {".e57", ".las", ".laz", ".ply", ".pcd", ".ptx", ".pts", ".xyz"}, "",
+                       [&states, is_a](Actions&, const std::filesystem::path& chosen) {
+                         auto& state = states.of<CompareState>();
+                         (is_a ? state.a : state.b) = chosen;
+                       });
+  ImGui::EndCombo();
+}
+
+std::string whyNotCompare(const Model& model, const CompareState& state) {
+  if (state.a.empty() || state.b.empty()) return "Choose two clouds";
+  if (state.a == state.b) return "Choose two different clouds";
+  return model.session.whyNot("compare");
+}
+
+struct Row {
+  std::string name, unit;
+  double a = 0, b = 0;
+  int decimals = 2;
+};
+
+std::vector<Row> rowsOf(const CompareAnswer& answer) {
+  constexpr double kMm = 1000;
+  const auto &a = answer.a, &b = answer.b;
+  return {{"Points", "million", static_cast<double>(a.points) / 1e6, static_cast<double>(b.points) / 1e6, 3},
+          {"Covered by the other", "%", answer.a_covered_by_b * 100, answer.b_covered_by_a * 100, 1},
+          {"Noise on planes, median", "mm", a.plane_noise_m.median * kMm, b.plane_noise_m.median * kMm, 3},
+          {"Noise on planes, 95 %", "mm", a.plane_noise_m.p95 * kMm, b.plane_noise_m.p95 * kMm, 3},
+          {"Roughness (r 0.05 m), median", "mm", a.roughness_m.median * kMm, b.roughness_m.median * kMm, 3},
+          {"Roughness (r 0.05 m), 95 %", "mm", a.roughness_m.p95 * kMm, b.roughness_m.p95 * kMm, 3},
+          {"Intensity, mean", "", a.intensity.mean, b.intensity.mean, 4},
+          {"Intensity, sigma", "", a.intensity.sigma, b.intensity.sigma, 4},
+          {"Cells of 5 cm with points", "thousand", static_cast<double>(a.occupied_cells) / 1e3,
+           static_cast<double>(b.occupied_cells) / 1e3, 1}};
+}
+
+std::string number(double value, int decimals) { return fmt::format("{:.{}f}", value, decimals); }
+
+std::string changeText(const Row& row) {
+  if (row.unit == "%" || row.a == 0) return fmt::format("{:+.{}f}", row.b - row.a, row.decimals);
+  return fmt::format("{:+.1f} %", (row.b / row.a - 1) * 100);
+}
+
+std::string tableText(const std::vector<Row>& rows, const std::string& a, const std::string& b) {
+  std::string text = fmt::format("Figure\tUnit\tA: {}\tB: {}\tB against A\n", a, b);
+  for (const auto& row : rows)
+    text += fmt::format("{}\t{}\t{}\t{}\t{}\n", row.name, row.unit, number(row.a, row.decimals),
+                        number(row.b, row.decimals), changeText(row));
+  return text;
+}
+
+// Both as bars, to the longer of them.
+void drawBars(const Model& model, const Row& row) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
+  const double most = std::max({std::abs(row.a), std::abs(row.b), 1e-12});
+  auto& list = *ImGui::GetWindowDrawList();
+  const auto bar = [&](double value, float from, ImU32 tone) {
+    list.AddRectFilled({at.x, at.y + height * from},
+                       {at.x + std::max(model.px(1), width * static_cast<float>(std::abs(value) / most)),
+                        at.y + height * (from + 0.4F)},
+                       tone, model.px(1));
+  };
+  bar(row.a, 0.08F, IM_COL32(86, 180, 233, 255));
+  bar(row.b, 0.54F, IM_COL32(230, 159, 0, 255));
+  ImGui::Dummy({width, height});
+}
+
+void drawRow(const Model& model, const Row& row) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ui::fitted(row.unit.empty() ? row.name : row.name + ", " + row.unit, ImGui::GetContentRegionAvail().x);
+  for (const auto& text : {number(row.a, row.decimals), number(row.b, row.decimals), changeText(row)}) {
+    ImGui::TableNextColumn();
+    ui::textRightAligned(text);
+  }
+  ImGui::TableNextColumn();
+  drawBars(model, row);
+}
+
+void drawTable(const Model& model, const std::vector<Row>& rows, const char* id) {
+  if (!ImGui::BeginTable(id, 5, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
+  ImGui::TableSetupColumn("Figure", ImGuiTableColumnFlags_WidthStretch, 2.2F);
+  ImGui::TableSetupColumn("A", ImGuiTableColumnFlags_WidthStretch, 0.8F);
+  ImGui::TableSetupColumn("B", ImGuiTableColumnFlags_WidthStretch, 0.8F);
+  ImGui::TableSetupColumn("B against A", ImGuiTableColumnFlags_WidthStretch, 0.9F);
+  ImGui::TableSetupColumn("A blue, B orange", ImGuiTableColumnFlags_WidthStretch, 1.6F);
+  ImGui::TableHeadersRow();
+  for (const auto& row : rows) drawRow(model, row);
+  ImGui::EndTable();
+}
+
+// Those that both have.
+std::vector<Row> materialRows(const CompareAnswer& answer) {
+  std::vector<Row> rows;
+  for (const auto& a : answer.a.materials)
+    for (const auto& b : answer.b.materials)
+      if (a.material == b.material) rows.push_back({a.material, "", a.mean, b.mean, 4});
+  return rows;
+}
+
+void drawAnswer(const Model& model, const CompareState& state, const CompareAnswer& answer,
+                const std::vector<InspectedCloud>& clouds) {
+  const auto a = nameOf(clouds, state.shown_a), b = nameOf(clouds, state.shown_b);
+  auto rows = rowsOf(answer);
+  const auto materials = materialRows(answer);
+  ImGui::SameLine();
+  if (ui::button(ICON_COPY "  Copy table###copy-compare", {}, {0, 0}, "Copy the figures as a table")) {
+    rows.insert(rows.end(), materials.begin(), materials.end());
+    ImGui::SetClipboardText(tableText(rows, a, b).c_str());
+    rows.resize(rows.size() - materials.size());
+  }
+  ui::dimText(fmt::format("A  {}     B  {}", a, b));
+  if (!ImGui::BeginChild("###compare-tables")) return ImGui::EndChild();
+  drawTable(model, rows, "compare-figures");
+  if (!materials.empty()) {
+    ui::heading(model, "Mean intensity by material");
+    drawTable(model, materials, "compare-materials");
+  }
+  ImGui::EndChild();
+}
+
+// Filters one cloud into a file beside it, to be compared with what it was.
+void drawClean(const Model& model, CompareState& state, Actions& actions) {
+  if (!ui::button(ICON_DROP "  Clean A…###clean-a",
+                  state.a.empty() ? "Choose cloud A first" : model.session.whyNot("clean"), {0, 0},
+                  "Filter cloud A into a file beside it, which becomes cloud B: before and after"))
+    return;
+  const auto out = state.a.parent_path() / (state.a.stem().string() + "-cleaned" + state.a.extension().string());
+  CleanOptions options;
+  options.in = state.a;
+  options.output = out;
+  state.b = out;
+  actions.openForm(options);
+}
+
+void drawComparison(const Model& model, PanelStates& states, Actions& actions) {
+  auto& state = states.of<CompareState>();
+  const auto clouds = inspectedClouds(model.session.document());
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("A");
+  ImGui::SameLine();
+  chooseCloud(model, actions, "###compare-a", clouds, state.a, states, true);
+  ImGui::SameLine();
+  ImGui::TextUnformatted("B");
+  ImGui::SameLine();
+  chooseCloud(model, actions, "###compare-b", clouds, state.b, states, false);
+  ImGui::SameLine();
+  if (ui::primaryButton(ICON_COMPRESS "  Compare###compare-clouds", whyNotCompare(model, state)) &&
+      actions.start(CompareOptions{state.a, state.b}, "Compare two clouds"))
+    state.shown_a = state.a, state.shown_b = state.b;
+  ImGui::SameLine();
+  drawClean(model, state, actions);
+  const auto* answer = model.session.lastAnswer<CompareAnswer>("compare");
+  if (answer != nullptr)
+    drawAnswer(model, state, *answer, clouds);
+  else
+    ui::dimWrapped(
+        "Two scans, a scan and a measured cloud, or a cloud before and after filtering: coverage, noise on "
+        "planes, roughness and intensity side by side.");
+}
+
+}  // namespace
+
+void drawComparePanel(const Model& model, PanelStates& states, Actions& actions) {
+  drawComparison(model, states, actions);
+}
+
+}  // namespace standpoint

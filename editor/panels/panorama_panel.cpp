@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "editor/panels/actions.h"
+#include "editor/panels/panel.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+struct PanoramaState {
+  PanoramaChannel channel = PanoramaChannel::intensity;
+  PanoramaWindow window;
+  std::shared_ptr<const PanoramaRead> painted;  // of which the picture is
+  PanoramaChannel painted_channel = PanoramaChannel::intensity;
+  PanoramaShades shades;
+  std::shared_ptr<const PixelPicture> picture;
+  bool moved = false;  // since the button was pressed
+};
+
+void paint(PanoramaState& state, const std::shared_ptr<const PanoramaRead>& read) {
+  if (state.painted == read && state.painted_channel == state.channel) return;
+  if (state.painted != read) state.window = {};
+  state.painted = read;
+  state.painted_channel = state.channel;
+  state.shades = shadesOf(read->panorama, state.channel);
+  state.picture = std::make_shared<const PixelPicture>(PixelPicture{
+      read->panorama.width, read->panorama.height, paintPanorama(read->panorama, state.channel, state.shades)});
+}
+
+void chooseScan(const Model& model, Actions& actions) {
+  const auto clouds = inspectedClouds(model.session.document());
+  const auto& read = model.panorama.result();
+  ImGui::SetNextItemWidth(std::min(model.px(260), 0.36F * ImGui::GetWindowWidth()));
+  if (!ImGui::BeginCombo("###panorama-scan", read ? read->request.cloud.c_str() : "Choose a scan")) return;
+  for (std::size_t i = 0; i < clouds.size(); ++i)
+    if (ImGui::Selectable((clouds[i].label + "###panorama" + std::to_string(i)).c_str(),
+                          read && read->request.file == clouds[i].file))
+      actions.showPanorama(clouds[i]);
+  ImGui::EndCombo();
+}
+
+void chooseChannel(const Panorama& panorama, PanoramaState& state) {
+  struct Row {
+    PanoramaChannel channel;
+    const char* name;
+    bool there;
+  };
+  for (const auto& [channel, name, there] :
+       {Row{PanoramaChannel::intensity, "Intensity", panorama.has_intensity},
+        Row{PanoramaChannel::range, "Range", true}, Row{PanoramaChannel::colour, "RGB", !panorama.colour.empty()}}) {
+    if (!there && state.channel == channel) state.channel = PanoramaChannel::range;
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!there);
+    if (ImGui::RadioButton(name, state.channel == channel)) state.channel = channel;
+    ImGui::EndDisabled();
+    if (!there)
+      ui::tooltip(std::string("The scan has no ") + (channel == PanoramaChannel::colour ? "colours" : "intensities"));
+  }
+}
+
+std::string underPointer(const PanoramaRead& read, const Eigen::Vector2i& pixel, const Eigen::Vector3d& shift_m) {
+  const auto point = read.panorama.point(pixel.x(), pixel.y());
+  if (!point) return "No point";
+  const auto at = read.panorama.at(pixel.x(), pixel.y());
+  std::string text = fmt::format("{:.3f} m", read.panorama.range_m[at]);
+  if (read.panorama.has_intensity) text += fmt::format("   intensity {:.3f}", read.panorama.intensity[at]);
+  return text + "\n" + coordinates(read.request.local_from_cloud * *point + shift_m);
+}
+
+void drawRing(const PanoramaState& state, std::uint64_t texture, ImVec2 corner, ImVec2 size) {
+  const double aspect = size.x / size.y;
+  const auto [left, top] = panoramaAt(state.window, 0, 0, aspect);
+  const auto [middle, bottom] = panoramaAt(state.window, 0.5, 1, aspect);
+  double width = 2 * (middle - left);
+  if (width <= 0) width += 2;
+  width = std::min(width, 1.0);
+  auto& list = *ImGui::GetWindowDrawList();
+  const auto id = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
+  const auto part = [&](double from, double to, double x_from, double x_to) {
+    list.AddImage(id, {corner.x + size.x * static_cast<float>(x_from), corner.y},
+                  {corner.x + size.x * static_cast<float>(x_to), corner.y + size.y},
+                  {static_cast<float>(from), static_cast<float>(top)},
+                  {static_cast<float>(to), static_cast<float>(bottom)});
+  };
+  const double here = std::min(1.0, left + width) - left;  // what lies before the seam
+  part(left, left + here, 0, here / width);
+  if (here < width) part(0, width - here, here / width, 1);
+}
+
+// Pans, zooms, and leads to what is clicked.
+void drawPicture(const Model& model, PanoramaState& state, Actions& actions, const PanoramaRead& read) {
+  const ImVec2 corner = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
+  // Not wider than the whole ring is.
+  const ImVec2 size(std::min(room.x, 2 * room.y), std::max(room.y, model.px(40)));
+  const double aspect = size.x / size.y;
+  ImGui::InvisibleButton("###panorama-picture", size);
+  const auto& io = ImGui::GetIO();
+  const double at_x = (io.MousePos.x - corner.x) / size.x, at_y = (io.MousePos.y - corner.y) / size.y;
+  if (const auto texture = actions.texture(state.picture); texture != 0) drawRing(state, texture, corner, size);
+  if (ImGui::IsItemActivated()) state.moved = false;
+  if (ImGui::IsItemActive() && ImGui::IsMouseDragging(0)) {
+    state.moved = true;
+    state.window = panned(state.window, io.MouseDelta.x / size.x, io.MouseDelta.y / size.y, aspect);
+  }
+  if (!ImGui::IsItemHovered()) return;
+  if (io.MouseWheel != 0) state.window = zoomed(state.window, std::pow(1.25, io.MouseWheel), at_x, at_y, aspect);
+  const auto [x, y] = panoramaAt(state.window, at_x, at_y, aspect);
+  const Eigen::Vector2i pixel(static_cast<int>(x * read.panorama.width), static_cast<int>(y * read.panorama.height));
+  ImGui::SetTooltip("%s", underPointer(read, pixel, model.shift_m()).c_str());
+  if (!ImGui::IsMouseReleased(0) || state.moved) return;
+  const auto point = read.panorama.point(pixel.x(), pixel.y());
+  const Pose& pose = read.request.local_from_cloud;
+  if (point) actions.jumpTo(pose * *point, pose * read.panorama.file_from_scanner.translation);
+}
+
+void draw(const Model& model, PanoramaState& state, Actions& actions) {
+  if (inspectedClouds(model.session.document()).empty()) {
+    ui::emptyState(model, ICON_EYE, "No panorama", "Scan from a station, or add a point cloud with its station.");
+    return;
+  }
+  chooseScan(model, actions);
+  const auto read = model.panorama.result();
+  if (model.panorama.busy()) {
+    ImGui::SameLine();
+    ui::dimText("Reading the scan …");
+    return;
+  }
+  if (!model.panorama.problem().empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, tone::kBad);
+    ui::wrapped(model.panorama.problem());
+    ImGui::PopStyleColor();
+  }
+  if (!read) return;
+  chooseChannel(read->panorama, state);
+  paint(state, read);
+  if (state.channel != PanoramaChannel::colour) {
+    ImGui::SameLine();
+    const auto scale = state.channel == PanoramaChannel::range
+                           ? fmt::format("{:.2f} m (dark) to {:.2f} m (yellow)", state.shades.low, state.shades.high)
+                           : fmt::format("{:.3g} (dark) to {:.3g} (light)", state.shades.low, state.shades.high);
+    ui::fitted(scale, ImGui::GetContentRegionAvail().x);
+  }
+  drawPicture(model, state, actions, *read);
+}
+
+}  // namespace
+
+void drawPanoramaPanel(const Model& model, PanelStates& states, Actions& actions) {
+  draw(model, states.of<PanoramaState>(), actions);
+}
+
+}  // namespace standpoint

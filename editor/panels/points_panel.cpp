@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "editor/panels/actions.h"
+#include "editor/panels/panel.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+std::string whyNotBy(const Model& model, ColourBy colour) {
+  if (!model.cloud()) return "Show the points of a scan first";
+  if (colour == ColourBy::deviation && !model.environment()) return "Import a model first";
+  return whyNotColoured(colour, model.cloud()->header);
+}
+
+void drawColour(const Model& model, Actions& actions) {
+  ui::propertyLabel("Colour by");
+  ImGui::SetNextItemWidth(-1);
+  if (!ImGui::BeginCombo("###points-by", rowOf(model.view.points_by).name, ImGuiComboFlags_HeightLarge)) return;
+  for (const auto& row : coloursBy()) {
+    const auto why = whyNotBy(model, row.colour);
+    ImGui::BeginDisabled(!why.empty());
+    if (ImGui::Selectable(row.name, model.view.points_by == row.colour)) actions.colourPointsBy(row.colour);
+    ImGui::EndDisabled();
+    ui::tooltip(why);
+  }
+  ImGui::EndCombo();
+}
+
+// A scan with the ways to look at it.
+void drawCloud(const Model& model, Actions& actions, const InspectedCloud& cloud) {
+  std::error_code ignored;
+  const bool there = std::filesystem::is_regular_file(cloud.file, ignored);
+  const std::string gone = there ? "" : "The file is missing: " + cloud.file.string();
+  const bool shown = model.cloud() && model.cloud()->file == cloud.file;
+  ui::fitted(cloud.label, ImGui::GetContentRegionAvail().x);
+  if (cloud.station >= 0) {
+    if (ui::iconButton(shown ? ICON_EYE_OFF "###show-points" : ICON_EYE "###show-points",
+                       shown ? "Return to the model" : "Show its points instead of the model", gone, shown))
+      actions.showScan(shown ? std::filesystem::path() : cloud.file);
+    ImGui::SameLine();
+  }
+  if (ui::iconButton(ICON_GLOBE "###show-panorama", "Panorama: what its station saw", gone)) {
+    actions.showPanorama(cloud);
+    actions.open(Workspace::inspect, "panorama");
+  }
+  ImGui::SameLine();
+  if (ui::iconButton(ICON_FOLDER_OPEN "###show-folder", "Show in folder", gone)) actions.openFolderOf(cloud.file);
+  ImGui::SameLine();
+  const std::string missing = !cloudCompareProgram().empty() ? gone : "CloudCompare is not installed";
+  if (ui::iconButton(ICON_EXPORT "###cloud-compare", "Open with CloudCompare", missing))
+    actions.openInCloudCompare(cloud.file);
+}
+
+void drawPoints(const Model& model, Actions& actions) {
+  const auto clouds = inspectedClouds(model.session.document());
+  if (clouds.empty() && !model.cloud()) {
+    ui::emptyState(model, ICON_EYE, "No points", "Scan from a station, or add a point cloud.");
+    return;
+  }
+  if (ui::beginProperties("points", 0.36F)) {
+    drawColour(model, actions);
+    ui::propertyLabel("Point size");
+    int size = model.view.point_size_px;
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::SliderInt("###point-size", &size, 1, kMostPointSize_px, "%d px", ImGuiSliderFlags_AlwaysClamp))
+      actions.pointSize(size);
+    ui::endProperties();
+  }
+  bool shaded = model.view.shaded_points;
+  if (ImGui::Checkbox("Shade by depth", &shaded)) actions.run("shaded-points");
+  ui::tooltip("Eye-dome lighting: edges of what lies in front are darkened while the view is at rest");
+  ui::heading(model, fmt::format("Clouds  {}", clouds.size()).c_str());
+  for (std::size_t i = 0; i < clouds.size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    drawCloud(model, actions, clouds[i]);
+    ImGui::PopID();
+  }
+}
+
+}  // namespace
+
+void drawPointsPanel(const Model& model, PanelStates&, Actions& actions) { drawPoints(model, actions); }
+
+}  // namespace standpoint

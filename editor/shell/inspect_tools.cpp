@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/shell/inspect_tools.h"
+
+#include <fmt/format.h>
+
+#include "editor/shell/editor.h"
+#include "editor/shell/label_board.h"
+#include "editor/shell/view_pen.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/keyboard.h"
+#include "editor/widgets/theme.h"
+#include "project/survey/measure_verb.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr double kReach_px = 5;  // of a point of a cloud
+constexpr int kKeyBackspace = 259;
+
+// Keeps what was clicked as a measurement of the project; the tool stays for the next one.
+void finish(Editor& editor) {
+  auto& measuring = editor.view.measuring;
+  const auto name = freeMeasurementName(editor.session.document());
+  MeasureOptions options{.add = name};
+  options.kind = measuring.kind;
+  for (const auto& p : measuring.points) options.points.push_back(p + editor.shift_m());
+  measuring.problem.clear();
+  if (const auto fits = checkMeasurement({name, measuring.kind, measuring.points, {}}); !fits)
+    measuring.problem = fits.error().message;
+  else if (!editor.session.start(options, fmt::format("Measure {} {}", rowOf(measuring.kind).name, name)))
+    measuring.problem = editor.session.whyNot("measure");
+  if (!measuring.problem.empty()) editor.say(measuring.problem);
+  measuring.points.clear();
+}
+
+ImU32 toneOf(bool chosen) { return chosen ? static_cast<ImU32>(tone::kAccent) : IM_COL32(240, 190, 70, 255); }
+
+void drawDot(const ViewPen& pen, const Editor& editor, const Eigen::Vector3d& place, ImU32 tone) {
+  const auto at = pen.at(place);
+  if (!at) return;
+  auto& list = *ImGui::GetWindowDrawList();
+  list.AddCircleFilled(*at, editor.px(4), tone);
+  list.AddCircle(*at, editor.px(4), IM_COL32(16, 18, 22, 220), 0, editor.px(1.2F));
+}
+
+void drawShape(const ViewPen& pen, const Editor& editor, const Measurement& m, ImU32 tone) {
+  const auto& p = m.points;
+  switch (m.kind) {
+    case MeasurementKind::distance:
+    case MeasurementKind::angle:
+      for (std::size_t i = 0; i + 1 < p.size(); ++i) pen.rod(p[i], p[i + 1], tone, 2);
+      break;
+    case MeasurementKind::height: {
+      const Eigen::Vector3d corner(p[0].x(), p[0].y(), p[1].z());
+      pen.rod(p[0], corner, tone, 2);
+      pen.rod(corner, p[1], tone, 1);
+      break;
+    }
+    case MeasurementKind::area:
+    case MeasurementKind::plane:
+      for (std::size_t i = 0; i < p.size(); ++i) pen.rod(p[i], p[(i + 1) % p.size()], tone, 2);
+      break;
+  }
+  for (const auto& place : p) drawDot(pen, editor, place, tone);
+}
+
+void drawKept(Editor& editor, const ViewPen& pen, LabelBoard& labels) {
+  const auto& kept = editor.session.document().measurements;
+  if (!kept || !editor.view.measurements) return;
+  for (std::size_t i = 0; i < kept->size(); ++i) {
+    const auto& m = (*kept)[i];
+    const bool chosen = editor.survey.measurement == static_cast<int>(i);
+    drawShape(pen, editor, m, toneOf(chosen));
+    if (const auto at = pen.at(labelPlace(m)); at && editor.view.labels)
+      labels.over(*at, {m.name + "   " + figureText(figuresOf(m)[0]), figureText(figuresOf(m)[0])},
+                  chosen ? tone::kAccent : tone::kText);
+  }
+}
+
+void drawUnfinished(const Editor& editor, const ViewPen& pen, LabelBoard& labels) {
+  const auto& view = editor.view;
+  if (view.tool != Tool::measure) return;
+  for (const auto& p : view.measuring.points) drawDot(pen, editor, p, tone::kAccent);
+  if (view.measured_at) drawDot(pen, editor, *view.measured_at, tone::kAccent);
+  const auto so_far = measuredSoFar(view.measuring, view.measured_at);
+  if (!so_far) {
+    if (!view.measuring.points.empty() && view.measured_at)
+      pen.rod(view.measuring.points.back(), *view.measured_at, tone::kAccent, 2);
+    return;
+  }
+  drawShape(pen, editor, *so_far, tone::kAccent);
+  std::string text;
+  for (const auto& figure : figuresOf(*so_far))
+    text += (text.empty() ? "" : "\n") + std::string(figure.label) + "  " + figureText(figure);
+  if (const auto at = pen.at(so_far->points.back())) labels.over(*at, {text}, tone::kText);
+}
+
+void drawWall(Editor& editor, const ViewPen& pen) {
+  const auto& wall = editor.wall.result();
+  if (!wall) return;
+  const auto corners = cornersOf(*wall);
+  pen.fan((corners[0] + corners[2]) / 2, corners, (toneOf(true) & 0x00FFFFFFU) | 0x38000000U);
+  pen.ring(corners, tone::kAccent, 2);
+}
+
+}  // namespace
+
+bool measures(const Editor& editor) {
+  const auto tool = editor.view.tool;
+  return tool == Tool::measure || tool == Tool::pickWall || tool == Tool::pickSection;
+}
+
+void followInspectTools(Editor& editor, ImVec2 origin, bool hovered) {
+  auto& view = editor.view;
+  if (!measures(editor)) {
+    view.measured_at.reset();
+    return;
+  }
+  if (!view.dragging) {
+    view.measured_at.reset();
+    const ImVec2 p = ImGui::GetIO().MousePos;
+    if (hovered)
+      view.measured_at = editor.measurableAt(rayThrough(view.camera, {p.x - origin.x, p.y - origin.y}, view.size),
+                                             editor.px(kReach_px));
+  }
+  if (view.tool != Tool::measure || ImGui::GetIO().WantTextInput ||
+      ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId))
+    return;
+  auto& points = view.measuring.points;
+  if ((keyboard::pressed(kKeyEnter) || keyboard::pressed(kKeyPadEnter)) && isEnough(view.measuring)) finish(editor);
+  if (keyboard::pressed(kKeyBackspace) && !points.empty()) points.pop_back();
+}
+
+void clickMeasure(Editor& editor) {
+  auto& view = editor.view;
+  if (!view.measured_at) return;
+  if (view.measuring.points.empty()) view.measuring.problem.clear();
+  view.measuring.points.push_back(*view.measured_at);
+  if (isFull(view.measuring)) finish(editor);
+}
+
+void clickWall(Editor& editor) {
+  const auto& view = editor.view;
+  if (!view.measured_at) return;
+  // Only where the model itself was clicked its face says which wall is meant.
+  std::optional<Eigen::Vector3d> normal;
+  if (!editor.cloud() && view.hover && (view.hover->position - *view.measured_at).norm() < 1e-6)
+    normal = view.hover->normal;
+  editor.measureWall(*view.measured_at, normal);
+  editor.wanted_tab[1] = "wall";
+}
+
+void drawInspectMarks(Editor& editor, ImVec2 origin) {
+  const ViewPen pen(editor, origin);
+  const ImVec2 size(static_cast<float>(editor.view.size.x()), static_cast<float>(editor.view.size.y()));
+  auto& list = *ImGui::GetWindowDrawList();
+  list.PushClipRect(origin, {origin.x + size.x, origin.y + size.y}, true);
+  LabelBoard labels(origin, size, editor.scale);
+  drawWall(editor, pen);
+  drawUnfinished(editor, pen, labels);
+  drawKept(editor, pen, labels);
+  labels.draw(list);
+  list.PopClipRect();
+}
+
+}  // namespace standpoint

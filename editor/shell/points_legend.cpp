@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/shell/points_legend.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "editor/shell/editor.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr std::size_t kMostClasses = 10;
+constexpr ImU32 kInk = IM_COL32(226, 230, 236, 255), kFaintInk = IM_COL32(150, 158, 170, 255);
+
+std::string shareText(std::uint64_t points, std::uint64_t all) {
+  return fmt::format("{:.1f} %",
+                     100.0 * static_cast<double>(points) / static_cast<double>(std::max<std::uint64_t>(1, all)));
+}
+
+void drawGround(const Editor& editor, ImVec2 at, ImVec2 size) {
+  const float pad = editor.px(8);
+  ImGui::GetWindowDrawList()->AddRectFilled({at.x - pad, at.y - pad}, {at.x + size.x + pad, at.y + size.y + pad},
+                                            IM_COL32(20, 23, 28, 225), editor.px(4));
+}
+
+// Which points the ends stand for, and which have no figure.
+std::string clampText(const PointLegend& legend) {
+  std::uint64_t all = legend.no_data + legend.below + legend.above;
+  for (const auto n : legend.histogram) all += n;
+  std::string text = fmt::format("{} below, {} above", shareText(legend.below, all), shareText(legend.above, all));
+  if (legend.no_data > 0) text += fmt::format(", {} without (grey)", shareText(legend.no_data, all));
+  return text;
+}
+
+void drawScale(const Editor& editor, const PointLegend& legend, ImVec2 origin, ImVec2 size) {
+  auto& list = *ImGui::GetWindowDrawList();
+  const float line = ImGui::GetTextLineHeight(), width = editor.px(320), bar = editor.px(10), peaks = editor.px(26);
+  const auto title = legend.unit.empty() ? legend.title : legend.title + ", " + legend.unit;
+  const auto clamped = clampText(legend);
+  const float wide = std::max({width, ImGui::CalcTextSize(title.c_str()).x, ImGui::CalcTextSize(clamped.c_str()).x});
+  const float height = line + peaks + bar + editor.px(6) + 2 * line;
+  const ImVec2 at(origin.x + editor.px(18), origin.y + size.y - height - editor.px(18));
+  drawGround(editor, {at.x, at.y}, {wide, height});
+  list.AddText(at, kInk, title.c_str());
+  const float top = at.y + line, y = top + peaks;
+  const auto most = std::max<std::uint32_t>(1, *std::max_element(legend.histogram.begin(), legend.histogram.end()));
+  for (std::size_t i = 0; i < PointLegend::kBins; ++i) {
+    const double fraction = (static_cast<double>(i) + 0.5) / PointLegend::kBins;
+    const auto tone = packed(legend.is_diverging ? diverging(fraction) : viridis(fraction));
+    const float from = at.x + width * static_cast<float>(i) / PointLegend::kBins,
+                to = at.x + width * static_cast<float>(i + 1) / PointLegend::kBins;
+    const float peak = peaks * 0.9F * static_cast<float>(legend.histogram[i]) / static_cast<float>(most);
+    list.AddRectFilled({from, y - peak}, {to, y}, kFaintInk);
+    list.AddRectFilled({from, y}, {to, y + bar}, tone);
+  }
+  for (std::size_t i = 0; i < legend.ticks.size(); ++i) {
+    const auto x = at.x + width * static_cast<float>((legend.ticks[i] - legend.low) / (legend.high - legend.low));
+    list.AddLine({x, y + bar}, {x, y + bar + editor.px(4)}, kInk, editor.px(1));
+    const float half = ImGui::CalcTextSize(legend.tick_texts[i].c_str()).x / 2;
+    list.AddText({std::clamp(x - half, at.x, at.x + std::max(0.0F, wide - 2 * half)), y + bar + editor.px(5)}, kInk,
+                 legend.tick_texts[i].c_str());
+  }
+  list.AddText({at.x, y + bar + editor.px(6) + line}, kFaintInk, clamped.c_str());
+}
+
+void drawClasses(const Editor& editor, const PointLegend& legend, ImVec2 origin, ImVec2 size) {
+  auto& list = *ImGui::GetWindowDrawList();
+  std::uint64_t all = legend.no_data, others = 0;
+  for (std::size_t i = 0; i < legend.classes.size(); ++i) {
+    all += legend.classes[i].points;
+    if (i >= kMostClasses) others += legend.classes[i].points;
+  }
+  std::vector<std::pair<Rgba8, std::string>> rows;
+  for (std::size_t i = 0; i < std::min(kMostClasses, legend.classes.size()); ++i)
+    rows.emplace_back(legend.classes[i].colour,
+                      legend.classes[i].name + "   " + shareText(legend.classes[i].points, all));
+  if (others > 0)
+    rows.emplace_back(kOtherColour,
+                      fmt::format("{} others   {}", legend.classes.size() - kMostClasses, shareText(others, all)));
+  if (legend.no_data > 0) rows.emplace_back(kNoDataColour, "none   " + shareText(legend.no_data, all));
+  const float line = ImGui::GetTextLineHeight() + editor.px(3), swatch = editor.px(10);
+  float wide = ImGui::CalcTextSize(legend.title.c_str()).x;
+  for (const auto& [colour, text] : rows)
+    wide = std::max(wide, swatch + editor.px(6) + ImGui::CalcTextSize(text.c_str()).x);
+  const float height = line * static_cast<float>(rows.size() + 1);
+  ImVec2 at(origin.x + editor.px(18), origin.y + size.y - height - editor.px(18));
+  drawGround(editor, at, {wide, height});
+  list.AddText(at, kInk, legend.title.c_str());
+  for (const auto& [colour, text] : rows) {
+    at.y += line;
+    list.AddRectFilled({at.x, at.y + editor.px(2)}, {at.x + swatch, at.y + editor.px(2) + swatch}, packed(colour));
+    list.AddText({at.x + swatch + editor.px(6), at.y}, kInk, text.c_str());
+  }
+}
+
+}  // namespace
+
+void drawPointsLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
+  const auto* legend = editor.pointLegend();
+  if (legend == nullptr) return;
+  if (legend->has_scale)
+    drawScale(editor, *legend, origin, size);
+  else if (!legend->classes.empty() || legend->no_data > 0)
+    drawClasses(editor, *legend, origin, size);
+}
+
+}  // namespace standpoint
