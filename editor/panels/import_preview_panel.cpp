@@ -205,13 +205,14 @@ std::string whyNotAccept(const Model& model, const char* verb) {
 void drawPreviewButtons(const Model& model, Actions& actions) {
   const float gap = ImGui::GetStyle().ItemSpacing.x, room = ImGui::GetContentRegionAvail().x;
   const bool can_add = model.session.document().imported != nullptr;
-  const float each = can_add ? (room - 2 * gap) / 4 : (room - gap) / 2;
+  const float text = ImGui::CalcTextSize(tr(ICON_IMPORT "  Import").c_str()).x + 2 * ImGui::GetStyle().FramePadding.x;
+  const float each = can_add ? std::max((room - 2 * gap) / 4, text) : (room - gap) / 2;
   if (ui::primaryButton(ICON_IMPORT "  Import###preview-import", whyNotAccept(model, "import"), {each, model.px(28)}))
     actions.acceptPreview();
   ImGui::SameLine();
   if (can_add) {
-    if (ui::button("Add to the environment###preview-add", whyNotAccept(model, "add"), {2 * each, model.px(28)},
-                   "Keeps the current model, stations and scans"))
+    if (ui::button("Add to the environment###preview-add", whyNotAccept(model, "add"),
+                   {room - 2 * gap - 2 * each, model.px(28)}, "Keeps the current model, stations and scans"))
       actions.addPreview();
     ImGui::SameLine();
   }
