@@ -192,10 +192,10 @@ float scanButtonWidth(const Editor& editor) {
   return std::max(editor.px(96), text);
 }
 
-// Beside ten tools, the button Scan and the palette's.
+// Beside ten tools, the button Scan and the palette's, with room for one more between them.
 bool roomForTitles(const Editor& editor, float width) {
   const float padding = 2 * ImGui::GetStyle().FramePadding.x;
-  float needed = 11 * (ImGui::GetFrameHeight() + editor.px(10)) + editor.px(3 * 17 + 16) + scanButtonWidth(editor);
+  float needed = 12 * (ImGui::GetFrameHeight() + editor.px(10)) + editor.px(3 * 17 + 16) + scanButtonWidth(editor);
   for (const auto& tab : kWorkspaceTabs)
     needed += ImGui::CalcTextSize(tr(tab.title).c_str()).x + editor.px(24) + padding;
   return needed <= width;
