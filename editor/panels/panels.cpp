@@ -25,7 +25,8 @@ namespace standpoint {
   ROW(drawFindingsPanel, "findings", "Findings", ICON_FLAG, N, N, B, N, N, N, N)         \
   ROW(drawTargetsPanel, "targets", "Targets", ICON_TARGET, N, N, N, N, B, N, N)          \
   ROW(drawLogPanel, "log", "Log", ICON_LOG, B, B, B, B, B, B, B)                         \
-  ROW(drawTasksPanel, "tasks", "Tasks", ICON_TASKS, B, B, B, B, B, B, B)
+  ROW(drawTasksPanel, "tasks", "Tasks", ICON_TASKS, B, B, B, B, B, B, B)                 \
+  ROW(drawHistoryPanel, "history", "History", ICON_HISTORY, B, B, B, B, B, B, B)
 
 #define DECLARED(function, id, title, icon, ...) void function(const Model&, PanelStates&, Actions&);
 STANDPOINT_PANELS(DECLARED)
