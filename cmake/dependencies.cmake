@@ -33,6 +33,7 @@ find_package(CLI11 REQUIRED)
 find_package(CGAL REQUIRED)
 find_package(OpenMesh REQUIRED CONFIG)  # CGAL puts a module of its own in the way
 find_library(CARVE NAMES carve REQUIRED)
+pkg_check_modules(X264 REQUIRED IMPORTED_TARGET x264)
 pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
 target_link_libraries(PkgConfig::IMGUI INTERFACE Freetype::Freetype)  # imgui.pc forgets it
 pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet-float64)

@@ -4,7 +4,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <string>
+#include <unistd.h>
 #include <vector>
 
 #include <fmt/format.h>
@@ -14,7 +16,9 @@
 #include "editor/pictures.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/editor.h"
+#include "editor/shots.h"
 #include "editor/viewport/offscreen.h"
+#include "editor/viewport/plain_message.h"
 #include "editor/viewport/window.h"
 #include "editor/words/words.h"
 #include "pointclouds/formats.h"
@@ -36,17 +40,35 @@ struct Arguments {
   std::string pictures, devices, language = "en";
   int width = 1280, height = 800;
   float scale = 1;
+  std::optional<ShotOptions> shot;
   bool help = false;
 };
 
+// Of the editor's own window: a picture of the model has other limits.
+Result<void> takeWindowSize(Arguments& arguments, const std::string& value) {
+  const bool read = std::sscanf(value.c_str(), "%dx%d", &arguments.width, &arguments.height) == 2;
+  if (!read || arguments.width < 640 || arguments.height < 400 || arguments.width > 8192 || arguments.height > 8192)
+    return failure(ErrorKind::usage,
+                   fmt::format("invalid size '{}': use WIDTHxHEIGHT from 640x400 to 8192x8192", value), "--size");
+  return {};
+}
+
 Result<Arguments> parse(const std::vector<std::string>& words) {
   Arguments result;
+  std::string size;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const auto& word = words[i];
     const bool takes_value =
-        word == "--pictures" || word == "--size" || word == "--scale" || word == "--devices" || word == "--language";
+        word == "--pictures" || word == "--scale" || word == "--devices" || word == "--language" || isShotOption(word);
     if (takes_value && i + 1 >= words.size()) return failure(ErrorKind::usage, "missing value", word);
-    if (word == "--help" || word == "-h") {
+    if (word == "--size") {  // whose it is, is known at the end
+      size = words[++i];
+      continue;
+    }
+    TRY_ASSIGN(const bool taken, takes_value ? takeShotOption(word, words[i + 1], result.shot) : Result<bool>(false));
+    if (taken) {
+      ++i;
+    } else if (word == "--help" || word == "-h") {
       result.help = true;
     } else if (word == "--pictures") {
       result.pictures = words[++i];
@@ -54,11 +76,6 @@ Result<Arguments> parse(const std::vector<std::string>& words) {
       result.devices = words[++i];
     } else if (word == "--language") {
       result.language = words[++i];
-    } else if (word == "--size") {
-      const bool read = std::sscanf(words[++i].c_str(), "%dx%d", &result.width, &result.height) == 2;
-      if (!read || result.width < 640 || result.height < 400 || result.width > 8192 || result.height > 8192)
-        return failure(ErrorKind::usage,
-                       fmt::format("invalid size '{}': use WIDTHxHEIGHT from 640x400 to 8192x8192", words[i]), word);
     } else if (word == "--scale") {
       result.scale = std::strtof(words[++i].c_str(), nullptr);
       if (!(result.scale >= 0.5F && result.scale <= 4))
@@ -69,8 +86,16 @@ Result<Arguments> parse(const std::vector<std::string>& words) {
       result.paths.push_back(word);
     }
   }
+  if (!size.empty() && result.shot) {
+    TRY(takeShotOption("--size", size, result.shot));
+  } else if (!size.empty()) {
+    TRY(takeWindowSize(result, size));
+  }
   if (!result.pictures.empty() && result.paths.empty())
     return failure(ErrorKind::usage, "--pictures requires a project or model");
+  if (result.shot && (result.shot->file.empty() || result.paths.empty()))
+    return failure(ErrorKind::usage,
+                   fmt::format("a picture or film requires its file and a project or model\n{}", shotUsage()));
   return result;
 }
 
@@ -107,6 +132,39 @@ void openAll(Editor& editor, const std::vector<std::string>& paths) {
     editor.settings.remember(models.front());
 }
 
+// Without a display.
+Result<void> openIn(Editor& editor, Offscreen& offscreen, const std::vector<std::string>& paths) {
+  openAll(editor, paths);
+  editor.session.wait();
+  if (!editor.session.errors().empty()) return tl::unexpected<Error>(editor.session.errors().front().error);
+  offscreen.adopt(editor);
+  return {};
+}
+
+volatile std::sig_atomic_t interrupted = 0;
+char** command_line = nullptr;
+
+int makeOneShot(const Arguments& arguments) {
+  auto offscreen = Offscreen::create(arguments.width, arguments.height, arguments.scale);
+  if (!offscreen) return fail(offscreen.error());
+  Editor editor(allVerbs(), [] {});
+  if (auto opened = openIn(editor, **offscreen, arguments.paths); !opened) return fail(opened.error());
+  Progress progress;
+  Report report;
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  progress.onChange([&] {
+    if (interrupted != 0) progress.cancel();
+    if (terminal) std::cerr << fmt::format("\r{} {:3.0f} %", progress.stageName(), 100 * progress.fraction());
+  });
+  std::signal(SIGINT, [](int) { interrupted = 1; });
+  const auto made = makeShot(editor, **offscreen, *arguments.shot, report, progress);
+  if (terminal) std::cerr << '\n';
+  for (const auto& issue : report.issues) std::cerr << issue.source << ": " << issue.message << '\n';
+  if (!made) return fail(made.error());
+  std::cout << arguments.shot->file.string() << '\n';
+  return 0;
+}
+
 int makePictures(const Arguments& arguments) {
   auto offscreen = Offscreen::create(arguments.width, arguments.height, arguments.scale);
   if (!offscreen) return fail(offscreen.error());
@@ -114,10 +172,7 @@ int makePictures(const Arguments& arguments) {
   editor.settings.language = arguments.language;
   speak(arguments.language);
   attachInstrument(editor);
-  openAll(editor, arguments.paths);
-  editor.session.wait();
-  if (!editor.session.errors().empty()) return fail(editor.session.errors().front().error);
-  (*offscreen)->adopt(editor);
+  if (auto opened = openIn(editor, **offscreen, arguments.paths); !opened) return fail(opened.error());
   auto written = drawPictures(editor, **offscreen, arguments.pictures);
   if (!written) return fail(written.error());
   for (const auto& file : *written) std::cout << file.string() << '\n';
@@ -134,16 +189,48 @@ int makeDevicePictures(const Arguments& arguments) {
   return 0;
 }
 
+// Mesa draws without a graphics card, where it is installed. Once: what this has started ends here if that fails, too.
+int goOnWithoutOpenGl(const Error& error) {
+  constexpr const char* kSoftware = "LIBGL_ALWAYS_SOFTWARE";
+  if (std::getenv(kSoftware) == nullptr) {
+    std::cerr << "standpoint-editor: " << describe(error) << "; trying software rendering\n";
+    setenv(kSoftware, "1", 1);
+    setenv("__GLX_VENDOR_LIBRARY_NAME", "mesa", 1);
+    execv("/proc/self/exe", command_line);
+  }
+  showPlainMessage(
+      "Standpoint cannot open its window",
+      describe(error) +
+          "\n\nThis display has no OpenGL 3.2, and software rendering does not help. Install the package "
+          "libgl1-mesa-dri, or update the graphics driver, and start again.\n\nWithout a window: the command "
+          "'standpoint' has every step of the work, and 'standpoint-editor --pictures FOLDER PROJECT' draws "
+          "the editor.");
+  return fail(error);
+}
+
 int openWindow(const Arguments& arguments) {
   Editor editor(allVerbs(), wakeWindow);
   attachInstrument(editor);
-  auto stored = readSettings(settingsFile());
-  editor.settings = std::move(stored.settings);
-  speak(editor.settings.language);
-  if (!stored.problem.empty()) editor.say(std::move(stored.problem));
-  editor.dialogs.recovery = findRecoveryCopies(recoveryRoot());
-  openAll(editor, arguments.paths);
-  const auto shown = runWindow(editor, arguments.width, arguments.height);
+  const auto crashes = takeNewCrashes(recoveryRoot());
+  const auto start = [&] {
+    auto stored = readSettings(settingsFile());
+    editor.settings = std::move(stored.settings);
+    speak(editor.settings.language);
+    if (!stored.problem.empty()) editor.say(std::move(stored.problem));
+    editor.dialogs.recovery = findLeftWork(recoveryRoot());
+    openAll(editor, arguments.paths);
+  };
+  if (crashes.again_at_start) {
+    editor.settings.graphics = GraphicsChoice::low;
+    editor.dialogs.bare = true;
+    editor.dialogs.start_as_usual = start;
+  } else {
+    start();
+  }
+  const auto shown = runWindow(editor, arguments.width, arguments.height, crashes.any);
+  if (!shown && shown.error().source == kNoOpenGl) return goOnWithoutOpenGl(shown.error());
+  if (editor.dialogs.start_as_usual)
+    return shown ? 0 : fail(shown.error());  // the user's preferences stay as they were
   if (auto written = writeSettings(editor.settings, settingsFile()); !written)
     std::cerr << describe(written.error()) << '\n';
   return shown ? 0 : fail(shown.error());
@@ -152,13 +239,15 @@ int openWindow(const Arguments& arguments) {
 }  // namespace
 
 int main(int count, char** words) {
+  command_line = words;
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on files is a full disk: the writer's error, not the program's end
   const auto arguments = parse({words + 1, words + count});
   if (!arguments) return fail(arguments.error());
   if (arguments->help) {
-    std::cout << kUsage;
+    std::cout << kUsage << shotUsage();
     return 0;
   }
+  if (arguments->shot) return makeOneShot(*arguments);
   if (!arguments->devices.empty()) return makeDevicePictures(*arguments);
   return arguments->pictures.empty() ? openWindow(*arguments) : makePictures(*arguments);
 }

@@ -238,7 +238,8 @@ constexpr std::array kPictures = {Picture{"1-overview", overview},
 }  // namespace
 
 Result<std::vector<std::filesystem::path>> drawPictures(Editor& editor, Offscreen& offscreen,
-                                                        const std::filesystem::path& folder) {
+                                                        const std::filesystem::path& folder,
+                                                        const std::vector<std::string>& only) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return failure(ErrorKind::file_system, error.message(), folder.string());
@@ -250,6 +251,7 @@ Result<std::vector<std::filesystem::path>> drawPictures(Editor& editor, Offscree
   editor.picker.wait();
   std::vector<std::filesystem::path> written;
   for (const auto& picture : kPictures) {
+    if (!only.empty() && std::find(only.begin(), only.end(), picture.name) == only.end()) continue;
     reset(editor);
     picture.prepare(editor);
     editor.underlays.wait(editor.session.document());

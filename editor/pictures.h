@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "core/result.h"
@@ -10,8 +11,10 @@
 
 namespace standpoint {
 
-// The pictures of the documentation: each workspace at work on the open project. Returns the files written.
+// Each workspace at work on the open project, or only the pictures of these names ("4-survey"). Returns the files
+// written.
 Result<std::vector<std::filesystem::path>> drawPictures(Editor& editor, Offscreen& offscreen,
-                                                        const std::filesystem::path& folder);
+                                                        const std::filesystem::path& folder,
+                                                        const std::vector<std::string>& only = {});
 
 }  // namespace standpoint

@@ -25,6 +25,15 @@ void History::redo() {
   if (canRedo()) ++position_;
 }
 
+void History::goTo(std::size_t step) {
+  if (step < entries_.size()) position_ = step;
+}
+
+std::size_t History::unsavedChanges() const {
+  if (saved_ == kNeverSaved) return position_;
+  return saved_ > position_ ? saved_ - position_ : position_ - saved_;
+}
+
 std::string History::undoDescription() const { return canUndo() ? entries_[position_].description : std::string(); }
 
 std::string History::redoDescription() const { return canRedo() ? entries_[position_ + 1].description : std::string(); }

@@ -23,11 +23,18 @@ class History {
   void redo();
   std::string undoDescription() const;  // of what undo() would take back; "" when there is nothing
   std::string redoDescription() const;
+  // The steps that there are, oldest first; the first is how it began.
+  std::size_t size() const { return entries_.size(); }
+  std::size_t position() const { return position_; }  // of current()
+  const std::string& description(std::size_t step) const { return entries_[step].description; }
+  void goTo(std::size_t step);  // undo or redo until it is the current one; nothing when there is no such step
 
   // For the title's "modified" mark: is the current value the one that was saved?
   void markSaved() { saved_ = position_; }
   void markUnsaved() { saved_ = kNeverSaved; }
   bool modified() const { return saved_ != position_; }
+  bool isSaved(std::size_t step) const { return saved_ == step; }
+  std::size_t unsavedChanges() const;  // steps between the saved value and the current one
 
  private:
   static constexpr std::size_t kNeverSaved = static_cast<std::size_t>(-1);

@@ -3,12 +3,13 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "editor/model/file_list.h"
 #include "editor/model/option_form.h"
-#include "editor/model/recovery.h"
+#include "editor/recovery/left_work.h"
 
 namespace standpoint {
 
@@ -53,9 +54,12 @@ struct DialogStates {
   bool about = false;
   bool preferences = false;
   bool unsaved = false;
-  std::function<void()> after_unsaved;  // what the user was about to do
-  std::function<void()> after_save;     // once the save that the prompt started has gone well
-  std::vector<RecoveryCopy> recovery;   // found at the start, offered one by one
+  std::function<void()> after_unsaved;   // what the user was about to do
+  std::function<void()> after_save;      // once the save that the prompt started has gone well
+  std::vector<LeftWork> recovery;        // found at the start, offered one by one
+  std::optional<LeftJob> resume;         // a scan to go on with once its project is open
+  bool bare = false;                     // what a bare start is, is being said
+  std::function<void()> start_as_usual;  // after a bare start; empty: it was none
 };
 
 }  // namespace standpoint

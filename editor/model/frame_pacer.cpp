@@ -21,6 +21,7 @@ double longestWait(const FramePacer::Reasons& r) {
   atMost(r.job_runs, kBarMoves_s);
   atMost(r.refining, 0);
   atMost(r.until_fine_s >= 0, std::max(0.01, r.until_fine_s));
+  atMost(r.until_due_s >= 0, std::max(0.01, r.until_due_s));
   return wait;
 }
 

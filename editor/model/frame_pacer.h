@@ -31,6 +31,7 @@ class FramePacer {
     bool job_runs = false;      // its bar moves
     bool refining = false;      // the picture gets better by being drawn again
     double until_fine_s = -1;   // until the picture may be made fine; less than 0: it is
+    double until_due_s = -1;    // until something else is to be done once; less than 0: nothing is
   };
 
   // From any thread: what was published before this call will be drawn. Whoever calls it posts an event after it.

@@ -230,6 +230,7 @@ struct Model : Style {
   };
   Notice notice;
   void say(std::string text);
+  std::string keeping_problem;  // why unsaved work is not being kept; "" when it is
 
   std::function<void()> wake;
 

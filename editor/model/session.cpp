@@ -72,6 +72,12 @@ const Fields<OpenRecoveryOptions>& openRecoveryFields() {
   return fields;
 }
 
+// Of a project, for those who read it: where it is, they know.
+std::string nameOf(const std::filesystem::path& folder) {
+  const auto plain = folder.lexically_normal();
+  return (plain.has_filename() ? plain : plain.parent_path()).filename().string();
+}
+
 // Equal for equal projects; empty where there is none.
 std::string stateOnDisk(const std::filesystem::path& folder) {
   const auto text = projectText(folder);
@@ -81,7 +87,7 @@ std::string stateOnDisk(const std::filesystem::path& folder) {
 Result<Answered<ProjectAnswer>> saved(const Document& document, const std::filesystem::path& folder,
                                       Progress& progress) {
   TRY(saveProject(document, folder, progress));
-  return Answered<ProjectAnswer>{document, {folder, {}, {}, stateOnDisk(folder)}, {}, "Saved " + folder.string()};
+  return Answered<ProjectAnswer>{document, {folder, {}, {}, stateOnDisk(folder)}, {}, "Saved " + nameOf(folder)};
 }
 
 Result<Answered<ProjectAnswer>> runSave(const Document& document, const SaveOptions& options, Progress& progress) {
@@ -103,7 +109,7 @@ Result<Answered<ProjectAnswer>> opened(ProjectAnswer answer, Progress& progress)
   answer.on_disk = stateOnDisk(answer.folder);
   Report dropped;
   TRY_ASSIGN(auto document, loadProject(answer.folder, progress, &dropped));
-  auto description = "Opened " + answer.folder.string();
+  auto description = answer.name.empty() ? "Opened " + nameOf(answer.folder) : "Recovered " + answer.name;
   return Answered<ProjectAnswer>{std::move(document), std::move(answer), std::move(dropped), std::move(description)};
 }
 Result<Answered<ProjectAnswer>> runOpen(const Document&, const OpenOptions& options, Progress& progress) {
@@ -213,7 +219,7 @@ bool Session::start(const VerbOptions& options, std::string title, Work work) {
 
 bool Session::save(const std::filesystem::path& folder) {
   return start(SaveOptions{folder, folder == folder_ ? on_disk_ : std::string()},
-               trf("Save {}", folder.filename().string()));
+               trf("Save {}", nameOf(folder)));
 }
 
 bool Session::changedOnDisk() {
@@ -234,7 +240,7 @@ void Session::keepOverDisk() {
 }
 
 bool Session::open(const std::filesystem::path& folder) {
-  return start(OpenOptions{folder}, trf("Open {}", folder.filename().string()));
+  return start(OpenOptions{folder}, trf("Open {}", nameOf(folder)));
 }
 
 bool Session::saveRecovery(const std::filesystem::path& folder) {
@@ -253,8 +259,10 @@ bool Session::keepsRecovery() const {
                      [](const auto& task) { return std::string_view(task->verb().name) == "save-recovery"; });
 }
 
-bool Session::recover(const RecoveryCopy& copy) {
-  return start(OpenRecoveryOptions{copy.project, copy.name, copy.saved_in}, trf("Recover {}", copy.name));
+bool Session::recover(const LeftWork& left) {
+  const auto& mark = left.mark;
+  if (left.project.empty()) return open(mark.saved_in);
+  return start(OpenRecoveryOptions{left.project, mark.name, mark.saved_in}, trf("Recover {}", mark.name));
 }
 
 void Session::clear() {
@@ -274,6 +282,18 @@ void Session::redo() {
   if (!whyNotRedo().empty()) return;
   say(LogLevel::note, "", trf("Redone: {}", trSentence(history_.redoDescription())));
   history_.redo();
+  ++revision_;
+}
+
+std::string Session::whyNotGoTo(std::size_t step) const {
+  if (step == history_.position()) return "This is the current step";
+  return step < history_.position() ? whyNotUndo() : whyNotRedo();
+}
+
+void Session::goTo(std::size_t step) {
+  if (!whyNotGoTo(step).empty()) return;
+  say(LogLevel::note, "", "Went to step: " + history_.description(step));
+  history_.goTo(step);
   ++revision_;
 }
 
@@ -378,7 +398,7 @@ void Session::succeed(VerbTask& task, Outcome outcome) {
 
 void Session::succeedKeeping() {
   kept_ = std::move(keeping_);
-  keeping_failed_ = false;
+  keeping_problem_.clear();
   forgetRecovered();
 }
 
@@ -395,8 +415,20 @@ std::filesystem::path Session::ownFolder() const {
   return unsavedRoot() / own;
 }
 
+void Session::workOnCopy() {
+  leaveFolder();
+  history_.markUnsaved();
+}
+
 void Session::stayIn(const std::filesystem::path& folder, std::string on_disk) {
+  if (folder != folder_ || folder.empty()) {
+    open_mark_.reset();
+    open_elsewhere_.clear();
+  }
   folder_ = folder;
+  if (!open_mark_ && !folder.empty()) {
+    if (auto mark = OpenMark::take(folder, open_elsewhere_)) open_mark_.emplace(std::move(*mark));
+  }
   on_disk_ = std::move(on_disk);
   changed_on_disk_ = false;
 }
@@ -421,10 +453,10 @@ void Session::fail(const VerbTask& task, const Error& error) {
     say(LogLevel::note, "", trf("{} cancelled", task.title()));
     return;
   }
+  if (keeps && keeping_problem_ == describe(error)) return;  // said before
+  if (keeps) keeping_problem_ = describe(error);
   say(LogLevel::error, error.source, error.message);
-  const bool again =
-      std::exchange(keeping_failed_, keeps || keeping_failed_) && keeps;  // nobody reads it after every change
-  if (!again) errors_.push_back({task.title(), error});
+  if (!keeps) errors_.push_back({task.title(), error});  // the status bar says it for as long as it is so
 }
 
 const FinishedTask* Session::lastOf(std::string_view name) const {

@@ -7,15 +7,17 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "editor/model/log.h"
-#include "editor/model/recovery.h"
+#include "editor/recovery/left_work.h"
 #include "project/answer_fields.h"
 #include "project/history.h"
+#include "project/storage/project_lock.h"
 #include "project/task.h"
 #include "project/verb.h"
 
@@ -100,11 +102,16 @@ class Session {
   bool saveRecovery(const std::filesystem::path& folder);
   bool keepsRecovery() const;                                    // right now
   std::uint64_t keptRevision() const { return kept_.revision; }  // of the newest copy that is whole; 0: none
-  // Opens it as unsaved work of the project it is a copy of. It is removed when a newer copy or the project is written.
-  bool recover(const RecoveryCopy& copy);
+  // Why the newest copy could not be written; "" when there is nothing to say.
+  const std::string& keepingProblem() const { return keeping_problem_; }
+  // Opens its copy as unsaved work of the project it is a copy of; without a copy, that project. It is removed when a
+  // newer copy or the project is written.
+  bool recover(const LeftWork& left);
   void clear();  // a new, empty project
   void undo();
   void redo();
+  std::string whyNotGoTo(std::size_t step) const;
+  void goTo(std::size_t step);  // of history()
 
   // Takes the results of what has finished; true when there were any. Call once a frame.
   bool poll();
@@ -139,6 +146,11 @@ class Session {
   // Whether another program has changed the open project; looks at most once a second.
   bool changedOnDisk();
   void keepOverDisk();  // the next save replaces what the other program wrote
+  // Who else has the open project open in an editor: "standpoint editor (process 123 of …)"; "" nobody, or it has been
+  // settled.
+  const std::string& openElsewhere() const { return open_elsewhere_; }
+  void stayBeside() { open_elsewhere_.clear(); }                   // both work on it; who saves second is asked
+  void workOnCopy();                                               // a new, unsaved project with what is open
   const std::filesystem::path& folder() const { return folder_; }  // empty until saved or opened
   // folder(), or while there is none a place that is this project's own: scanning needs no saving.
   std::filesystem::path ownFolder() const;
@@ -164,7 +176,9 @@ class Session {
   History history_;
   std::filesystem::path folder_;
   std::string begun_ = dateAndTime();  // the project
-  std::string on_disk_;                // what the project on disk was when it was last read or written here
+  std::optional<OpenMark> open_mark_;  // of folder_
+  std::string open_elsewhere_;
+  std::string on_disk_;  // what the project on disk was when it was last read or written here
   bool changed_on_disk_ = false;
   std::chrono::steady_clock::time_point looked_;
   std::vector<std::unique_ptr<VerbTask>> running_;
@@ -179,7 +193,7 @@ class Session {
     std::uint64_t revision = 0;
   };
   Kept kept_, keeping_;  // the recovery copy that is whole, and the one that is being written
-  bool keeping_failed_ = false;
+  std::string keeping_problem_;
   std::filesystem::path recovered_from_;  // a copy that is still needed
   std::uint64_t project_since_ = 0;       // its first revision
 };

@@ -11,6 +11,7 @@ struct Fonts {
   ImFont* small = nullptr;
   ImFont* mono = nullptr;
   ImFont* huge = nullptr;  // icons of empty panels
+  std::string problem;     // which packages are missing; "" when none is
 };
 
 // How large everything is drawn, and in which letters.

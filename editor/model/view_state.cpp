@@ -18,6 +18,10 @@ float channel(double hue, double lightness, double chroma, double offset) {
 
 }  // namespace
 
+Result<PixelPicture> SceneView::pixels(const ViewState&, int, int) {
+  return failure(ErrorKind::unusable, "nothing draws pictures here: OpenGL is missing");
+}
+
 bool isTerrain(const Product& product) {
   return product.ifc_class == "IfcSite" || product.ifc_class == "IfcGeographicElement";
 }

@@ -10,6 +10,7 @@
 
 #include "core/environment.h"
 #include "editor/inspect/clip_box.h"
+#include "core/result.h"
 #include "editor/model/camera.h"
 #include "editor/model/cloud.h"
 #include "editor/model/deviation_view.h"
@@ -70,6 +71,7 @@ struct ViewState {
   std::shared_ptr<const CloudPaint> cloud_paint;  // null: its own colours
   std::vector<ShownUnderlay> underlays;
   Camera camera;
+  bool still_light = false;  // the sun stays where it is when the camera turns: pictures that are put together
   GraphicsLook graphics;
   bool operator==(const ViewState&) const = default;
 };
@@ -85,6 +87,8 @@ class SceneView {
   virtual std::uint64_t texture(const ViewState& state, int width_px, int height_px, bool fine) = 0;
   // A texture of these pixels, with v from 0 to 1; taken over once for each picture.
   virtual std::uint64_t texture(const std::shared_ptr<const PixelPicture>& picture) = 0;
+  // The finest picture of `state`, as pixels. An error where there is nothing that draws, or no memory for it.
+  virtual Result<PixelPicture> pixels(const ViewState& state, int width_px, int height_px);
   // The picture gets better when it is asked for again, though nothing has changed.
   virtual bool refining() const { return false; }
   virtual std::string trouble() const { return {}; }  // why not all of it can be drawn; "" mostly

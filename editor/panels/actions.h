@@ -28,6 +28,7 @@ class Actions {
   // not.
   virtual std::string refused(const std::string& title) = 0;
   virtual void clearLog() = 0;
+  virtual void goTo(std::size_t step) = 0;  // of the history
 
   // Products, local frame for boxes.
   virtual void select(std::vector<std::uint32_t> products) = 0;

@@ -31,7 +31,8 @@ namespace standpoint {
   ROW(drawPanoramaPanel, "panorama", "Panorama", ICON_EYE, N, N, N, N, N, N, B)               \
   ROW(drawComparePanel, "compare", "Compare", ICON_COMPRESS, N, N, N, N, N, N, B)             \
   ROW(drawLogPanel, "log", "Log", ICON_LOG, B, B, B, B, B, B, B)                              \
-  ROW(drawTasksPanel, "tasks", "Tasks", ICON_TASKS, B, B, B, B, B, B, B)
+  ROW(drawTasksPanel, "tasks", "Tasks", ICON_TASKS, B, B, B, B, B, B, B)                      \
+  ROW(drawHistoryPanel, "history", "History", ICON_HISTORY, B, B, B, B, B, B, B)
 
 #define DECLARED(function, id, title, icon, ...) void function(const Model&, PanelStates&, Actions&);
 STANDPOINT_PANELS(DECLARED)

@@ -58,6 +58,16 @@ void save(Editor& e) {
   else
     e.session.save(e.session.folder());
 }
+void recoverLeftWork(Editor& e) {
+  whenSaved(e, [&e] { e.dialogs.recovery = findLeftWork(recoveryRoot()); });
+}
+std::string whyNoLeftWork(const Editor&) {
+  return findLeftWork(recoveryRoot()).empty() ? "No unsaved work of an earlier session" : "";
+}
+template <ShotKind kind>
+void openShots(Editor& e) {
+  openShotDialog(e, kind);
+}
 void quit(Editor& e) {
   whenSaved(e, [&e] { e.quit = true; });
 }
@@ -194,7 +204,12 @@ const std::array kOwn = {
     Action{"update", "Update from a changed model…", "", {}, askForChangedModel, whyUpdateNot},
     Action{"save", "Save", ICON_SAVE, {'S', true}, save, whySaveNot},
     Action{"save-as", "Save as…", "", {'S', true, true}, askWhereToSave, whySaveNot},
+    Action{"recover", "Recover unsaved work…", "", {}, recoverLeftWork, whyNoLeftWork},
     Action{"export", "Export…", ICON_EXPORT, {'E', true}, askForExport, whyExportNot},
+    Action{"picture", "Save picture of the view…", "", {}, openShots<ShotKind::picture>, whyNoModel},
+    Action{"panorama", "Save 360° panorama…", "", {}, openShots<ShotKind::panorama>, whyNoModel},
+    Action{"turntable", "Save turntable film…", "", {}, openShots<ShotKind::turntable>, whyNoModel},
+    Action{"walk-through", "Save walk-through film…", "", {}, openShots<ShotKind::walk_through>, whyNoModel},
     Action{"quit", "Quit", "", {'Q', true}, quit, nullptr},
     Action{"undo", "Undo", ICON_UNDO, {'Z', true}, [](Editor& e) { e.session.undo(); }, whyUndoNot},
     Action{"redo", "Redo", ICON_REDO, {'Y', true}, [](Editor& e) { e.session.redo(); }, whyRedoNot},

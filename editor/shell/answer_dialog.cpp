@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include "editor/model/option_form.h"
+#include "editor/model/table_text.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
 #include "editor/widgets/modal.h"
@@ -113,6 +114,10 @@ void drawAnswer(Editor& editor) {
   ImGui::SameLine();
   if (ui::button("Copy text###copy-answer"))
     ImGui::SetClipboardText((shown.title + "\n" + shown.text + "\n" + shown.figures.dump(1)).c_str());
+  ImGui::SameLine();
+  if (ui::button("Copy table###copy-table", shown.figures.empty() ? "There are no figures" : "", {0, 0},
+                 "Fields between tabs, for a spreadsheet"))
+    ImGui::SetClipboardText(tableText(shown.figures).c_str());
   if (close) {
     answers.pop_front();
     ImGui::CloseCurrentPopup();

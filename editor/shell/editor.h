@@ -10,6 +10,7 @@
 #include "editor/model/dialog_states.h"
 #include "editor/model/model.h"
 #include "editor/panels/panel.h"
+#include "editor/shell/shot_dialog.h"
 
 namespace standpoint {
 
@@ -18,6 +19,7 @@ struct Editor : Model {
   using Model::Model;
 
   DialogStates dialogs;
+  ShotDialog shots;
   PanelStates panels;
   Workspace workspace = Workspace::environment;
   std::array<std::string, 3> wanted_tab;   // by Area: the panel to bring to the front in the next frame

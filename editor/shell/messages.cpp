@@ -12,6 +12,7 @@
 #include "editor/shell/editor.h"
 #include "editor/shell/graphics_choice.h"
 #include "editor/shell/place_ghost.h"
+#include "editor/shell/recovery_dialogs.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/modal.h"
 #include "editor/widgets/theme.h"
@@ -102,32 +103,10 @@ void continueAfterSave(Editor& editor) {
   if (!editor.session.modified()) then();
 }
 
-void drawRecovery(Editor& editor) {
-  auto& copies = editor.dialogs.recovery;
-  if (!ui::beginModal(editor, "Recover unsaved work###recovery", !copies.empty(), 500)) return;
-  const RecoveryCopy copy = copies.front();
-  ui::wrapped(trf("The editor closed unexpectedly. A recovery copy of '{}' is available.", copy.name));
-  if (!copy.saved_in.empty()) ui::dimText(trf("Saved in {}", copy.saved_in));
-  ui::gap(editor, 6);
-  const auto close = [&] {
-    copies.erase(copies.begin());
-    ImGui::CloseCurrentPopup();
-  };
-  if (ui::primaryButton("Open the copy###open", editor.session.whyNot("open-project"), {editor.px(140), 0})) {
-    editor.session.recover(copy);
-    close();
-  } else if (ImGui::SameLine(), ui::button("Decide later", {}, {editor.px(120), 0}) || ui::modalCancelled(true)) {
-    close();
-  } else if (ImGui::SameLine(), ui::button("Delete the copy", {}, {editor.px(140), 0})) {
-    removeRecovery(copy.folder);
-    close();
-  }
-  ImGui::EndPopup();
-}
-
 void drawChangedOnDisk(Editor& editor) {
   auto& session = editor.session;
-  const bool free = session.errors().empty() && editor.dialogs.recovery.empty() && !editor.dialogs.unsaved;
+  const bool free = session.errors().empty() && editor.dialogs.recovery.empty() && !editor.dialogs.unsaved &&
+                    session.openElsewhere().empty();
   if (!ui::beginModal(editor, "Project changed on disk###changed", free && session.changedOnDisk(), 500)) return;
   ui::wrapped(trf("Another program has changed '{}'.", session.name()));
   if (session.modified())
@@ -144,6 +123,34 @@ void drawChangedOnDisk(Editor& editor) {
     ImGui::CloseCurrentPopup();
   }
   ui::tooltip("The next save replaces what the other program wrote");
+  ImGui::EndPopup();
+}
+
+void drawOpenTwice(Editor& editor) {
+  auto& session = editor.session;
+  if (!ui::beginModal(editor, "Project is open in another editor###open-twice", !session.openElsewhere().empty(), 520))
+    return;
+  ui::wrapped(fmt::format("'{}' is already open elsewhere:", session.name()));
+  ui::dimWrapped(session.openElsewhere());
+  ui::gap(editor, 2);
+  ui::wrapped(
+      "A copy is a new project of its own. If both editors work on the project, the one that saves second is "
+      "asked which version to keep.");
+  ui::gap(editor, 6);
+  if (ui::primaryButton("Work on a copy###copy", {}, {editor.px(140), 0})) {
+    session.workOnCopy();
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Open here as well###beside", {editor.px(150), 0}) || ui::modalCancelled(true)) {
+    session.stayBeside();
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Close it###close", {editor.px(90), 0})) {
+    session.clear();
+    ImGui::CloseCurrentPopup();
+  }
   ImGui::EndPopup();
 }
 
@@ -271,8 +278,11 @@ void drawVerbDialog(Editor& editor) {
 
 void drawMessages(Editor& editor) {
   continueAfterSave(editor);
+  drawBareStart(editor);
   drawRecovery(editor);
+  resumeLeftScan(editor);
   drawUnsaved(editor);
+  drawOpenTwice(editor);
   drawChangedOnDisk(editor);
   drawShortcuts(editor);
   drawPreferences(editor);

@@ -31,6 +31,8 @@ std::string PanelActions::refused(const std::string& title) {
 }
 void PanelActions::clearLog() { editor_.session.clearLog(); }
 
+void PanelActions::goTo(std::size_t step) { editor_.session.goTo(step); }
+
 void PanelActions::select(std::vector<std::uint32_t> products) { editor_.selection.set(std::move(products)); }
 void PanelActions::toggle(std::uint32_t product) { editor_.selection.toggle(product); }
 void PanelActions::reveal(std::uint32_t product) { editor_.select(product, true); }

@@ -17,6 +17,7 @@ class PanelActions final : public Actions {
   void report(std::string title, Error error) override;
   std::string refused(const std::string& title) override;
   void clearLog() override;
+  void goTo(std::size_t step) override;
 
   void select(std::vector<std::uint32_t> products) override;
   void toggle(std::uint32_t product) override;

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "core/readable_name.h"
 #include "core/units.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/view_pen.h"

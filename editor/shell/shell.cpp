@@ -139,7 +139,9 @@ void drawMenuBar(Editor& editor) {
   if (ImGui::BeginMenu(ui::Label("File"))) {
     items(editor, {"new", "open", "sample"});
     recentMenu(editor);
-    items(editor, {"import", "update", "", "save", "save-as", "export", "", "preferences", "quit"});
+    items(editor, {"import", "update", "", "save", "save-as", "recover", "export"});
+    submenu(editor, "      Pictures and films###menu-shots", {"picture", "panorama", "turntable", "walk-through"});
+    items(editor, {"", "preferences", "quit"});
     ImGui::EndMenu();
   }
   if (ImGui::BeginMenu(ui::Label("Edit"))) {
@@ -426,6 +428,7 @@ void drawShell(Editor& editor) {
   ImGui::End();
   drawFileDialog(editor);
   drawVerbDialog(editor);
+  drawShotDialog(editor);
   drawPalette(editor);
   drawMessages(editor);
 }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "editor/shell/actions.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/shell.h"
 #include "editor/widgets/icons.h"
@@ -76,10 +77,22 @@ void drawNextStep(Editor& editor) {
   ui::tooltip(fmt::format("{}: {}", tr(steps[*next].title), tr(steps[*next].status)));
 }
 
+// For as long as it is so; a click leads to a place where the work can be saved.
+void drawKeepingProblem(Editor& editor) {
+  if (editor.keeping_problem.empty()) return;
+  ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0, 0, 0, 0));
+  ImGui::PushStyleColor(ImGuiCol_Text, tone::kBad);
+  if (ImGui::Button(ICON_WARNING "  Unsaved work is not being kept###keeping-problem")) invoke(editor, "save-as");
+  ImGui::PopStyleColor(2);
+  ui::tooltip(editor.keeping_problem + "\nClick to save the project to another folder.");
+  ImGui::SameLine();
+}
+
 }  // namespace
 
 void drawStatusBar(Editor& editor) {
   ImGui::AlignTextToFramePadding();
+  drawKeepingProblem(editor);
   const auto hover = hoverText(editor);
   if (!editor.notice.text.empty() && std::chrono::steady_clock::now() < editor.notice.until) {
     ImGui::TextColored(colour(tone::kWarning), "%s  %s", ICON_INFO, editor.notice.text.c_str());

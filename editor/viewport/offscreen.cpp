@@ -8,10 +8,9 @@
 #include <EGL/eglext.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
-#include <stb/stb_image_write.h>
 #include <vtk_glew.h>
 
-#include "core/part_file.h"
+#include "editor/film/picture_file.h"
 #include "editor/shell/shell.h"
 #include "editor/viewport/vtk_scene_view.h"
 #include "editor/widgets/theme.h"
@@ -114,17 +113,13 @@ class EglOffscreen : public Offscreen {
   Result<void> picture(const std::function<void()>& draw, const std::filesystem::path& png) override {
     for (int i = 0; i < kFramesUntilStill || scene_->refining() || beside_->refining(); ++i) layOut(draw);
     paint();
-    std::vector<unsigned char> pixels(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 3);
+    PixelPicture picture{width_, height_, {}};
+    picture.rgba.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
-    stbi_flip_vertically_on_write(1);
-    std::string bytes;
-    const auto append = [](void* to, void* data, int size) {
-      static_cast<std::string*>(to)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
-    };
-    if (stbi_write_png_to_func(append, &bytes, width_, height_, 3, pixels.data(), width_ * 3) == 0)
-      return failure(ErrorKind::internal, "cannot encode the image", png.string());
-    return writeWholeText(png, bytes);
+    for (int row = 0; row < height_; ++row)
+      glReadPixels(0, height_ - 1 - row, width_, 1, GL_RGBA, GL_UNSIGNED_BYTE,
+                   &picture.rgba[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_)]);
+    return writePicture(picture, png);
   }
 
  private:

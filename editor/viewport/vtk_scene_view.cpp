@@ -2,6 +2,7 @@
 #include "editor/viewport/vtk_scene_view.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -10,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <vtkCamera.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkLight.h>
@@ -164,6 +166,14 @@ class VtkSceneView : public SceneView {
     return least_s;
   }
 
+  Result<PixelPicture> pixels(const ViewState& state, int width, int height) override {
+    texture(state, width, height, true);
+    while (refining()) texture(state, width, height, true);
+    return shown_ == 0
+               ? failure(ErrorKind::unusable, fmt::format("cannot draw {}x{} pixels: choose fewer", width, height))
+               : readBack(shown_, width, height);
+  }
+
   std::uint64_t texture(const std::shared_ptr<const PixelPicture>& picture) override {
     if (picture == nullptr || picture->rgba.empty()) return 0;
     auto shown = std::find_if(pixels_.begin(), pixels_.end(), [&](const auto& p) { return p.of.lock() == picture; });
@@ -188,6 +198,37 @@ class VtkSceneView : public SceneView {
   }
 
  private:
+  // What is drawn larger than the picture is averaged, as the screen would.
+  static Result<PixelPicture> readBack(GLuint texture, int width, int height) {
+    GLint bound = 0, wide = 0, high = 0;
+    glGetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &wide);
+    glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_HEIGHT, &high);
+    std::vector<std::array<std::uint8_t, 4>> drawn(static_cast<std::size_t>(wide) * static_cast<std::size_t>(high));
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, drawn.data());
+    glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(bound));
+    const int factor = wide / width;
+    if (factor < 1 || wide != factor * width || high != factor * height)
+      return failure(ErrorKind::unusable, fmt::format("cannot draw {}x{} pixels: choose fewer", width, height));
+    PixelPicture picture{width, height, {}};
+    picture.rgba.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    for (int row = 0; row < height; ++row)
+      for (int column = 0; column < width; ++column) {
+        std::array<int, 3> sum{};
+        for (int k = 0; k < factor * factor; ++k) {
+          const auto from_below = static_cast<std::size_t>((height - 1 - row) * factor + k / factor);
+          const auto& p = drawn[from_below * static_cast<std::size_t>(wide) +
+                                static_cast<std::size_t>(column * factor + k % factor)];
+          for (std::size_t c = 0; c < 3; ++c) sum[c] += p[c];
+        }
+        const auto mean = [&](std::size_t c) { return static_cast<std::uint8_t>(sum[c] / (factor * factor)); };
+        picture.rgba.push_back({mean(0), mean(1), mean(2), 255});
+      }
+    return picture;
+  }
+
   // Made when they are first needed: a picture at the lowest level does without.
   Backdrop& backdrop() {
     if (!backdrop_) backdrop_ = std::make_unique<Backdrop>();
@@ -210,6 +251,7 @@ class VtkSceneView : public SceneView {
         last->underlays != state.underlays)
       points_.update(state);
     if (last == nullptr || last->graphics.theme != state.graphics.theme) updateTheme(state.graphics.theme);
+    if (last == nullptr || last->still_light != state.still_light) updateSun(state.still_light);
     updateCamera(state.camera);
     updateBackdrop(state);
     if (!points_.empty()) {
@@ -320,12 +362,20 @@ class VtkSceneView : public SceneView {
 
   // A low sun from the camera's left, the sky from above, and a little from below so that no face is black.
   void setUpLights() {
-    addLight(VTK_LIGHT_TYPE_CAMERA_LIGHT, {-0.45, 0.35, 1.0}, {1.0, 0.985, 0.95}, 0.58);
+    sun_ = addLight(VTK_LIGHT_TYPE_CAMERA_LIGHT, kSunBesideCamera, {1.0, 0.985, 0.95}, 0.58);
     addLight(VTK_LIGHT_TYPE_SCENE_LIGHT, {0.35, -0.3, 1.0}, {0.94, 0.97, 1.0}, 0.40);
     addLight(VTK_LIGHT_TYPE_SCENE_LIGHT, {0.8, 0.5, -0.3}, {0.85, 0.9, 1.0}, 0.14);
   }
 
-  void addLight(int type, std::array<double, 3> position, std::array<double, 3> colour, double intensity) {
+  void updateSun(bool still) {
+    const auto& from = still ? kSunOfScene : kSunBesideCamera;
+    sun_->SetLightType(still ? VTK_LIGHT_TYPE_SCENE_LIGHT : VTK_LIGHT_TYPE_CAMERA_LIGHT);
+    sun_->SetTransformMatrix(nullptr);
+    sun_->SetPosition(from[0], from[1], from[2]);
+    sun_->SetFocalPoint(0, 0, 0);
+  }
+
+  vtkLight* addLight(int type, std::array<double, 3> position, std::array<double, 3> colour, double intensity) {
     vtkNew<vtkLight> light;
     light->SetLightType(type);
     light->SetPosition(position[0], position[1], position[2]);
@@ -334,6 +384,7 @@ class VtkSceneView : public SceneView {
     light->SetIntensity(intensity);
     light->SetPositional(0);
     renderer_->AddLight(light);
+    return light;  // the renderer keeps it
   }
 
   void updateTheme(Theme theme) {
@@ -403,6 +454,8 @@ class VtkSceneView : public SceneView {
     vtk->SetClippingRange(nearest, std::max(depth + reach, 10 * nearest));
   }
 
+  static constexpr std::array<double, 3> kSunBesideCamera = {-0.45, 0.35, 1.0}, kSunOfScene = {-0.6, -0.5, 0.7};
+  vtkLight* sun_ = nullptr;
   vtkNew<ForeignContextWindow> window_;
   vtkNew<vtkRenderer> renderer_;
   vtkNew<vtkRenderStepsPass> steps_;

@@ -13,9 +13,11 @@
 #include "editor/model/frame_pacer.h"
 #include "editor/model/input_queue.h"
 #include "editor/model/interface_scale.h"
+#include "editor/model/recovery_keeper.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/import_preview.h"
 #include "editor/shell/shell.h"
+#include "editor/viewport/lost_display.h"
 #include "editor/viewport/vtk_scene_view.h"
 #include "editor/widgets/keyboard.h"
 #include "editor/widgets/theme.h"
@@ -35,7 +37,11 @@ class GlfwEvents : public EventSource {
 
 class Window {
  public:
-  Window(Editor& editor, GLFWwindow* handle, FramePacer& pacer) : editor_(editor), handle_(handle), pacer_(pacer) {
+  Window(Editor& editor, GLFWwindow* handle, FramePacer& pacer, bool after_crash)
+      : editor_(editor),
+        handle_(handle),
+        pacer_(pacer),
+        keeper_(recoveryFolder(recoveryRoot(), getpid()), after_crash) {
     ImGui::CreateContext();
     auto& io = ImGui::GetIO();
     io.IniFilename = nullptr;
@@ -47,6 +53,7 @@ class Window {
     };
     io.GetClipboardTextFn = [](void* window) { return glfwGetClipboardString(static_cast<GLFWwindow*>(window)); };
     listen();
+    whenDisplayIsLost([this] { keeper_.keepLast(editor_.session); });
     scene_ = makeVtkSceneView();
     beside_ = makeVtkSceneView();
     scene_->texture(ViewState(), 8, 8, false);  // loads the OpenGL functions
@@ -58,6 +65,7 @@ class Window {
     rescale();
   }
   ~Window() {
+    whenDisplayIsLost(nullptr);
     for (auto* cursor : cursors_)
       if (cursor != nullptr) glfwDestroyCursor(cursor);
     editor_.scene = editor_.scene_beside = nullptr;
@@ -78,11 +86,20 @@ class Window {
         pacer_.drawSome();
       }
       drawFrame();
-      if (editor_.settings.recovery) keeper_.keep(editor_.session);
+      keepWork();
     }
   }
 
  private:
+  void keepWork() {
+    keeper_.keep(editor_.session, editor_.settings.recovery);
+    const auto& copying = editor_.session.keepingProblem();
+    const auto& problem = keeper_.problem().empty() ? copying : keeper_.problem();
+    if (problem == editor_.keeping_problem) return;
+    editor_.keeping_problem = problem;
+    pacer_.drawSome();
+  }
+
   static Window& of(GLFWwindow* handle) { return *static_cast<Window*>(glfwGetWindowUserPointer(handle)); }
 
   void push(const InputEvent& event) {
@@ -144,7 +161,8 @@ class Window {
                                   .walker_moves = editor_.walk.moves(),
                                   .text_edited = ImGui::GetIO().WantTextInput,
                                   .job_runs = editor_.jobRuns(),
-                                  .refining = refining()};
+                                  .refining = refining(),
+                                  .until_due_s = keeper_.untilGrown_s()};
       if (reasons.walker_moves || (reasons.key_held && editor_.walk.active())) moveOn();
       if (!editor_.fine_picture) reasons.until_fine_s = std::max(0.0, untilFine());
       return reasons;
@@ -157,7 +175,9 @@ class Window {
     editor_.fine_picture = false;
   }
 
-  bool refining() const { return scene_->refining() || beside_->refining() || editor_.costs_wanted; }
+  bool refining() const {
+    return scene_->refining() || beside_->refining() || editor_.costs_wanted || editor_.shots.busy();
+  }
 
   void takeInput() {
     auto& io = ImGui::GetIO();
@@ -204,6 +224,7 @@ class Window {
     if (wanted == built_scale_) return;
     built_scale_ = editor_.scale = wanted;
     editor_.fonts = buildFonts(wanted);
+    if (!editor_.fonts.problem.empty()) editor_.say(editor_.fonts.problem);
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
   }
@@ -273,7 +294,7 @@ class Window {
   double fine_picture_s_ = 0;  // what the last one took
   bool was_fine_ = false;
   Theme applied_theme_ = Theme::dark;
-  RecoveryKeeper keeper_{recoveryFolder(recoveryRoot(), getpid())};
+  RecoveryKeeper keeper_;
   float built_scale_ = 0;
   bool focus_lost_ = false;
   std::string title_;
@@ -288,7 +309,7 @@ void wakeWindow() {
   glfwPostEmptyEvent();
 }
 
-Result<void> runWindow(Editor& editor, int width, int height) {
+Result<void> runWindow(Editor& editor, int width, int height, bool after_crash) {
   static std::string last_glfw_error;
   glfwSetErrorCallback([](int, const char* text) { last_glfw_error = text; });
   if (glfwInit() == GLFW_FALSE)
@@ -302,7 +323,7 @@ Result<void> runWindow(Editor& editor, int width, int height) {
   GLFWwindow* handle = glfwCreateWindow(width, height, "Standpoint", nullptr, nullptr);
   if (handle == nullptr) {
     glfwTerminate();
-    return failure(ErrorKind::unusable, last_glfw_error + "; the editor requires OpenGL 3.2", "window");
+    return failure(ErrorKind::unusable, last_glfw_error + "; the editor requires OpenGL 3.2", kNoOpenGl);
   }
   glfwSetWindowSizeLimits(handle, 800, 500, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwMakeContextCurrent(handle);
@@ -310,7 +331,7 @@ Result<void> runWindow(Editor& editor, int width, int height) {
   FramePacer pacer;
   shown_window.store(&pacer, std::memory_order_release);
   {
-    Window window(editor, handle, pacer);
+    Window window(editor, handle, pacer, after_crash);
     window.run();
   }
   editor.session.cancelAll();  // a task that still runs may wake a window that is about to go

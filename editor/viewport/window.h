@@ -12,7 +12,11 @@ namespace standpoint {
 // Wakes a window that waits for events; may be called from any thread, also when there is no window.
 void wakeWindow();
 
-// Opens the window, shows the editor until it is quit. `size` in points.
-Result<void> runWindow(Editor& editor, int width, int height);
+// Error::source where the window could not be opened because OpenGL is missing or too old.
+constexpr const char* kNoOpenGl = "OpenGL";
+
+// Opens the window, shows the editor until it is quit. Width and height in points; `after_crash` is remembered for the
+// next start, should this one crash soon.
+Result<void> runWindow(Editor& editor, int width, int height, bool after_crash);
 
 }  // namespace standpoint

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <initializer_list>
+#include <span>
 #include <string>
+#include <utility>
 
 #include <imgui.h>
 #include <imgui_freetype.h>
@@ -20,13 +24,14 @@ constexpr std::array<ImWchar, 13> kTextRanges = {0x20,   0x17f,  0x370,  0x3ff, 
                                                  0x2044, 0x2070, 0x22ff, 0x25a0, 0x25ff, 0};
 constexpr std::array<ImWchar, 3> kIconRanges = {0xf000, 0xf2e0, 0};
 
-std::string firstFile(std::initializer_list<const char*> candidates) {
-  static const std::array<const char*, 3> roots = {"/usr/share/fonts", "/usr/local/share/fonts", "/usr/share"};
-  for (const char* root : roots)
+using Roots = std::span<const std::filesystem::path>;
+
+std::string firstFile(Roots roots, std::initializer_list<const char*> candidates) {
+  for (const auto& root : roots)
     for (const char* candidate : candidates) {
-      const auto file = std::filesystem::path(root) / candidate;
+      const auto file = root / candidate;
       std::error_code ignored;
-      if (std::filesystem::is_regular_file(file, ignored)) return file.string();
+      if (std::filesystem::is_regular_file(file, ignored) && std::ifstream(file).peek() != EOF) return file.string();
     }
   return {};
 }
@@ -51,35 +56,63 @@ void mergeIcons(const std::string& file, float size, float scale) {
   ImGui::GetIO().Fonts->AddFontFromFileTTF(file.c_str(), std::round(size * 0.95F), &config, kIconRanges.data());
 }
 
-}  // namespace
+struct FontFiles {
+  std::string regular, bold, mono, icons;
+};
 
-Fonts buildFonts(float scale) {
+FontFiles filesIn(Roots roots) {
+  return {firstFile(roots, {"opentype/inter/Inter-Regular.otf", "truetype/inter/Inter-Regular.ttf",
+                            "truetype/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf", "truetype/dejavu/DejaVuSans.ttf"}),
+          firstFile(roots, {"opentype/inter/Inter-SemiBold.otf", "truetype/inter/Inter-SemiBold.ttf",
+                            "truetype/dejavu/DejaVuSans-Bold.ttf"}),
+          firstFile(roots, {"truetype/jetbrains-mono/JetBrainsMono-Regular.ttf", "truetype/dejavu/DejaVuSansMono.ttf"}),
+          firstFile(roots, {"truetype/font-awesome/fontawesome-webfont.ttf", "opentype/font-awesome/FontAwesome.otf",
+                            "fonts-font-awesome/fonts/fontawesome-webfont.ttf"})};
+}
+
+// False where a file holds no font.
+bool build(const FontFiles& files, float scale, Fonts& fonts) {
   auto& atlas = *ImGui::GetIO().Fonts;
   atlas.Clear();
   atlas.FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
   atlas.FontBuilderFlags = ImGuiFreeTypeBuilderFlags_LightHinting;
-  const auto regular =
-      firstFile({"opentype/inter/Inter-Regular.otf", "truetype/inter/Inter-Regular.ttf",
-                 "truetype/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf", "truetype/dejavu/DejaVuSans.ttf"});
-  const auto bold = firstFile({"opentype/inter/Inter-SemiBold.otf", "truetype/inter/Inter-SemiBold.ttf",
-                               "truetype/dejavu/DejaVuSans-Bold.ttf"});
-  const auto mono =
-      firstFile({"truetype/jetbrains-mono/JetBrainsMono-Regular.ttf", "truetype/dejavu/DejaVuSansMono.ttf"});
-  const auto icons =
-      firstFile({"truetype/font-awesome/fontawesome-webfont.ttf", "opentype/font-awesome/FontAwesome.otf",
-                 "fonts-font-awesome/fonts/fontawesome-webfont.ttf"});
-  Fonts fonts;
   const auto sized = [&](float points) { return std::round(points * scale); };
-  fonts.text = addFont(regular, sized(14.5F));
-  mergeIcons(icons, sized(14.5F), scale);
-  fonts.bold = addFont(bold.empty() ? regular : bold, sized(14.5F));
-  mergeIcons(icons, sized(14.5F), scale);
-  fonts.small = addFont(regular, sized(12.5F));
-  mergeIcons(icons, sized(12.5F), scale);
-  fonts.mono = addFont(mono, sized(13));
-  fonts.huge = addFont(regular, sized(30));
-  mergeIcons(icons, sized(30), scale);
-  atlas.Build();
+  fonts.text = addFont(files.regular, sized(14.5F));
+  mergeIcons(files.icons, sized(14.5F), scale);
+  fonts.bold = addFont(files.bold.empty() ? files.regular : files.bold, sized(14.5F));
+  mergeIcons(files.icons, sized(14.5F), scale);
+  fonts.small = addFont(files.regular, sized(12.5F));
+  mergeIcons(files.icons, sized(12.5F), scale);
+  fonts.mono = addFont(files.mono, sized(13));
+  fonts.huge = addFont(files.regular, sized(30));
+  mergeIcons(files.icons, sized(30), scale);
+  return atlas.Build();
+}
+
+std::string missing(const FontFiles& files) {
+  std::string packages;
+  for (const auto& [file, package] : {std::pair{files.regular, "fonts-inter"},
+                                      {files.mono, "fonts-jetbrains-mono"},
+                                      {files.icons, "fonts-font-awesome"}})
+    if (file.empty()) packages += std::string(packages.empty() ? "" : ", ") + package;
+  return packages.empty() ? "" : "Fonts are missing; install " + packages + " and start again";
+}
+
+}  // namespace
+
+Fonts buildFonts(float scale) {
+  static const std::array<std::filesystem::path, 3> kRoots = {"/usr/share/fonts", "/usr/local/share/fonts",
+                                                              "/usr/share"};
+  return buildFonts(scale, kRoots);
+}
+
+Fonts buildFonts(float scale, Roots roots) {
+  const auto files = filesIn(roots);
+  Fonts fonts;
+  fonts.problem = missing(files);
+  if (build(files, scale, fonts)) return fonts;
+  build({}, scale, fonts);  // Dear ImGui's own letters, which need no file
+  fonts.problem = "Font files are damaged; install fonts-inter, fonts-jetbrains-mono and fonts-font-awesome again";
   return fonts;
 }
 

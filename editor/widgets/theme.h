@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
+#include <span>
+
 #include <imgui.h>
 
 #include "editor/model/graphics.h"
@@ -51,5 +54,7 @@ void applyTheme(float scale, Theme theme = Theme::dark);
 // Builds the atlas of the current ImGui context at the given scale: Inter, JetBrains Mono and Font Awesome where they
 // are installed, else Dear ImGui's own font.
 Fonts buildFonts(float scale);
+// The same with fonts from these folders, in their order.
+Fonts buildFonts(float scale, std::span<const std::filesystem::path> roots);
 
 }  // namespace standpoint

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/data_folder.h"
+#include "core/readable_name.h"
 #include "project/answers.h"
 #include "project/materials/material_findings.h"
 #include "project/materials/materials_report.h"
@@ -179,17 +180,36 @@ Result<bool> judge(MaterialChoice& choice, const std::vector<MaterialFinding>& f
   return true;
 }
 
+// "Wall 7", "class IfcWall, name *glass*": a product by its name, conditions with neither signs nor coordinates.
+std::string inWords(const Environment& environment, const std::string& selector) {
+  if (!selectedProduct(selector).empty())
+    if (const auto products = select(environment, selector); !products.empty())
+      return readableName(environment.products[products.front()]);
+  std::string words = selector.substr(0, selector.find('@'));
+  for (const auto& [sign, word] : {std::pair{"&", ", "}, {":", " "}})
+    for (auto at = words.find(sign); at != std::string::npos; at = words.find(sign, at + 1)) words.replace(at, 1, word);
+  return words;
+}
+
+std::string findingsText(std::size_t count) { return count == 1 ? "a finding" : fmt::format("{} findings", count); }
+
 // A library is named by what it brought: its file may be one that the editor made for a moment.
-std::string description(const MaterialRequest& request, const std::vector<LibraryRow>& taken,
+std::string description(const Environment& environment, const std::vector<PhysicalMaterial>& library,
+                        const MaterialRequest& request, const std::vector<LibraryRow>& taken,
                         const MaterialReport& report) {
-  if (!request.accept.empty()) return fmt::format("Accepted {}", fmt::join(request.accept, ", "));
-  if (!request.reopen.empty()) return fmt::format("Reopened {}", fmt::join(request.reopen, ", "));
+  const auto material = [&](const std::string& id) {
+    const auto at = std::find_if(library.begin(), library.end(), [&](const auto& m) { return m.id == id; });
+    return at == library.end() || at->label.empty() ? id : "'" + at->label + "'";
+  };
+  if (!request.accept.empty()) return "Accepted " + findingsText(request.accept.size());
+  if (!request.reopen.empty()) return "Reopened " + findingsText(request.reopen.size());
   if (!request.assign.empty())
-    return fmt::format("Assigned {} to {}", request.assign.back().material, request.assign.back().selector);
+    return fmt::format("Assigned {} to {}", material(request.assign.back().material),
+                       inWords(environment, request.assign.back().selector));
   if (!taken.empty()) {
     const auto& [file, added, changed, used] = taken.back();
-    if (added.size() == 1 && changed.empty()) return "Added material " + added.front();
-    if (added.empty() && changed.size() == 1) return "Changed material " + changed.front();
+    if (added.size() == 1 && changed.empty()) return "Added material " + material(added.front());
+    if (added.empty() && changed.size() == 1) return "Changed material " + material(changed.front());
     return "Added materials from " + request.libraries.back().filename().string();
   }
   return fmt::format("Assigned materials to {:.1f} % of the area", report.coverage * 100);
@@ -232,7 +252,8 @@ Result<Answered<MaterialsAnswer>> assignDocumentMaterials(const Document& docume
     choice.result = assignMaterials(environment, library, rules, choice.overrides, options, progress).value();
     done.materials = std::make_shared<const MaterialChoice>(choice);
   }
-  Answered<MaterialsAnswer> outcome{std::move(done), {}, {}, description(request, taken, choice.result.report)};
+  Answered<MaterialsAnswer> outcome{
+      std::move(done), {}, {}, description(environment, library, request, taken, choice.result.report)};
   auto& answer = outcome.answer;
   answer = materialsAnswer(environment, choice, materialFindings(outcome.document));
   for (auto& row : taken)

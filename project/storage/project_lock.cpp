@@ -58,6 +58,12 @@ std::string holderOf(int descriptor) {
   return line.empty() || !plain ? "another program" : std::string(line);
 }
 
+// Only a courtesy to others: a full disk does not keep from locking.
+void say(int descriptor, const std::string& doing) {
+  const auto line = writerLine(doing);
+  if (::ftruncate(descriptor, 0) == 0) std::ignore = ::pwrite(descriptor, line.data(), line.size(), 0);
+}
+
 struct Attempt {
   int descriptor = -1;  // of the lock; -1: another holds it
   std::string holder;
@@ -92,9 +98,7 @@ Result<ProjectLock> ProjectLock::acquire(const fs::path& folder, const std::stri
     TRY_ASSIGN(const auto got, attempt(file));
     if (got.descriptor >= 0) {
       ProjectLock lock(file, got.descriptor);
-      const auto line = writerLine(doing);
-      // Only a courtesy to others: a full disk does not keep from locking.
-      if (::ftruncate(got.descriptor, 0) == 0) std::ignore = ::pwrite(got.descriptor, line.data(), line.size(), 0);
+      say(got.descriptor, doing);
       return lock;
     }
     if (Clock::now() - started >= patience)
@@ -107,6 +111,27 @@ Result<ProjectLock> ProjectLock::acquire(const fs::path& folder, const std::stri
     TRY(progress.check());
     std::this_thread::sleep_for(kBetweenAttempts);
   }
+}
+
+std::optional<OpenMark> OpenMark::take(const fs::path& folder, std::string& holder) {
+  const auto file = folder / kOpenMarkFile;
+  auto got = attempt(file);
+  if (!got) return OpenMark(file, -1);
+  if (got->descriptor < 0) {
+    holder = got->holder.empty() ? "another program" : got->holder;
+    return std::nullopt;
+  }
+  say(got->descriptor, "editor");
+  return OpenMark(file, got->descriptor);
+}
+
+OpenMark::OpenMark(OpenMark&& other) noexcept
+    : file_(std::move(other.file_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+OpenMark::~OpenMark() {
+  if (descriptor_ < 0) return;
+  ::unlink(file_.c_str());
+  ::close(descriptor_);
 }
 
 ProjectLock::ProjectLock(ProjectLock&& other) noexcept

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "core/progress.h"
@@ -34,6 +35,27 @@ class ProjectLock {
 
   std::filesystem::path file_;
   int descriptor_;
+};
+
+constexpr const char* kOpenMarkFile = ".open";
+
+// Says that an editor has the project open, so that a second one can ask before two people change it side by side. It
+// keeps nobody from writing, and goes with its process like the lock.
+class OpenMark {
+ public:
+  // Nothing where another one has it; `holder` then says who. In a folder that may not be written there is no mark, and
+  // none is missed.
+  static std::optional<OpenMark> take(const std::filesystem::path& folder, std::string& holder);
+
+  OpenMark(OpenMark&& other) noexcept;
+  OpenMark& operator=(OpenMark&&) = delete;
+  ~OpenMark();
+
+ private:
+  OpenMark(std::filesystem::path file, int descriptor) : file_(std::move(file)), descriptor_(descriptor) {}
+
+  std::filesystem::path file_;
+  int descriptor_;  // -1: none could be made
 };
 
 }  // namespace standpoint

@@ -6,7 +6,6 @@
 
 #include "editor/model/file_list.h"
 #include "editor/model/interface_scale.h"
-#include "editor/model/recovery.h"
 #include "editor/model/settings.h"
 
 namespace standpoint {
@@ -113,25 +112,6 @@ TEST_F(Folder, NamesTheSettingsThatMakeNoSense) {
   EXPECT_EQ(stored.settings.theme, Theme::light);
   EXPECT_EQ(stored.problem, "Preferences without a valid value, changed to what is valid: user_scale, graphics");
   EXPECT_EQ(readSettings(root / "none.json").problem, "") << "the first start";
-}
-
-TEST_F(Folder, OffersOnlyTheCopiesOfProcessesThatAreGone) {
-  constexpr long kGone = 4194305;  // above the largest process id that Linux gives
-  const auto gone = recoveryFolder(root, kGone), alive = recoveryFolder(root, getpid());
-  ASSERT_TRUE(writeRecoveryOwner(gone, "school", "/projects/school"));
-  ASSERT_TRUE(writeRecoveryOwner(alive, "house", ""));
-  write(fs::path(std::to_string(kGone)) / "copy" / "project.json", "{}");
-  write(fs::path(std::to_string(getpid())) / "copy" / "project.json", "{}");
-  write("readme/copy/project.json", "{}");
-  const auto copies = findRecoveryCopies(root);
-  ASSERT_EQ(copies.size(), 1U);
-  EXPECT_EQ(copies[0].name, "school");
-  EXPECT_EQ(copies[0].saved_in, "/projects/school");
-  removeRecovery(copies[0].folder);
-  EXPECT_TRUE(findRecoveryCopies(root).empty());
-  write(fs::path(std::to_string(getpid())) / "owner.json",
-        "{\"name\": \"house\", \"process_start\": \"another boot 7\"}");
-  ASSERT_EQ(findRecoveryCopies(root).size(), 1U) << "another process has its number now";
 }
 
 TEST(ReadableSize, HasThreeDigitsOrSo) {

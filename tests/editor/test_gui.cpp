@@ -178,7 +178,9 @@ TEST_F(Gui, EditsTheRowsOfAMetalAndUndoTakesItOutAgain) {
   ASSERT_EQ(editor.session.document().materials->own.size(), 1U);
   EXPECT_EQ(editor.session.document().materials->own[0].id, id);
   EXPECT_EQ(editor.session.document().materials->own[0].complex_index.size(), metal->complex_index.size());
-  EXPECT_EQ(editor.session.history().undoDescription(), "Added material " + id) << "not the file that it went through";
+  EXPECT_EQ(editor.session.history().undoDescription(),
+            "Added material '" + editor.session.document().materials->own[0].label + "'")
+      << "not the file that it went through";
   editor.session.undo();
   gui.frames(2);
   EXPECT_TRUE(editor.session.document().materials->own.empty());

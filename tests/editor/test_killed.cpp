@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/data_folder.h"
-#include "editor/model/recovery.h"
+#include "editor/model/recovery_keeper.h"
 #include "emulated-ui/rehearsal/rehearsal.h"
 #include "emulated-ui/rehearsal/rehearse_verb.h"
 #include "item_probe.h"
@@ -80,8 +80,9 @@ class ScriptedEditor {
 
  private:
   void comeBack() {
-    const auto copies = findRecoveryCopies(desk_.copies());
-    copies.empty() ? editor_.session.open(desk_.project()) : editor_.session.recover(copies.front());
+    const auto copies = findLeftWork(desk_.copies());
+    copies.empty() || copies.front().project.empty() ? editor_.session.open(desk_.project())
+                                                     : editor_.session.recover(copies.front());
     rest();
   }
   void act(const ScriptStep& step) {
@@ -147,7 +148,7 @@ Diary readDiary(const KillFolder& desk) {
 
 // The state that a new start of the editor would come back to; empty: none.
 std::string stateFound(const KillFolder& desk, std::string& error) {
-  auto copies = findRecoveryCopies(desk.copies());
+  auto copies = findLeftWork(desk.copies());
   for (std::size_t i = 1; i < copies.size(); ++i) removeRecovery(copies[i].folder);  // "Discard"
   std::error_code ignored;
   const auto from = copies.empty() ? desk.project() : copies.front().project;

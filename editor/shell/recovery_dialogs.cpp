@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/shell/recovery_dialogs.h"
+
+#include <utility>
+
+#include <imgui.h>
+
+#include "editor/shell/editor.h"
+#include "editor/widgets/modal.h"
+#include "editor/widgets/widgets.h"
+#include "project/fields.h"
+#include "project/survey/survey_verbs.h"
+
+namespace standpoint {
+
+namespace {
+
+// As the job was started, but with what it had finished.
+Result<ScanVerbOptions> resumed(const Session& session, const LeftJob& job) {
+  TRY_ASSIGN(const auto checked, checkOptions(*session.verb("scan"), job.options));
+  TRY_ASSIGN(auto options, optionsFrom(scanFields(), checked));
+  options.resume = true;
+  return options;
+}
+
+// "" when what was left can be opened.
+std::string whyNotOpen(const Editor& editor, const LeftWork& left) {
+  if (left.project.empty() && left.mark.saved_in.empty()) return "The project was never saved, and nothing was kept";
+  return editor.session.whyNot("open-project");
+}
+
+}  // namespace
+
+void drawBareStart(Editor& editor) {
+  if (!ui::beginModal(editor, "Started without your settings###bare-start", editor.dialogs.bare, 520)) return;
+  ui::wrapped(
+      "The editor closed unexpectedly twice within a minute of starting. It has now started with default "
+      "preferences and low graphics, and has opened nothing.");
+  ui::gap(editor, 2);
+  ui::wrapped("Unsaved work is kept: File › Recover unsaved work.");
+  ui::gap(editor, 6);
+  if (ui::primaryButton("Continue###continue", {}, {editor.px(110), 0}) || ui::modalCancelled(true)) {
+    editor.dialogs.bare = false;
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Start as usual###as-usual", {editor.px(130), 0})) {
+    editor.dialogs.bare = false;
+    ImGui::CloseCurrentPopup();
+    if (const auto start = std::exchange(editor.dialogs.start_as_usual, nullptr)) start();
+  }
+  ImGui::EndPopup();
+}
+
+void drawRecovery(Editor& editor) {
+  auto& found = editor.dialogs.recovery;
+  if (!ui::beginModal(editor, "Recover unsaved work###recovery", !found.empty(), 520)) return;
+  const LeftWork left = found.front();
+  const LeftJob* scan = leftScan(left);
+  for (const auto& sentence : sentencesOf(left)) ui::wrapped(sentence);
+  if (!left.mark.saved_in.empty()) ui::dimWrapped("Saved in " + left.mark.saved_in);
+  ui::gap(editor, 6);
+  const bool copy = !left.project.empty();
+  const auto why = whyNotOpen(editor, left);
+  const auto close = [&] {
+    found.erase(found.begin());
+    ImGui::CloseCurrentPopup();
+  };
+  const auto open = [&](bool resume) {
+    if (resume) editor.dialogs.resume = *scan;
+    editor.session.recover(left);
+    if (!copy) removeRecovery(left.folder);  // the project itself has all there is
+    close();
+  };
+  const char* const opens = copy ? "Open the copy###open" : "Open project###open";
+  bool done = false;
+  if (scan != nullptr) {
+    if ((done = ui::primaryButton("Open and resume scan###resume", why, {editor.px(180), 0}))) open(true);
+    ImGui::SameLine();
+  }
+  if (!done) {
+    done = scan != nullptr ? ui::button(opens, why, {editor.px(120), 0})
+                           : ui::primaryButton(opens, why, {editor.px(120), 0});
+    if (done) open(false);
+  }
+  if (ImGui::SameLine(), !done && (ImGui::Button("Later###later", {editor.px(80), 0}) || ui::modalCancelled(true))) {
+    done = true;
+    close();
+  }
+  if (ImGui::SameLine(),
+      !done && ImGui::Button(copy ? "Delete the copy###delete" : "Forget it###delete", {editor.px(120), 0})) {
+    removeRecovery(left.folder);
+    close();
+  }
+  ImGui::EndPopup();
+}
+
+void resumeLeftScan(Editor& editor) {
+  auto& job = editor.dialogs.resume;
+  if (!job || !editor.session.errors().empty() || !editor.session.running().empty()) {
+    if (job && !editor.session.errors().empty()) job.reset();  // it could not be opened
+    return;
+  }
+  const auto wanted = *std::exchange(job, std::nullopt);
+  const auto options = resumed(editor.session, wanted);
+  if (!options)
+    editor.session.errors().push_back({"The scan cannot be resumed", options.error()});
+  else if (const auto why = editor.session.whyNot("scan"); !why.empty())
+    editor.session.errors().push_back({"The scan cannot be resumed", {ErrorKind::usage, why, wanted.title}});
+  else
+    editor.startScan(*options, wanted.title);
+}
+
+}  // namespace standpoint

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fstream>
+#include <unistd.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "demo_verbs.h"
+#include "editor/model/recovery_keeper.h"
+#include "item_probe.h"
+#include "project/storage/project_lock.h"
+#include "tests/project/support.h"
+
+namespace standpoint {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::ElementsAre, testing::HasSubstr, testing::StartsWith;
+
+constexpr long kGone = 4194305;  // above the largest process id that Linux gives
+
+class Recovery : public testing::Test {
+ protected:
+  void write(const fs::path& name, const std::string& text) const {
+    fs::create_directories((root / name).parent_path());
+    std::ofstream(root / name) << text;
+  }
+  // An editor that ended without closing, with an unsaved copy or without.
+  void crash(long process, const SessionMark& mark, bool copy = true) const {
+    ASSERT_TRUE(writeSessionMark(recoveryFolder(root, process), mark));
+    if (copy) write(fs::path(std::to_string(process)) / "copy" / "project.json", "{}");
+  }
+
+  TemporaryFolder folder;
+  fs::path root = folder.path();
+};
+
+TEST_F(Recovery, IsOfferedOnlyOfProcessesThatAreGone) {
+  crash(kGone, {.name = "school", .saved_in = "/projects/school"});
+  crash(getpid(), {.name = "house"});
+  write("readme/copy/project.json", "{}");
+  const auto left = findLeftWork(root);
+  ASSERT_EQ(left.size(), 1U);
+  EXPECT_EQ(left[0].mark.name, "school");
+  EXPECT_EQ(left[0].mark.saved_in, "/projects/school");
+  removeRecovery(left[0].folder);
+  EXPECT_TRUE(findLeftWork(root).empty());
+  write(fs::path(std::to_string(getpid())) / "owner.json", R"({"name": "house", "process_start": "another boot 7"})");
+  ASSERT_EQ(findLeftWork(root).size(), 1U) << "another process has its number now";
+}
+
+TEST_F(Recovery, SaysWhatRanAndHowFarItWas) {
+  const LeftJob scan{"Scan all stations", "Scan K3 (2 of 5)", 62, "scan", {{"output", "x.e57"}}};
+  const LeftJob import{"Optimise", "", 7, "optimize", json::object()};
+  crash(kGone, {.name = "House", .saved_in = "/projects/House", .changes = 3, .jobs = {scan, import}});
+  const auto left = findLeftWork(root);
+  ASSERT_EQ(left.size(), 1U);
+  EXPECT_THAT(sentencesOf(left[0]),
+              ElementsAre(StartsWith("The editor closed unexpectedly while 'House' was open, last seen at "),
+                          "A recovery copy is available. 3 changes are newer than the project.",
+                          "Scan K3 (2 of 5) stopped at 62 %. Stations that were finished are kept.",
+                          "Optimise stopped at 7 %."));
+  ASSERT_NE(leftScan(left[0]), nullptr);
+  EXPECT_EQ(*leftScan(left[0]), scan);
+}
+
+TEST_F(Recovery, IsOfferedOfAJobThoughNothingWasUnsaved) {
+  crash(kGone, {.name = "House", .jobs = {{"Import house.ifc", "Read", 30, "import", json::object()}}}, false);
+  const auto left = findLeftWork(root);
+  ASSERT_EQ(left.size(), 1U);
+  EXPECT_TRUE(left[0].project.empty());
+}
+
+TEST_F(Recovery, BearsAMarkOfGarbage) {
+  for (const char* text : {"", "{", "[]", R"({"jobs": 7, "changes": -3, "name": []})", R"({"jobs": [1, {"verb": 2}]})",
+                           R"({"name": "x", "seen": "yes", "young": "yes"})"}) {
+    write(fs::path(std::to_string(kGone)) / "owner.json", text);
+    write(fs::path(std::to_string(kGone)) / "copy" / "project.json", "{}");
+    ASSERT_EQ(findLeftWork(root).size(), 1U) << text;
+    EXPECT_FALSE(sentencesOf(findLeftWork(root)[0]).empty()) << text;
+    takeNewCrashes(root);
+  }
+}
+
+TEST_F(Recovery, StartsBareOnlyWhenTheEditorCrashedTwiceAtItsStart) {
+  EXPECT_FALSE(takeNewCrashes(root).any) << "the first start of all";
+  crash(kGone, {.young = true, .after_crash = false});
+  const auto first = takeNewCrashes(root);
+  EXPECT_TRUE(first.any);
+  EXPECT_FALSE(first.again_at_start) << "once is not twice";
+  EXPECT_FALSE(takeNewCrashes(root).any) << "each crash is told once";
+  crash(kGone, {.young = false, .after_crash = true});
+  EXPECT_FALSE(takeNewCrashes(root).again_at_start) << "it ran for more than a minute";
+  crash(kGone, {.young = true, .after_crash = true});
+  EXPECT_TRUE(takeNewCrashes(root).again_at_start);
+  EXPECT_FALSE(takeNewCrashes(root).again_at_start) << "the next start is as usual again";
+}
+
+TEST_F(Recovery, KeepsTheCopyOfACrashThatHasBeenTold) {
+  crash(kGone, {.name = "school"});
+  crash(kGone + 1, {.name = "nothing was left"}, false);
+  EXPECT_TRUE(takeNewCrashes(root).any);
+  EXPECT_EQ(findLeftWork(root).size(), 1U) << "it was left for later";
+  EXPECT_FALSE(fs::exists(recoveryFolder(root, kGone + 1)));
+}
+
+TEST_F(Recovery, NotesWhatRunsUntilItEnds) {
+  Session session(verbsWithDemo(), [] {});
+  ASSERT_TRUE(session.start("demo", json::object()));
+  session.wait();
+  ASSERT_TRUE(session.start("plan", json::object(), "Plan the survey"));
+  RecoveryKeeper keeper(root / "1");
+  keeper.keep(session);
+  const auto noted = [&] {
+    std::ifstream in(root / "1" / "owner.json");
+    return json::parse(in);
+  };
+  ASSERT_EQ(noted()["jobs"].size(), 1U) << noted();
+  EXPECT_EQ(noted()["jobs"][0]["title"], "Plan the survey");
+  EXPECT_EQ(noted()["young"], true);
+  session.wait();
+  keeper.keep(session);
+  session.wait();
+  keeper.keep(session);
+  EXPECT_EQ(noted()["jobs"].size(), 0U) << "and never its own copying: " << noted();
+  EXPECT_EQ(noted()["changes"], 1);
+  EXPECT_EQ(keeper.problem(), "");
+}
+
+TEST_F(Recovery, SaysWhereNothingCanBeKept) {
+  write("in-the-way", "a file where the folder should be");
+  Session session(verbsWithDemo(), [] {});
+  RecoveryKeeper keeper(root / "in-the-way" / "1");
+  keeper.keep(session);
+  EXPECT_THAT(keeper.problem(), HasSubstr("in-the-way"));
+}
+
+TEST_F(Recovery, LeadsFromTheStatusBarToAnotherFolder) {
+  Editor editor(verbsWithDemo(), [] {});
+  ASSERT_TRUE(editor.session.start("demo", json::object()));
+  GuiDriver gui(editor);
+  gui.settle();
+  EXPECT_EQ(gui.find("###keeping-problem"), nullptr);
+  editor.keeping_problem = "cannot write: No space left on device";
+  gui.frames(2);
+  ASSERT_TRUE(gui.click("###keeping-problem"));
+  gui.frames(2);
+  EXPECT_TRUE(editor.dialogs.file.open);
+}
+
+TEST_F(Recovery, OpensWhatWasLeftAtTheButton) {
+  Session before(verbsWithDemo(), [] {});
+  ASSERT_TRUE(before.start("demo", json::object()));
+  before.wait();
+  const auto left = recoveryFolder(root, kGone);
+  RecoveryKeeper keeper(left);
+  keeper.keep(before);
+  before.wait();
+  std::ifstream in(left / "owner.json");
+  auto mark = json::parse(in);
+  mark["process_start"] = "another boot 7";
+  write(fs::path(std::to_string(kGone)) / "owner.json", mark.dump());
+
+  Editor editor(verbsWithDemo(), [] {});
+  editor.dialogs.recovery = findLeftWork(root);
+  GuiDriver gui(editor);
+  gui.frames(3);
+  ASSERT_TRUE(gui.click("###open"));
+  gui.settle();
+  EXPECT_EQ(editor.session.document().name, "demo house");
+  EXPECT_TRUE(editor.session.modified());
+  EXPECT_EQ(editor.session.history().undoDescription(), "Recovered demo house");
+}
+
+TEST_F(Recovery, OfABareStartCanBeTakenBack) {
+  Editor editor(verbsWithDemo(), [] {});
+  bool as_usual = false;
+  editor.dialogs.bare = true;
+  editor.dialogs.start_as_usual = [&] { as_usual = true; };
+  GuiDriver gui(editor);
+  gui.frames(3);
+  ASSERT_TRUE(gui.click("###as-usual"));
+  gui.frames(3);
+  EXPECT_TRUE(as_usual);
+  EXPECT_FALSE(editor.dialogs.bare);
+  EXPECT_FALSE(editor.dialogs.start_as_usual) << "preferences are written again";
+}
+
+class OpenTwice : public testing::Test {
+ protected:
+  void SetUp() override {
+    Session first(verbsWithDemo(), [] {});
+    first.start("demo", json::object());
+    first.wait();
+    first.save(project);
+    first.wait();
+  }
+  TemporaryFolder folder;
+  fs::path project = folder.path() / "house";
+};
+
+TEST_F(OpenTwice, IsSaidByTheSecondEditorOnly) {
+  Session one(verbsWithDemo(), [] {}), two(verbsWithDemo(), [] {});
+  one.open(project);
+  one.wait();
+  EXPECT_EQ(one.openElsewhere(), "");
+  one.open(project);  // anew: it is its own
+  one.wait();
+  EXPECT_EQ(one.openElsewhere(), "");
+  two.open(project);
+  two.wait();
+  EXPECT_THAT(two.openElsewhere(), HasSubstr("standpoint editor (process " + std::to_string(getpid())));
+  two.workOnCopy();
+  EXPECT_EQ(two.openElsewhere(), "");
+  EXPECT_TRUE(two.modified());
+  EXPECT_TRUE(two.folder().empty());
+  one.clear();
+  EXPECT_FALSE(fs::exists(project / kOpenMarkFile)) << "nothing is left in the project";
+}
+
+TEST_F(OpenTwice, OffersAWayOnInPlace) {
+  std::string nobody;
+  const auto other = OpenMark::take(project, nobody);
+  ASSERT_TRUE(other);
+  for (const char* button : {"###copy", "###beside", "###close"}) {
+    SCOPED_TRACE(button);
+    Editor editor(verbsWithDemo(), [] {});
+    editor.session.open(project);
+    GuiDriver gui(editor);
+    gui.settle();
+    gui.frames(3);
+    ASSERT_TRUE(gui.click(button));
+    gui.frames(3);
+    EXPECT_EQ(editor.session.openElsewhere(), "");
+    EXPECT_EQ(editor.session.folder().empty(), std::string_view(button) != "###beside");
+    EXPECT_EQ(editor.environment() == nullptr, std::string_view(button) == "###close");
+  }
+}
+
+TEST_F(OpenTwice, IsNotMissedInAFolderThatMayNotBeWritten) {
+  if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  fs::permissions(project, fs::perms::owner_read | fs::perms::owner_exec);
+  Session one(verbsWithDemo(), [] {});
+  one.open(project);
+  one.wait();
+  EXPECT_EQ(one.openElsewhere(), "");
+  EXPECT_TRUE(one.errors().empty());
+  fs::permissions(project, fs::perms::owner_all);
+}
+
+}  // namespace
+}  // namespace standpoint
