@@ -31,7 +31,7 @@ struct OctreeBuilt {
 // Makes the octree file of a cloud, in two passes over the source and one over a scratch file beside `octree`, which
 // has no name, needs 32 bytes a point and is gone with the program. Memory does not grow with the points. The same
 // points give the same bytes, in whatever order and on any number of threads. The file is there when it is whole: a
-// build that is cancelled, killed or out of disk leaves nothing.
+// build that is cancelled or out of disk leaves nothing, one that is killed the hidden part of a PartFile.
 Result<OctreeBuilt> buildOctree(const CloudSource& source, const OctreeKey& key, const std::filesystem::path& octree,
                                 const OctreeOptions& options, Progress& progress);
 
