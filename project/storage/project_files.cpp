@@ -13,6 +13,7 @@
 #include "core/part_file.h"
 #include "importers/gltf/gltf_writer.h"
 #include "project/materials/verification_json.h"
+#include "project/model/bookmarks.h"
 #include "project/storage/project_json.h"
 #include "project/storage/project_lock.h"
 #include "project/survey/underlays.h"
@@ -161,6 +162,8 @@ Result<Document> fromJson(const json& project, const fs::path& folder, Report& r
       report.warn((folder / kProjectFile).string() + " /verification",
                   "the comparison with an underlay is damaged and was dropped; compare again with `standpoint verify`");
   }
+  if (project.contains("bookmarks"))
+    d.bookmarks = std::make_shared<const std::vector<Bookmark>>(bookmarksFrom(project.at("bookmarks")));
   if (project.contains("underlays")) d.underlays = underlaysFrom(project.at("underlays"), folder);
   return d;
 }
@@ -215,6 +218,7 @@ Result<void> saveChanges(const Document& before, const Document& document, const
   if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), folder.string());
 
   json project = documentToJson(document);
+  if (document.bookmarks) project["bookmarks"] = bookmarksToJson(*document.bookmarks);
   if (!document.underlays.empty()) project["underlays"] = underlaysToJson(document.underlays, folder);
   if (document.verification) project["verification"] = verificationToJson(*document.verification);
   const auto there = sharedParts(before, document, folder);
