@@ -17,6 +17,7 @@
 #include "editor/model/catalogue.h"
 #include "editor/model/cloud.h"
 #include "editor/model/expected_view.h"
+#include "editor/model/fly.h"
 #include "editor/model/graphics.h"
 #include "editor/model/guide.h"
 #include "editor/model/import_preview.h"
@@ -43,7 +44,18 @@
 namespace standpoint {
 
 // What the next click in the viewport does.
-enum class Tool { select, placeStation, placeRow, placeTarget, measure, walk, takeMaterial, paintMaterial, layWay };
+enum class Tool {
+  select,
+  placeStation,
+  placeRow,
+  placeTarget,
+  measure,
+  walk,
+  fly,
+  takeMaterial,
+  paintMaterial,
+  layWay
+};
 
 // Which of the two models is looked at; there is one only until it has been optimised.
 enum class ModelSide { lighter, original, both };
@@ -100,6 +112,7 @@ struct ViewportState {
   StationHandle handle = StationHandle::none, hovered_handle = StationHandle::none;
   std::optional<HandledStation> handled_station;    // the chosen one, as its handle was dragged
   std::optional<ViewBeforeStation> before_station;  // while the camera is where an instrument is
+  std::optional<Eigen::Vector3d> flown_to;          // a place that was to be looked at from near
   bool frame_wanted = false;
 };
 
@@ -146,6 +159,7 @@ struct Model : Style {
   PlacementView placement;  // of what is picked
   PlaceFigures place_figures;
   Walk walk;  // while the tool is Tool::walk
+  Fly fly;    // while the tool is Tool::fly
   WalkGround walk_ground;
   WalkPlace wanted_walk;  // from where, as soon as the ground is there
   ViewHistory views;

@@ -18,6 +18,10 @@ float channel(double hue, double lightness, double chroma, double offset) {
 
 }  // namespace
 
+bool isDrawnApart(const ViewState& state, std::uint32_t product) {
+  return state.doors && product < state.doors->products.size() && state.doors->products[product].inScene();
+}
+
 bool isTerrain(const Product& product) {
   return product.ifc_class == "IfcSite" || product.ifc_class == "IfcGeographicElement";
 }

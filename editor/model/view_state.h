@@ -52,6 +52,7 @@ struct ViewState {
   std::shared_ptr<const CollideResult> collision;
   std::shared_ptr<const DeviationField> deviation;  // of `environment`; null until it is there
   std::shared_ptr<const HiddenProducts> hidden;
+  std::shared_ptr<const Environment> doors;  // instead of those of the model, as they stand open; null: as modelled
   std::shared_ptr<const std::vector<std::uint32_t>> selected;
   std::optional<double> cut_height_m;
   ColourMode colour = ColourMode::model;
@@ -68,6 +69,8 @@ struct ViewState {
   bool operator==(const ViewState&) const = default;
 };
 
+// Drawn where it stands open, not where the model has it.
+bool isDrawnApart(const ViewState& state, std::uint32_t product);
 bool isTerrain(const Product& product);  // the ground around what is built
 
 // Where the picture of a scene comes from. The panels know only this; editor/viewport has the one that draws.

@@ -11,6 +11,7 @@ namespace standpoint {
   ROW(drawMaterialsPanel, "materials", "Materials", ICON_PAINT, N, N, L, N, N, N, N)     \
   ROW(drawSurveyPanel, "survey", "Survey", ICON_STATION, N, N, N, N, L, L, L)            \
   ROW(drawOutlinerPanel, "outliner", "Outliner", ICON_LIST, L, L, L, L, L, N, L)         \
+  ROW(drawBookmarksPanel, "bookmarks", "Bookmarks", ICON_BOOKMARK, L, N, N, N, N, N, L)  \
   ROW(drawGuidePanel, "guide", "Guide", ICON_FLAG, L, L, L, L, L, L, L)                  \
   ROW(drawScanPanel, "scan", "Scan", ICON_PLAY, N, N, N, N, R, N, N)                     \
   ROW(drawPlanPanel, "plan", "Plan", ICON_EYE, N, N, N, N, R, N, N)                      \

@@ -65,7 +65,7 @@ void endDrag(Editor& editor) {
     view.probe.position = view.probe.dragged_from;
   } else if (view.dragging && view.dragged) {
     view.dragging = false;
-    if (view.tool != Tool::walk) view.camera = view.camera_before_drag;
+    if (view.tool != Tool::walk && view.tool != Tool::fly) view.camera = view.camera_before_drag;
   }
 }
 
@@ -94,7 +94,8 @@ EscapeLayer escapeLayer(const Editor& editor) {
   if (ImGui::GetCurrentContext()->DragDropActive || dragsInView(editor) || holdsWidget()) return EscapeLayer::drag;
   if (const auto* top = topPopup()) return isModal(*top) ? EscapeLayer::modal : EscapeLayer::popup;
   if (editor.preview.isOpen()) return EscapeLayer::preview;
-  if (editor.view.tool == Tool::walk || editor.walk_ground.preparing()) return EscapeLayer::walk;
+  const auto tool = editor.view.tool;
+  if (tool == Tool::walk || tool == Tool::fly || editor.walk_ground.preparing()) return EscapeLayer::walk;
   if (editor.view.tool != Tool::select) return EscapeLayer::tool;
   const auto& survey = editor.survey;
   const bool chosen = !editor.selection.empty() || survey.station >= 0 || survey.target >= 0 || survey.underlay >= 0;
@@ -122,6 +123,7 @@ void leaveTool(Editor& editor) {
   editor.view.refused_place.reset();
   if (editor.view.row_from) return editor.view.row_from.reset();  // the first end is chosen anew
   if (editor.view.tool != Tool::select) {
+    stopFlying(editor);
     stopWalking(editor);
     editor.view.tool = Tool::select;
     editor.view.measured_from.reset();

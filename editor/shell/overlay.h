@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+
 #include <imgui.h>
 
 namespace standpoint {
@@ -9,7 +11,10 @@ struct Editor;
 
 // Drawn over the picture of the scene with Dear ImGui's draw list: crisp at any scale, and no redraw of the scene.
 void drawMarkers(Editor& editor, ImVec2 origin);  // stations, targets, the measured distance, the tool's preview
-void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size);  // view controls, cut, axes, legend
+void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size);  // view controls, cut, cube, legend
+// A line of words over the lower edge of the view.
+void drawBanner(const Editor& editor, ImVec2 origin, ImVec2 size, const std::string& words, float above_pt,
+                ImU32 ground);
 // A ground for words over the view: the dark gradient of the lowest level needs none.
 void drawPlate(const Editor& editor, ImVec2 at, ImVec2 size);
 // Is the pointer on one of the overlay's controls, so that the scene must not take the click?

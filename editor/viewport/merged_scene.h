@@ -47,6 +47,9 @@ bool isShown(const ViewState& state, std::uint32_t product);  // in the scene an
 
 MergedScene mergeVisible(const ViewState& state);
 
+// What shows the doors of `state` as they stand open.
+ViewState stateOfDoors(const ViewState& state);
+
 // The colours of mergeVisible() without the geometry, for a view that shows the same triangles in another paint.
 struct MergedColours {
   std::vector<Rgba> opaque, transparent;

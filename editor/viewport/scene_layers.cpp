@@ -72,6 +72,10 @@ SceneLayers::SceneLayers(vtkRenderer* renderer) : renderer_(renderer) {
   setUpSurface(shadow_, 0);
   shadow_.actor->ForceTranslucentOn();
   shadow_.actor->GetProperty()->SetLighting(false);
+  setUpSurface(doors_, 1);
+  setUpLines(door_edges_, {0.07, 0.08, 0.10}, 0.55, 1);
+  setUpSurface(door_glass_, 1);
+  door_glass_.actor->ForceTranslucentOn();
   setUpSurface(transparent_, 1);
   transparent_.actor->ForceTranslucentOn();
   setUpSurface(graded_, 1);
@@ -88,20 +92,22 @@ SceneLayers::SceneLayers(vtkRenderer* renderer) : renderer_(renderer) {
   setUpLines(outline_, {0.42, 0.71, 1.0}, 1, 2);
   setUpPoints(cloud_);
   for (Layer* layer : {&opaque_, &shadow_, &transparent_, &graded_, &graded_transparent_, &shapes_, &selected_,
-                       &walkable_, &edges_, &outline_, &grid_, &cloud_})
+                       &walkable_, &edges_, &outline_, &grid_, &cloud_, &doors_, &door_glass_, &door_edges_})
     layer->hide();
 }
 
 void SceneLayers::update(const ViewState& state, const ViewState* last) {
   const bool environment = last == nullptr || last->environment != state.environment;
   const bool shown =
-      environment || last->hidden != state.hidden || last->shapes != state.shapes || last->cloud != state.cloud;
+      environment || last->hidden != state.hidden || last->shapes != state.shapes || last->cloud != state.cloud ||
+      (last->doors == nullptr) != (state.doors == nullptr);  // a walk goes through the same doors from end to end
   const bool theme = last == nullptr || last->graphics.theme != state.graphics.theme;
   if (environment) bounds_ = state.environment ? standpoint::bounds(*state.environment) : Bounds();
   const bool painted = shown || last->materials != state.materials || last->colour != state.colour ||
                        last->wavelength_nm != state.wavelength_nm || last->deviation != state.deviation;
   if (painted) updateSurfaces(state, !shown);
   if (shown || last->edges != state.edges) updateEdges(state);
+  if (painted || last->edges != state.edges || last->doors != state.doors) updateDoors(state);
   if (shown || last->selected != state.selected) updateSelection(state);
   if (last == nullptr || last->collision != state.collision || last->walkable != state.walkable ||
       last->shapes != state.shapes)
@@ -118,7 +124,8 @@ void SceneLayers::update(const ViewState& state, const ViewState* last) {
 }
 
 void SceneLayers::setPixels(int factor) {
-  for (Layer* layer : {&edges_, &grid_}) layer->actor->GetProperty()->SetLineWidth(static_cast<float>(factor));
+  for (Layer* layer : {&edges_, &grid_, &door_edges_})
+    layer->actor->GetProperty()->SetLineWidth(static_cast<float>(factor));
   outline_.actor->GetProperty()->SetLineWidth(static_cast<float>(2 * factor));
   cloud_.actor->GetProperty()->SetPointSize(static_cast<float>(2 * factor));
   for (const auto& u : underlays_) u->layer.actor->GetProperty()->SetPointSize(static_cast<float>(2 * factor));
@@ -156,6 +163,16 @@ void SceneLayers::updateEdges(const ViewState& state) {
   edges_.hide();
   if (state.environment && state.edges && !state.shapes && !state.cloud)
     edges_.show(edge_cache_.edges(state, nullptr, kMostEdges));
+}
+
+void SceneLayers::updateDoors(const ViewState& state) {
+  for (Layer* layer : {&doors_, &door_glass_, &door_edges_}) layer->hide();
+  if (!state.doors || state.shapes || state.cloud) return;
+  const auto doors = stateOfDoors(state);
+  const auto merged = mergeVisible(doors);
+  doors_.show(merged.opaque);
+  door_glass_.show(merged.transparent);
+  if (state.edges) door_edges_.show(door_edge_cache_.edges(doors, nullptr, kMostEdges));
 }
 
 void SceneLayers::updateSelection(const ViewState& state) {
@@ -241,9 +258,9 @@ void SceneLayers::updateGrid(const ViewState& state) {
 }
 
 void SceneLayers::updateCut(const ViewState& state) {
-  std::vector<Layer*> layers = {&opaque_,  &transparent_, &graded_,   &graded_transparent_,
-                                &shapes_,  &selected_,    &walkable_, &edges_,
-                                &outline_, &cloud_};
+  std::vector<Layer*> layers = {
+      &opaque_,  &transparent_, &graded_, &graded_transparent_, &shapes_,    &selected_, &walkable_, &edges_,
+      &outline_, &cloud_,       &doors_,  &door_glass_,         &door_edges_};
   for (const auto& u : underlays_) layers.push_back(&u->layer);
   for (const auto& layer : painted_) layers.push_back(layer.get());
   for (Layer* layer : layers) {

@@ -39,6 +39,7 @@ class SceneLayers {
   void updateSurfaces(const ViewState& state, bool same_triangles);
   void updateEdges(const ViewState& state);
   void updateSelection(const ViewState& state);
+  void updateDoors(const ViewState& state);
   void updateCollision(const ViewState& state);
   void updateCloud(const ViewState& state);
   void updateUnderlays(const ViewState& state);
@@ -48,12 +49,12 @@ class SceneLayers {
 
   vtkRenderer* renderer_;
   Layer opaque_, shadow_, transparent_, graded_, graded_transparent_, shapes_, selected_, walkable_, edges_, outline_,
-      grid_, cloud_;
+      grid_, cloud_, doors_, door_glass_, door_edges_;
   std::vector<std::unique_ptr<Layer>> painted_;  // one for each image in sight
   std::vector<std::uint32_t>
       runs_;  // of what opaque_ and transparent_ show; empty: their colours cannot be changed alone
   TextureCache textures_;
-  EdgeCache edge_cache_;
+  EdgeCache edge_cache_, door_edge_cache_;
   std::vector<std::unique_ptr<UnderlayLayer>> underlays_;
   Bounds bounds_, reach_;
 };

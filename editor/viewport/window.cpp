@@ -141,11 +141,12 @@ class Window {
     pacer_.waitForWork(events_, [&] {
       FramePacer::Reasons reasons{.input = input_.pending(),
                                   .key_held = keyboard::anyHeld(),
-                                  .walker_moves = editor_.walk.moves(),
+                                  .walker_moves = editor_.walk.moves() || editor_.fly.moves(),
                                   .text_edited = ImGui::GetIO().WantTextInput,
                                   .job_runs = editor_.jobRuns(),
                                   .refining = refining()};
-      if (reasons.walker_moves || (reasons.key_held && editor_.walk.active())) moveOn();
+      if (reasons.walker_moves || (reasons.key_held && (editor_.walk.active() || editor_.view.tool == Tool::fly)))
+        moveOn();
       if (!editor_.fine_picture) reasons.until_fine_s = std::max(0.0, untilFine());
       return reasons;
     });
