@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -99,12 +100,21 @@ struct Door {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // the middle of its lower edge, local frame
 };
 
+// Where the agent is too high or too wide to get on, and a smaller body is not.
+struct TightPlace {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // on the floor, local frame
+  double headroom_m = 0;                               // over it, within the smaller body's radius
+  double passes_height_m = 0;                          // of the tallest body that gets past, in steps of 0.1 m …
+  double passes_radius_m = 0;                          // … and of the widest one: the agent's, 0.25 or 0.20 m
+};
+
 // An IfcSpace.
 struct Room {
   std::uint32_t product = 0;
   double walkable_m2 = 0;                              // of it, wherever that leads to
   bool reached = false;                                // one walks there from where most rooms are reached from
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // the middle of its floor, local frame
+  std::optional<TightPlace> tight_place;               // all that keeps the agent out of it
 };
 
 struct CollideResult {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -92,6 +93,23 @@ struct ScanChoice {
   bool operator==(const ScanChoice&) const = default;
 };
 
+// A named view, local frame.
+struct Bookmark {
+  std::string name;
+  Eigen::Vector3d eye = Eigen::Vector3d::Zero();
+  double azimuth_rad = 0, elevation_rad = 0;  // where it looks: clockwise from Y, and up from the horizon
+  double distance_m = 10;                     // to what is looked at
+  double view_angle_rad = 0.7;                // vertical
+  bool parallel = false;                      // then the picture is as high as the other is at that distance
+  std::optional<double> cut_height_m;         // what lies above is cut away
+  bool on_foot = false;                       // the eyes of somebody who walks
+
+  Eigen::Vector3d forward() const {
+    return {std::sin(azimuth_rad) * std::cos(elevation_rad), std::cos(azimuth_rad) * std::cos(elevation_rad),
+            std::sin(elevation_rad)};
+  }
+};
+
 struct Verification;  // of the materials, by a cloud: project/materials/verification.h
 
 // The document is a value: every part is shared and immutable; two parts with the same pointer have not changed, so a
@@ -111,6 +129,7 @@ struct Document {
   std::vector<std::shared_ptr<const Underlay>> underlays;
   std::shared_ptr<const Verification> verification;
   std::shared_ptr<const std::vector<Measurement>> measurements;  // null: none yet
+  std::shared_ptr<const std::vector<Bookmark>> bookmarks;        // null: none
 
   // What is shown, walked in and scanned: the lighter environment where there is one.
   const std::shared_ptr<const Environment>& environment() const {

@@ -288,6 +288,7 @@ ViewState Model::viewState() const {
     state.deviation = both->lighter;
   if (view.walkable || view.shapes) state.collision = document.collision;
   state.hidden = visibility.shared();
+  state.doors = walk.doors();
   state.selected = selection.shared();
   state.cut_height_m = visibility.cut_height_m;
   state.walkable = view.walkable && document.collision;

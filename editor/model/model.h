@@ -26,6 +26,7 @@
 #include "editor/model/cloud_loader.h"
 #include "editor/model/desktop_opener.h"
 #include "editor/model/expected_view.h"
+#include "editor/model/fly.h"
 #include "editor/model/graphics.h"
 #include "editor/model/guide.h"
 #include "editor/model/import_preview.h"
@@ -61,6 +62,7 @@ enum class Tool {
   pickWall,
   pickSection,
   walk,
+  fly,
   takeMaterial,
   paintMaterial,
   layWay
@@ -137,6 +139,7 @@ struct ViewportState {
   StationHandle handle = StationHandle::none, hovered_handle = StationHandle::none;
   std::optional<HandledStation> handled_station;    // the chosen one, as its handle was dragged
   std::optional<ViewBeforeStation> before_station;  // while the camera is where an instrument is
+  std::optional<Eigen::Vector3d> flown_to;          // a place that was to be looked at from near
   bool frame_wanted = false;
 };
 
@@ -191,6 +194,7 @@ struct Model : Style {
   PlacementView placement;  // of what is picked
   PlaceFigures place_figures;
   Walk walk;  // while the tool is Tool::walk
+  Fly fly;    // while the tool is Tool::fly
   WalkGround walk_ground;
   WalkPlace wanted_walk;  // from where, as soon as the ground is there
   ViewHistory views;

@@ -14,6 +14,7 @@ constexpr double kStep_m = 1e-4;
 bool shown(const RayHit& hit, const ViewState& view) {
   if (view.cut_height_m && hit.position.z() > *view.cut_height_m) return false;
   if (view.clip && !view.clip->contains(hit.position)) return false;
+  if (isDrawnApart(view, hit.product)) return false;  // one sees and points through doors that open
   return !view.hidden || hit.product >= view.hidden->size() || (*view.hidden)[hit.product] == 0;
 }
 

@@ -22,6 +22,10 @@ Result<PixelPicture> SceneView::pixels(const ViewState&, int, int) {
   return failure(ErrorKind::unusable, "nothing draws pictures here: OpenGL is missing");
 }
 
+bool isDrawnApart(const ViewState& state, std::uint32_t product) {
+  return state.doors && product < state.doors->products.size() && state.doors->products[product].inScene();
+}
+
 bool isTerrain(const Product& product) {
   return product.ifc_class == "IfcSite" || product.ifc_class == "IfcGeographicElement";
 }

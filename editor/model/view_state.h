@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/environment.h"
-#include "editor/inspect/clip_box.h"
 #include "core/result.h"
+#include "editor/inspect/clip_box.h"
 #include "editor/model/camera.h"
 #include "editor/model/cloud.h"
 #include "editor/model/deviation_view.h"
@@ -56,6 +56,7 @@ struct ViewState {
   std::shared_ptr<const CollideResult> collision;
   std::shared_ptr<const DeviationField> deviation;  // of `environment`; null until it is there
   std::shared_ptr<const HiddenProducts> hidden;
+  std::shared_ptr<const Environment> doors;  // instead of those of the model, as they stand open; null: as modelled
   std::shared_ptr<const std::vector<std::uint32_t>> selected;
   std::optional<double> cut_height_m;
   std::optional<ClipBox> clip;
@@ -76,6 +77,8 @@ struct ViewState {
   bool operator==(const ViewState&) const = default;
 };
 
+// Drawn where it stands open, not where the model has it.
+bool isDrawnApart(const ViewState& state, std::uint32_t product);
 bool isTerrain(const Product& product);  // the ground around what is built
 
 // Where the picture of a scene comes from. The panels know only this; editor/viewport has the one that draws.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,21 +15,24 @@ namespace {
 
 constexpr double kSpeed = 1.8, kFast = 4, kCrouching = 0.9;  // m/s
 constexpr double kSlowest = 0.25, kFastest = 4, kSpeedStep = 1.25;
-constexpr double kViewAngle_rad = 60 * std::numbers::pi / 180;  // vertical
-constexpr double kLookAhead_m = 1;                              // the camera's target is this far before the eyes
+constexpr double kLookAhead_m = 1;  // the camera's target is this far before the eyes
+
+Eigen::Vector2d aheadOf(const Camera& camera) { return {-std::sin(camera.azimuth_rad), std::cos(camera.azimuth_rad)}; }
 
 }  // namespace
 
 bool Walk::start(std::shared_ptr<const WalkedGround> ground, const Body& body, const StartPlace& place,
                  Camera& camera) {
-  Walker walker(ground->obstacles, body, ground->lowest_m);
+  const Body own{body.radius_m, chosen_eyes_m_ ? *chosen_eyes_m_ + Walker::kCrownAboveEyes_m : body.height_m};
+  Walker walker(ground->obstacles, own, ground->lowest_m);
   if (!walker.stand(place.feet + Eigen::Vector3d(0, 0, 0.05), 0.5)) return false;
   if (!walker_) view_angle_before_rad_ = camera.view_angle_rad;
   walker_ = walker;
+  if (ground_ != ground || !doors_) doors_ = std::make_unique<SwingingDoors>(ground->doors);
   ground_ = std::move(ground);
-  body_ = body;
+  body_ = own;
   camera.orthographic = false;
-  camera.view_angle_rad = kViewAngle_rad;
+  camera.view_angle_rad = view_angle_rad_;
   camera.elevation_rad = 0;
   if (place.facing) camera.azimuth_rad = std::atan2(-place.facing->x(), place.facing->y());
   lookFromEyes(camera);
@@ -41,8 +43,26 @@ void Walk::stop(Camera& camera) {
   if (!walker_) return;
   camera.view_angle_rad = view_angle_before_rad_;
   walker_.reset();
+  doors_.reset();
   ground_.reset();
 }
+
+void Walk::setUprightEyes(double height_m) {
+  chosen_eyes_m_ = std::clamp(height_m, kLowestEyes_m, kHighestEyes_m);
+  body_.height_m = *chosen_eyes_m_ + Walker::kCrownAboveEyes_m;
+  if (walker_) walker_->setHeight(body_.height_m);
+}
+
+double Walk::viewAngle_deg() const { return view_angle_rad_ / kRadPerDeg; }
+
+void Walk::setViewAngle(double angle_deg, Camera& camera) {
+  view_angle_rad_ = std::clamp(angle_deg, kNarrowestView_deg, kWidestView_deg) * kRadPerDeg;
+  if (walker_) camera.view_angle_rad = view_angle_rad_;
+}
+
+bool Walk::toggleDoor(const Camera& camera) { return walker_ && doors_->toggle(feet(), aheadOf(camera)); }
+
+bool Walk::doorInReach(const Camera& camera) const { return walker_ && doors_->anyInReach(feet(), aheadOf(camera)); }
 
 double Walk::speed_mps(bool fast) const { return (fast ? kFast : kSpeed) * factor_; }
 
@@ -58,6 +78,8 @@ void Walk::go(const WalkKeys& keys, double seconds, Camera& camera) {
     const double speed = keys.crouch ? kCrouching * factor_ : speed_mps(keys.fast);
     wish.velocity = (right * keys.way.x() + ahead * keys.way.y()).normalized() * speed;
   }
+  doors_->follow(feet(), wish.velocity.normalized(), seconds);
+  walker_->alsoMeet(doors_->shut());
   walker_->go(wish, seconds);
   lookFromEyes(camera);
 }

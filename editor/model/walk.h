@@ -7,7 +7,9 @@
 
 #include <Eigen/Core>
 
+#include "core/units.h"
 #include "editor/model/camera.h"
+#include "editor/model/swinging_doors.h"
 #include "editor/model/walk_ground.h"
 #include "optimizer/walk/start.h"
 #include "optimizer/walk/walker.h"
@@ -23,6 +25,10 @@ struct WalkKeys {
 // Somebody in the model through whose eyes the camera looks.
 class Walk {
  public:
+  static constexpr double kUsualViewAngle_rad = 60 * kRadPerDeg;  // vertical
+  static constexpr double kLowestEyes_m = 1.0, kHighestEyes_m = 2.0;
+  static constexpr double kNarrowestView_deg = 45, kWidestView_deg = 80;
+
   // Stands there and looks level; false, and nothing changes, where there is no room.
   bool start(std::shared_ptr<const WalkedGround> ground, const Body& body, const StartPlace& place, Camera& camera);
   // The camera stays at the eyes.
@@ -38,8 +44,19 @@ class Walk {
 
   const WalkedGround& ground() const { return *ground_; }
   Eigen::Vector3d feet() const { return walker_->feet(); }
-  bool moves() const { return walker_ && walker_->moves(); }
-  double eyeHeight_m() const { return walker_->height() - Walker::kCrownAboveEyes_m; }
+  bool moves() const { return walker_ && (walker_->moves() || doors_->moves()); }
+  double eyeHeight_m() const { return walker_->height() - Walker::kCrownAboveEyes_m; }  // now, crouched or not
+  // Of whoever stands upright, 1.0 to 2.0 m, and the view angle, 45° to 80°; both last.
+  double uprightEyes_m() const { return body_.height_m - Walker::kCrownAboveEyes_m; }
+  void setUprightEyes(double height_m);
+  double viewAngle_deg() const;
+  void setViewAngle(double angle_deg, Camera& camera);
+
+  // Of the nearest door ahead; false where there is none, or where one stands in it.
+  bool toggleDoor(const Camera& camera);
+  bool doorInReach(const Camera& camera) const;
+  // The doors as they stand, null where they are not apart from the model.
+  std::shared_ptr<const Environment> doors() const { return walker_ ? doors_->scene() : nullptr; }
   // What is in the way or has just happened: "headroom 1.68 m, body 1.70 m"; "" when nothing.
   std::string note() const;
 
@@ -48,7 +65,10 @@ class Walk {
 
   std::shared_ptr<const WalkedGround> ground_;
   std::optional<Walker> walker_;
+  std::unique_ptr<SwingingDoors> doors_;  // while there is a walker
   Body body_;
+  std::optional<double> chosen_eyes_m_;
+  double view_angle_rad_ = kUsualViewAngle_rad;
   double factor_ = 1;  // of the usual speed
   double view_angle_before_rad_ = 0;
 };

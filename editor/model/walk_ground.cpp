@@ -2,7 +2,9 @@
 #include "editor/model/walk_ground.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
+#include <vector>
 
 namespace standpoint {
 
@@ -15,9 +17,14 @@ GroundPtr groundOf(std::shared_ptr<const Environment> environment, std::shared_p
   for (const auto& shape : collision->shapes)
     for (const auto& p : shape.mesh.positions) lowest = std::min(lowest, static_cast<double>(p.z()));
   auto spaces = spaceBodies(*environment);
-  Obstacles obstacles(collision->shapes);
-  return std::make_shared<const WalkedGround>(
-      WalkedGround{std::move(environment), std::move(collision), std::move(obstacles), std::move(spaces), lowest});
+  const auto door_of = doorOf(*environment);
+  std::vector<CollisionShape> shapes;
+  std::copy_if(collision->shapes.begin(), collision->shapes.end(), std::back_inserter(shapes),
+               [&](const CollisionShape& shape) { return door_of[shape.product] < 0; });
+  Obstacles obstacles(shapes);
+  auto doors = std::make_shared<const DoorLeaves>(doorLeaves(*environment));
+  return std::make_shared<const WalkedGround>(WalkedGround{
+      std::move(environment), std::move(collision), std::move(obstacles), std::move(doors), std::move(spaces), lowest});
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "optimizer/walk/door_leaves.h"
 #include "optimizer/walk/obstacles.h"
 #include "optimizer/walk/spaces.h"
 #include "project/document.h"
@@ -15,7 +16,8 @@ namespace standpoint {
 struct WalkedGround {
   std::shared_ptr<const Environment> environment;
   std::shared_ptr<const CollideResult> collision;
-  Obstacles obstacles;
+  Obstacles obstacles;  // without doors, which open
+  std::shared_ptr<const DoorLeaves> doors;
   std::vector<SpaceBody> spaces;
   double lowest_m = 0;
 };

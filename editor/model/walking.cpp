@@ -3,8 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numbers>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "core/ceiling.h"
 #include "core/readable_name.h"
 #include "editor/model/model.h"
 #include "editor/words/words.h"
@@ -18,6 +23,8 @@ constexpr std::size_t kMostViews = 50;
 constexpr double kReach_m = 30;      // of whoever walks; from outside one points anywhere
 constexpr double kStoreySill = 0.4;  // m under a storey's level that still belong to it
 constexpr double kBodyMiddle_m = 0.9;
+constexpr double kHighestStorey_m = 6;  // of the uppermost one
+constexpr double kLookDown_rad = 0.25, kNearest_m = 0.6, kFarthest_m = 3.5, kBeforeWall_m = 0.2;
 
 ViewHistory::View viewNow(const Model& model) {
   return {model.view.camera, model.walk.active() ? std::optional(model.walk.feet()) : std::nullopt,
@@ -35,6 +42,7 @@ Error nowhere(std::string message) { return {ErrorKind::unusable, std::move(mess
 
 bool begin(Model& model, const std::shared_ptr<const WalkedGround>& ground, const StartPlace& place) {
   const auto before = viewNow(model);
+  stopFlying(model);
   if (!model.walk.start(ground, model.walker, place, model.view.camera)) return false;
   model.views.push(before);
   model.view.tool = Tool::walk;
@@ -74,6 +82,7 @@ void startWalking(Model& model) {
 
 std::string whyNoLanding(const Landing& landing, const Model& model) {
   if (!landing.why_not.empty()) return landing.why_not;
+  if (isRoofOrCeiling(*model.session.document().imported, landing.product)) return "roof";
   const bool far = model.walk.active() && (landing.feet - model.walk.feet()).norm() > kReach_m;
   return far ? "out of reach" : "";
 }
@@ -106,6 +115,60 @@ void jumpToStation(Model& model, std::size_t station) {
   });
 }
 
+void jumpToStorey(Model& model, std::int32_t node) {
+  const auto& storeys = model.storeys();
+  const auto storey = std::find_if(storeys.begin(), storeys.end(), [&](const auto& s) { return s.node == node; });
+  if (storey == storeys.end()) return;
+  const double low = storey->elevation_m - kStoreySill, high = std::next(storey) == storeys.end()
+                                                                   ? low + kHighestStorey_m
+                                                                   : std::next(storey)->elevation_m - kStoreySill;
+  walkFrom(model, [&model, low, high, node, body = model.walker](const WalkedGround& ground) -> Result<StartPlace> {
+    if (auto place = placeOnLevel(*ground.environment, *ground.collision, ground.obstacles, body, low, high))
+      return *place;
+    return tl::unexpected(nowhere("No floor of 2 m² to stand on in " +
+                                  model.environment()->spatial[static_cast<std::size_t>(node)].name));
+  });
+}
+
+void rememberView(Model& model) { model.views.push(viewNow(model)); }
+
+void walkFromEye(Model& model, const Eigen::Vector3d& eye, const Camera& camera) {
+  walkFrom(model, [eye, camera, body = model.walker](const WalkedGround& ground) -> Result<StartPlace> {
+    Avatar avatar(ground.obstacles, body);
+    const Eigen::Vector3d forward = camera.forward();
+    if (avatar.stand(eye, Walk::kHighestEyes_m + 1)) return StartPlace{avatar.feet(), forward.head<2>().normalized()};
+    return tl::unexpected(nowhere("Nobody can stand there any more"));
+  });
+}
+
+void flyTo(Model& model, const Eigen::Vector3d& place) {
+  constexpr int kDirections = 24;
+  const Eigen::Vector3d middle = place + Eigen::Vector3d(0, 0, kBodyMiddle_m);
+  rememberView(model);
+  stopWalking(model);
+  stopFlying(model);
+  model.visibility.cut_height_m.reset();
+  model.view.flown_to = place;
+  auto& camera = model.view.camera;
+  camera.orthographic = false;
+  camera.view_angle_rad = Walk::kUsualViewAngle_rad;
+  camera.elevation_rad = kLookDown_rad;
+  camera.target = middle;
+  camera.distance_m = kNearest_m;
+  const auto state = model.viewState();
+  double best = camera.azimuth_rad;
+  for (int i = 0; i < kDirections; ++i) {
+    Camera tried = camera;
+    tried.azimuth_rad = 2 * std::numbers::pi * i / kDirections;
+    const auto hit = model.picker.pick({middle, -tried.forward()}, state);
+    const double free = std::min(hit ? hit->range_m - kBeforeWall_m : kFarthest_m, kFarthest_m);
+    if (free <= camera.distance_m + 1e-6) continue;
+    camera.distance_m = free;
+    best = tried.azimuth_rad;
+  }
+  camera.azimuth_rad = best;
+}
+
 void stopWalking(Model& model) {
   model.wanted_walk = nullptr;
   model.walk.stop(model.view.camera);
@@ -115,6 +178,7 @@ void stopWalking(Model& model) {
 void goBackInViews(Model& model) {
   const auto view = model.views.back();
   if (!view) return;
+  stopFlying(model);
   const auto ground = view->feet ? model.walk_ground.of(model.session.document(), model.walker) : nullptr;
   if (ground && model.walk.start(ground, model.walker, {*view->feet, {}}, model.view.camera))
     model.view.tool = Tool::walk;
@@ -140,6 +204,16 @@ void followWalking(Model& model) {
     model.session.errors().push_back({"Cannot walk there", place.error()});
   else if (!begin(model, ground, *place))
     model.session.errors().push_back({"Cannot walk there", nowhere("Not enough room to stand")});
+}
+
+std::string tightPlaceName(const TightPlace& place, const Body& agent) {
+  return place.passes_height_m < agent.height_m - 1e-6 ? fmt::format("headroom {:.2f} m", place.headroom_m)
+                                                       : "too narrow";
+}
+
+std::string whoPasses(const TightPlace& place) {
+  return fmt::format("a body of {:.1f} m with a radius of {:.2f} m passes", place.passes_height_m,
+                     place.passes_radius_m);
 }
 
 std::string walkPlaceName(const Model& model) {

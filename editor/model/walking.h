@@ -46,14 +46,24 @@ void startWalking(Model& model);
 // Stands at a place that is pointed at, in a room, or at the station of that index, and walks on from there.
 void teleport(Model& model, const RayHit& hit);
 void jumpToRoom(Model& model, std::uint32_t product);
+void jumpToStorey(Model& model, std::int32_t node);  // index into Environment::spatial
 void jumpToStation(Model& model, std::size_t station);
 // "" or why nobody can be put where that is.
 std::string whyNoLanding(const Landing& landing, const Model& model);
 
 void stopWalking(Model& model);
+void rememberView(Model& model);  // for Alt+Left
+// Whoever stands there looks as `camera` does.
+void walkFromEye(Model& model, const Eigen::Vector3d& eye, const Camera& camera);
+// From near and indoors, from where most is free around it; the view before comes back with Alt+Left.
+void flyTo(Model& model, const Eigen::Vector3d& place);
 void goBackInViews(Model& model);
 // To be called once a frame: begins to walk when the ground is there.
 void followWalking(Model& model);
+
+// "headroom 1.79 m" or "too narrow", and what passes there: "a body of 1.7 m with a radius of 0.25 m passes".
+std::string tightPlaceName(const TightPlace& place, const Body& agent);
+std::string whoPasses(const TightPlace& place);
 
 // "Living room · Ground floor", of what there is, around the feet of whoever walks.
 std::string walkPlaceName(const Model& model);

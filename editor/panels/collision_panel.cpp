@@ -41,7 +41,7 @@ bool beginRows(const Model& model, const char* id, const char* title, std::size_
   const float height = ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(std::min<std::size_t>(rows, 8) + 1);
   if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg, {0, height})) return false;
   ImGui::TableSetupColumn(ui::Label(title), ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn(ui::Label("State"), ImGuiTableColumnFlags_WidthFixed, model.px(128));
+  ImGui::TableSetupColumn(ui::Label("State"), ImGuiTableColumnFlags_WidthFixed, model.px(150));
   return true;
 }
 
@@ -85,6 +85,16 @@ void drawDoors(const Model& model, CollisionState& state, Actions& actions, cons
   ImGui::EndTable();
 }
 
+// What is in the way, and the way to it.
+void drawTightPlace(const Model& model, Actions& actions, const TightPlace& place) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour(tone::kBad));
+  const auto name = tightPlaceName(place, model.walker);
+  if (ImGui::SmallButton(fmt::format("{}  {}###tight-place", ICON_CROSSHAIRS, name).c_str()))
+    actions.flyTo(place.position);
+  ImGui::PopStyleColor();
+  ui::tooltip(fmt::format("Not reachable: {} on the way; {}. Click to see the place", name, whoPasses(place)));
+}
+
 void drawRooms(const Model& model, Actions& actions, const CollideResult& result) {
   if (result.rooms.empty()) return;
   ui::heading(model, "Rooms");
@@ -94,6 +104,11 @@ void drawRooms(const Model& model, Actions& actions, const CollideResult& result
     beginRow(static_cast<int>(i));
     selectable(model, actions, room.product);
     ImGui::TableNextColumn();
+    if (room.tight_place) {
+      drawTightPlace(model, actions, *room.tight_place);
+      ImGui::PopID();
+      continue;
+    }
     const char* text = room.reached           ? ICON_CHECK "  reached"
                        : room.walkable_m2 > 0 ? ICON_BAN "  not reachable"
                                               : ICON_INFO "  no floor";

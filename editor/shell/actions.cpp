@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 #include "core/data_folder.h"
+#include "editor/model/bookmark_steps.h"
 #include "editor/model/floor_plan.h"
 #include "editor/model/interface_scale.h"
 #include "editor/model/station_steps.h"
@@ -16,6 +17,7 @@
 #include "editor/shell/escape.h"
 #include "editor/shell/import_preview.h"
 #include "editor/shell/inspect_actions.h"
+#include "editor/shell/moving.h"
 #include "editor/shell/tour_card.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keyboard.h"
@@ -87,6 +89,8 @@ std::string whyWalkNot(const Editor& e) {
   return collision && collision->walkable.triangles.empty() ? "There is no walkable surface" : "";
 }
 void lookFrom(Editor& e, StandardView view) {
+  stopFlying(e);
+  stopWalking(e);
   look(e.view.camera, view);
   e.view.camera.orthographic = view != StandardView::corner;
   frame(e.view.camera, e.buildingBounds(), e.view.size.x() / std::max(e.view.size.y(), 1.0));
@@ -316,6 +320,20 @@ const std::array kOwn = {
            [](Editor& e) { e.view.walkable = !e.view.walkable; },
            whyNoCollision},
     Action{"walk", "Walk mode (W A S D)", ICON_WALK, {'W'}, walk, whyWalkNot},
+    Action{"fly",
+           "Fly mode (again: walk)",
+           ICON_PLANE,
+           {'U'},
+           [](Editor& e) { e.view.tool == Tool::fly ? startWalking(e) : startFlying(e); },
+           whyNoModel},
+    Action{"door",
+           "Open or close the door ahead (E)",
+           "",
+           {},
+           [](Editor& e) { e.walk.toggleDoor(e.view.camera); },
+           [](const Editor& e) {
+             return e.walk.doorInReach(e.view.camera) ? std::string() : std::string("Walk up to a door first");
+           }},
     Action{"teleport",
            "Teleport: click where to stand (hold T)",
            ICON_CROSSHAIRS,
@@ -328,6 +346,12 @@ const std::array kOwn = {
            {kKeyLeft, false, false, true},
            [](Editor& e) { goBackInViews(e); },
            [](const Editor& e) { return e.views.empty() ? std::string("No previous view") : std::string(); }},
+    Action{"add-bookmark",
+           "Add bookmark of this view",
+           ICON_BOOKMARK,
+           {'B', true},
+           [](Editor& e) { addBookmark(e); },
+           [](const Editor& e) { return e.environment() ? e.session.whyNot("bookmark") : whyNoModel(e); }},
     Action{"shapes",
            "Collision shapes",
            ICON_CUBES,
@@ -610,6 +634,7 @@ void runShortcuts(Editor& editor) {
   for (const auto& action : actions()) {
     const auto& s = action.shortcut;
     if (s.key == kKeyEscape) continue;  // closeTopmost
+    if (!s.ctrl && !s.alt && movesByKey(editor, s.key)) continue;
     if (io.WantTextInput && !leavesText(s)) continue;
     const bool shifted = s.shift == io.KeyShift || s.key == kKeyPlus;  // some keyboards need Shift for a plus
     if (s.key != 0 && s.ctrl == io.KeyCtrl && s.alt == io.KeyAlt && shifted && keyboard::pressed(s.key)) {

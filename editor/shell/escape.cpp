@@ -68,7 +68,7 @@ void endDrag(Editor& editor) {
     view.clip.face = -1;
   } else if (view.dragging && view.dragged) {
     view.dragging = false;
-    if (view.tool != Tool::walk) view.camera = view.camera_before_drag;
+    if (view.tool != Tool::walk && view.tool != Tool::fly) view.camera = view.camera_before_drag;
   }
 }
 
@@ -97,7 +97,8 @@ EscapeLayer escapeLayer(const Editor& editor) {
   if (ImGui::GetCurrentContext()->DragDropActive || dragsInView(editor) || holdsWidget()) return EscapeLayer::drag;
   if (const auto* top = topPopup()) return isModal(*top) ? EscapeLayer::modal : EscapeLayer::popup;
   if (editor.preview.isOpen()) return EscapeLayer::preview;
-  if (editor.view.tool == Tool::walk || editor.walk_ground.preparing()) return EscapeLayer::walk;
+  const auto tool = editor.view.tool;
+  if (tool == Tool::walk || tool == Tool::fly || editor.walk_ground.preparing()) return EscapeLayer::walk;
   if (editor.view.tool != Tool::select) return EscapeLayer::tool;
   const auto& survey = editor.survey;
   const bool chosen = !editor.selection.empty() || survey.station >= 0 || survey.target >= 0 || survey.underlay >= 0 ||
@@ -128,6 +129,7 @@ void leaveTool(Editor& editor) {
   if (editor.view.tool == Tool::measure && !editor.view.measuring.points.empty())
     return editor.view.measuring.points.clear();  // begun anew
   if (editor.view.tool != Tool::select) {
+    stopFlying(editor);
     stopWalking(editor);
     editor.view.tool = Tool::select;
     return;

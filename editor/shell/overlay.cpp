@@ -12,6 +12,8 @@
 #include "editor/shell/coverage_overlay.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/expected_overlay.h"
+#include "editor/shell/moving.h"
+#include "editor/shell/navigation_cube_view.h"
 #include "editor/shell/row_overlay.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/number_field.h"
@@ -23,13 +25,6 @@ namespace standpoint {
 namespace {
 
 constexpr float kMargin = 10;
-constexpr float kAxesRadius = 34;
-
-ImVec2 axesCentre(const Editor& editor, ImVec2 origin, ImVec2 size) {
-  const float inset = editor.px(kMargin + kAxesRadius + 8);
-  return {origin.x + size.x - inset, origin.y + inset + ImGui::GetFrameHeight()};
-}
-
 // Behind the last chip where there is room for one of this width before the view's edge, else below.
 void beside(const Editor& editor, float width) {
   ImGui::SameLine();
@@ -178,28 +173,6 @@ void cloudChip(Editor& editor) {
   ImGui::TextUnformatted(trf("{:.1f} million points loaded", static_cast<double>(cloud.points_in_file) / 1e6).c_str());
 }
 
-// A line near the lower edge, `above_pt` over it.
-void drawBanner(const Editor& editor, ImVec2 origin, ImVec2 size, const ui::Text& words, float above_pt, ImU32 ground) {
-  const ImVec2 text = ImGui::CalcTextSize(words.c_str());
-  const float pad = editor.px(8);
-  const ImVec2 at(origin.x + (size.x - text.x) / 2, origin.y + size.y - text.y - editor.px(above_pt));
-  auto& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled({at.x - pad, at.y - pad / 2}, {at.x + text.x + pad, at.y + text.y + pad / 2}, ground, pad / 2);
-  list.AddText(at, IM_COL32(255, 255, 255, 255), words.c_str());
-}
-
-// Where whoever walks is, in the frame of the file, and what stops them.
-std::string walkLine(const Editor& editor) {
-  const auto& walk = editor.walk;
-  const auto toCentimetre = [](double x) { return std::round(100 * x) / 100 + 0.0; };  // and no "-0.00"
-  const Eigen::Vector3d p = (walk.feet() + editor.shift_m()).unaryExpr(toCentimetre);
-  std::string line = fmt::format("{:.2f}  {:.2f}  {:.2f} m", p.x(), p.y(), p.z());
-  if (const auto name = walkPlaceName(editor); !name.empty()) line += "   " + name;
-  line += trf("   eye {:.2f} m   {:.1f} m/s", walk.eyeHeight_m(), walk.speed_mps(false));
-  if (const auto note = walk.note(); !note.empty()) line += "   " + note;
-  return line;
-}
-
 // What has become of the clouds that are shown; mostly "".
 std::string cloudTrouble(const Editor& editor) {
   const auto& missing = editor.missingClouds();
@@ -222,7 +195,7 @@ void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
         trf("Preparing the walkable surface … {:.0f} %   Esc to cancel", 100 * editor.walk_ground.fraction());
     return drawBanner(editor, origin, size, words, 26, kHint);
   }
-  if (editor.walk.active()) drawBanner(editor, origin, size, walkLine(editor), 52, IM_COL32(24, 26, 30, 220));
+  drawMovingLine(editor, origin, size);
   if (editor.view.teleport.active()) {
     const char* words = editor.view.teleport.by_key ? "Aim with the pointer, release T to stand there   Esc to cancel"
                                                     : "Click where to stand   Esc to cancel";
@@ -232,7 +205,7 @@ void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
     return drawBanner(editor, origin, size, "Drag to look around   Alt+Left to go back", 26, kHint);
   const auto& view = editor.view;
   std::string measuring;
-  const char* hint = nullptr;
+  const char* hint = movingHint(editor);
   switch (view.tool) {
     case Tool::placeStation: hint = "Click the floor to add a station   Esc to leave"; break;
     case Tool::placeRow:
@@ -250,61 +223,13 @@ void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
     case Tool::paintMaterial: hint = "Click surfaces to assign the selected material   Esc to leave"; break;
     case Tool::layWay: hint = "Click the floor to add a waypoint   Esc to leave"; break;
     case Tool::walk:
-      hint = "W A S D to walk, Shift to run, C to crouch, T to teleport, drag to look around   Esc to leave";
-      break;
+    case Tool::fly:
     case Tool::select: break;
   }
-  if (editor.environment() && !editor.picker.ready() && hint != nullptr && editor.view.tool != Tool::walk)
+  if (editor.environment() && !editor.picker.ready() && hint != nullptr && movingHint(editor) == nullptr)
     hint = "Preparing the model for picking …";
   if (hint == nullptr) return;
   drawBanner(editor, origin, size, hint, 26, kHint);
-}
-
-struct Axis {
-  Eigen::Vector3d direction;
-  ImU32 tone;
-  const char* name;
-  StandardView view;
-};
-
-void lookAlong(Editor& editor, StandardView view) {
-  look(editor.view.camera, view);
-  editor.view.camera.orthographic = true;
-  frame(editor.view.camera, editor.buildingBounds(), editor.view.size.x() / std::max(editor.view.size.y(), 1.0));
-}
-
-// Six balls on the axes, the far ones first; a click looks along the axis.
-void drawAxes(Editor& editor, ImVec2 origin, ImVec2 size) {
-  const std::array axes = {Axis{Eigen::Vector3d::UnitX(), IM_COL32(226, 88, 88, 255), "X", StandardView::right},
-                           Axis{-Eigen::Vector3d::UnitX(), IM_COL32(226, 88, 88, 255), "", StandardView::left},
-                           Axis{Eigen::Vector3d::UnitY(), IM_COL32(118, 190, 92, 255), "Y", StandardView::back},
-                           Axis{-Eigen::Vector3d::UnitY(), IM_COL32(118, 190, 92, 255), "", StandardView::front},
-                           Axis{Eigen::Vector3d::UnitZ(), IM_COL32(84, 146, 240, 255), "Z", StandardView::top},
-                           Axis{-Eigen::Vector3d::UnitZ(), IM_COL32(84, 146, 240, 255), "", StandardView::bottom}};
-  const Camera& camera = editor.view.camera;
-  const Eigen::Vector3d right = camera.right(), up = camera.up(), forward = camera.forward();
-  const ImVec2 centre = axesCentre(editor, origin, size);
-  std::array<int, 6> order = {0, 1, 2, 3, 4, 5};
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    return axes[static_cast<std::size_t>(a)].direction.dot(forward) >
-           axes[static_cast<std::size_t>(b)].direction.dot(forward);
-  });
-  auto& list = *ImGui::GetWindowDrawList();
-  const float reach = editor.px(kAxesRadius - 8), ball = editor.px(8);
-  for (const int i : order) {
-    const Axis& axis = axes[static_cast<std::size_t>(i)];
-    const ImVec2 p(centre.x + static_cast<float>(axis.direction.dot(right)) * reach,
-                   centre.y - static_cast<float>(axis.direction.dot(up)) * reach);
-    const bool named = *axis.name != 0;
-    ImVec4 fill = colour(axis.tone);
-    fill.w = named ? 1 : 0.28F;
-    if (named) list.AddLine(centre, p, axis.tone, editor.px(2));
-    list.AddCircleFilled(p, named ? ball : ball * 0.8F, ImGui::ColorConvertFloat4ToU32(fill));
-    const ImVec2 text = ImGui::CalcTextSize(axis.name);
-    if (named) list.AddText({p.x - text.x / 2, p.y - text.y / 2}, IM_COL32(20, 22, 26, 255), axis.name);
-    ImGui::SetCursorScreenPos({p.x - ball, p.y - ball});
-    if (ImGui::InvisibleButton(fmt::format("###axis{}", i).c_str(), {2 * ball, 2 * ball})) lookAlong(editor, axis.view);
-  }
 }
 
 void drawReflectanceLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
@@ -370,6 +295,15 @@ float chipWidth(const Editor& editor, const std::string& label, float least_pt) 
   return std::max(editor.px(least_pt), ImGui::CalcTextSize(label.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x);
 }
 
+void drawBanner(const Editor& editor, ImVec2 origin, ImVec2 size, const ui::Text& words, float above_pt, ImU32 ground) {
+  const ImVec2 text = ImGui::CalcTextSize(words.c_str());
+  const float pad = editor.px(8);
+  const ImVec2 at(origin.x + (size.x - text.x) / 2, origin.y + size.y - text.y - editor.px(above_pt));
+  auto& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled({at.x - pad, at.y - pad / 2}, {at.x + text.x + pad, at.y + text.y + pad / 2}, ground, pad / 2);
+  list.AddText(at, IM_COL32(255, 255, 255, 255), words.c_str());
+}
+
 void drawPlate(const Editor& editor, ImVec2 at, ImVec2 size) {
   if (editor.graphicsLook() == GraphicsLook()) return;
   const float rim = editor.px(4);
@@ -378,8 +312,8 @@ void drawPlate(const Editor& editor, ImVec2 at, ImVec2 size) {
 }
 
 bool overOverlay(const Editor& editor, ImVec2 origin, ImVec2 size) {
-  const ImVec2 p = ImGui::GetIO().MousePos, c = axesCentre(editor, origin, size);
-  if (std::hypot(p.x - c.x, p.y - c.y) < editor.px(kAxesRadius)) return true;
+  const ImVec2 p = ImGui::GetIO().MousePos;
+  if (overNavigationCube(editor, origin, size)) return true;
   return p.y < origin.y + editor.px(kMargin) + editor.overlay_size.y() &&
          p.x < origin.x + editor.px(kMargin) + editor.overlay_size.x();
 }
@@ -404,11 +338,12 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   expectedChips(editor);
   coverageChips(editor);
   rowChips(editor);
+  movingChips(editor);
   ImGui::EndGroup();
   const ImVec2 drawn = ImGui::GetItemRectSize();
   editor.overlay_size = {drawn.x, drawn.y};
   ImGui::PopStyleColor();
-  drawAxes(editor, origin, size);
+  drawNavigationCube(editor, origin, size);
   drawReflectanceLegend(editor, origin, size);
   drawConfidenceLegend(editor, origin, size);
   drawDeviationLegend(editor, origin, size);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <sstream>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -8,6 +9,7 @@
 
 #include "core/readable_name.h"
 #include "editor/labels/alphabetical.h"
+#include "editor/model/bookmark_steps.h"
 #include "editor/panels/panels.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
@@ -67,30 +69,76 @@ void sortAsPeopleDo(std::vector<Entry>& entries) {
   entries = std::move(sorted);
 }
 
-// "@" jumps to rooms, "#" to stations.
-std::vector<Entry> places(Editor& editor, char kind) {
+std::vector<Entry> roomsAndStoreys(Editor& editor) {
   std::vector<Entry> all;
-  const auto& document = editor.session.document();
-  if (kind == '@' && document.imported)
-    for (std::uint32_t p = 0; p < document.imported->products.size(); ++p) {
-      const auto& product = document.imported->products[p];
-      if (product.ifc_class == "IfcSpace" && !product.excluded)
-        all.push_back({fmt::format("room-{}", p), ICON_WALK, readableName(product), product.storey, "",
-                       [&editor, p] { jumpToRoom(editor, p); }});
-    }
+  const auto& environment = editor.session.document().imported;
+  if (!environment) return all;
+  for (std::uint32_t p = 0; p < environment->products.size(); ++p) {
+    const auto& product = environment->products[p];
+    if (product.ifc_class == "IfcSpace" && !product.excluded)
+      all.push_back({fmt::format("room-{}", p), ICON_WALK, readableName(product), product.storey, "",
+                     [&editor, p] { jumpToRoom(editor, p); }});
+  }
   sortAsPeopleDo(all);
-  if (kind == '#' && document.job)
-    for (std::size_t i = 0; i < document.job->stations.size(); ++i)
-      all.push_back({fmt::format("station-{}", i), ICON_STATION, document.job->stations[i].name, tr("Station"), "",
-                     [&editor, i] { jumpToStation(editor, i); }});
+  for (const auto& level : editor.storeys()) {
+    const auto& name = environment->spatial[static_cast<std::size_t>(level.node)].name;
+    all.push_back({fmt::format("storey-{}", level.node), ICON_STOREY, name.empty() ? tr("Storey") : name,
+                   trf("Storey at {:+.2f} m", level.elevation_m + editor.shift_m().z()), "",
+                   [&editor, node = level.node] { jumpToStorey(editor, node); }});
+  }
   return all;
 }
 
+std::vector<Entry> stations(Editor& editor) {
+  std::vector<Entry> all;
+  const auto& job = editor.session.document().job;
+  for (std::size_t i = 0; job && i < job->stations.size(); ++i)
+    all.push_back({fmt::format("station-{}", i), ICON_STATION, job->stations[i].name, tr("Station"), "",
+                   [&editor, i] { jumpToStation(editor, i); }});
+  return all;
+}
+
+std::vector<Entry> bookmarks(Editor& editor) {
+  std::vector<Entry> all;
+  const auto& kept = editor.session.document().bookmarks;
+  for (std::size_t i = 0; kept && i < kept->size(); ++i)
+    all.push_back({fmt::format("bookmark-{}", i), ICON_BOOKMARK, (*kept)[i].name, tr("Bookmark"), "",
+                   [&editor, i] { goToBookmark(editor, i); }});
+  return all;
+}
+
+// Of a building with ten thousand, as many as anybody reads; asked in every frame, so that no others are made.
+std::vector<Entry> products(Editor& editor, const std::string& query) {
+  constexpr std::size_t kMost = 200;
+  std::vector<Entry> all;
+  const auto& environment = editor.environment();
+  if (!environment) return all;
+  for (std::uint32_t p = 0; p < environment->products.size() && all.size() < kMost; ++p) {
+    const auto& product = environment->products[p];
+    if (!product.inScene()) continue;
+    Entry entry{fmt::format("product-{}", p), ICON_CUBE, productLabel(product), product.storey, "", [&editor, p] {
+                  rememberView(editor);
+                  stopFlying(editor);
+                  stopWalking(editor);
+                  editor.select(p, true);
+                  editor.frameSelection();
+                }};
+    if (matches(entry, query)) all.push_back(std::move(entry));
+  }
+  return all;
+}
+
+// "@" jumps to rooms and storeys, "#" to stations, "*" to bookmarks, "/" to products.
 std::vector<Entry> matching(Editor& editor, const std::string& query) {
-  const bool jumps = query.starts_with('@') || query.starts_with('#');
+  const bool jumps = !query.empty() && std::string_view("@#*/").find(query[0]) != std::string_view::npos;
+  const std::string words = jumps ? query.substr(1) : query;
+  if (jumps && query[0] == '/') return products(editor, words);
   std::vector<Entry> shown;
-  for (auto& entry : jumps ? places(editor, query[0]) : entries(editor))
-    if (matches(entry, jumps ? query.substr(1) : query)) shown.push_back(std::move(entry));
+  for (auto& entry : !jumps            ? entries(editor)
+                     : query[0] == '@' ? roomsAndStoreys(editor)
+                     : query[0] == '#' ? stations(editor)
+                                       : bookmarks(editor))
+    if (matches(entry, words)) shown.push_back(std::move(entry));
   return shown;
 }
 
@@ -135,7 +183,9 @@ void drawPalette(Editor& editor) {
   }
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-FLT_MIN);
-  if (ImGui::InputTextWithHint("###query", tr("Search commands; @ for rooms, # for stations").c_str(), &state.query))
+  if (ImGui::InputTextWithHint("###query",
+                               tr("Search commands; @ rooms and storeys, # stations, * bookmarks, / products").c_str(),
+                               &state.query))
     state.chosen = 0;
   const bool enter = keyboard::pressed(kKeyEnter);
   const auto shown = matching(editor, state.query);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "editor/model/bookmark_steps.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
@@ -49,6 +50,8 @@ void PanelActions::scrolled() { editor_.outliner.scroll_to.reset(); }
 
 void PanelActions::frameSelection() { editor_.frameSelection(); }
 void PanelActions::bringIntoView(const Bounds& box) { editor_.bringIntoView(box); }
+void PanelActions::flyTo(const Eigen::Vector3d& place) { standpoint::flyTo(editor_, place); }
+void PanelActions::goToBookmark(std::size_t bookmark) { standpoint::goToBookmark(editor_, bookmark); }
 void PanelActions::colourBy(ColourMode colour) { editor_.view.colour = colour; }
 void PanelActions::showSide(ModelSide side) { editor_.view.side = side; }
 void PanelActions::showReflectanceAt(double wavelength_nm) { editor_.view.wavelength_nm = wavelength_nm; }

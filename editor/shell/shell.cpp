@@ -118,7 +118,9 @@ void viewMenu(Editor& editor) {
                  "shapes", "labels"});
   submenu(editor, "      Points###menu-points", {"points-larger", "points-smaller", "shaded-points"});
   submenu(editor, "      More labels###menu-labels", {"room-names", "labels-through-walls"});
-  items(editor, {"", "walk", "teleport", "look-from-station", ""});
+  items(editor, {"", "walk", "teleport", "look-from-station"});
+  submenu(editor, "      More moves###menu-moves", {"fly", "door", "add-bookmark"});
+  ImGui::Separator();
   submenu(editor, ICON_PAINT "  Colour by###menu-colour",
           {"colour-model", "colour-material", "colour-reflectance", "colour-confidence", "colour-intensity",
            "colour-noise", "colour-fate", "colour-coverage", "colour-spacing", "colour-incidence"});

@@ -14,6 +14,7 @@
 #include "editor/shell/expected_overlay.h"
 #include "editor/shell/inspect_tools.h"
 #include "editor/shell/material_brush.h"
+#include "editor/shell/moving.h"
 #include "editor/shell/overlay.h"
 #include "editor/shell/place_ghost.h"
 #include "editor/shell/points_legend.h"
@@ -61,9 +62,9 @@ void continueDrag(Editor& editor) {
   if (moved > kClickSlack_px * editor.scale) view.dragged = true;
   if (!view.dragged || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) return;
   const Eigen::Vector2d drag(io.MouseDelta.x, io.MouseDelta.y);
-  if (view.tool == Tool::walk || looksFromStation(editor))
+  if (view.tool == Tool::walk || view.tool == Tool::fly || looksFromStation(editor))
     return orbit(view.camera, -drag / editor.scale, view.camera.eye());
-  if (io.MouseDown[0] && !io.KeyShift)
+  if (io.MouseDown[0] && !io.KeyShift && !io.KeyAlt)  // Alt: for whoever has no middle button
     orbit(view.camera, drag / editor.scale, view.pivot);
   else
     pan(view.camera, drag, view.size, view.pivot_depth_m);
@@ -128,7 +129,8 @@ void click(Editor& editor) {
     case Tool::takeMaterial: act = takeMaterial; break;
     case Tool::paintMaterial: act = paintMaterial; break;
     case Tool::layWay: act = layWay; break;
-    case Tool::walk: return;
+    case Tool::walk:
+    case Tool::fly: return;
     case Tool::select: break;
   }
   if (act != nullptr) {
@@ -157,24 +159,13 @@ void contextMenu(Editor& editor) {
   if (ImGui::MenuItem(ui::Label(ICON_STATION "  Add station here###station-here"), nullptr, false, why.empty()))
     placeStation(editor, *hit);
   ui::tooltip(why);
+  if (hit && ImGui::MenuItem(ui::Label(ICON_WALK "  Stand here###stand-here"))) teleport(editor, *hit);
   if (hit && expectedQuantity(editor.view.colour) &&
       ImGui::MenuItem(ui::Label(ICON_EYE "  Probe from here###probe-here")))
     putProbeOn(editor, hit->position);
   if (ImGui::MenuItem(ui::Label(ICON_TARGET "  Add target here###target-here"), nullptr, false, why.empty()))
     placeTarget(editor, *hit);
   ImGui::EndPopup();
-}
-
-void handleWalking(Editor& editor) {
-  const auto& io = ImGui::GetIO();
-  if (!editor.walk.active()) return;
-  const auto axis = [](int less, int more) {
-    return (keyboard::held(more) ? 1.0 : 0.0) - (keyboard::held(less) ? 1.0 : 0.0);
-  };
-  WalkKeys keys;
-  if (!io.WantTextInput && !io.KeyCtrl && !ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId))
-    keys = {{axis('A', 'D'), axis('S', 'W')}, io.KeyShift, keyboard::held('C')};
-  editor.walk.go(keys, io.DeltaTime, editor.view.camera);
 }
 
 void handleMouse(Editor& editor, ImVec2 origin, bool hovered) {
@@ -199,15 +190,7 @@ void handleMouse(Editor& editor, ImVec2 origin, bool hovered) {
   }
   if (hovered && ImGui::IsMouseDoubleClicked(0) && view.tool == Tool::select) editor.frameSelection();
   if (view.dragging && !io.MouseDown[0] && !io.MouseDown[1] && !io.MouseDown[2]) view.dragging = false;
-  if (hovered && io.MouseWheel != 0 && view.tool == Tool::walk) {
-    editor.walk.changeSpeed(io.MouseWheel);
-  } else if (hovered && io.MouseWheel != 0) {
-    const auto ray = rayThrough(view.camera, pointer(origin), view.size);
-    const Eigen::Vector3d on_target_plane =
-        ray.origin + ray.direction * ((view.camera.target - ray.origin).dot(view.camera.forward()) /
-                                      ray.direction.dot(view.camera.forward()));
-    zoom(view.camera, io.MouseWheel, view.hover ? view.hover->position : on_target_plane);
-  }
+  if (hovered) handleWheel(editor, origin);
 }
 
 void drawScene(SceneView* scene, const ViewState& state, ImVec2 origin, ImVec2 size, bool fine) {
@@ -299,7 +282,7 @@ void drawViewport(Editor& editor) {
                        dragClip(editor, view.in_right_half ? right : origin, hovered);
   if (!on_probe && !on_handle && !on_station && !on_clip)
     handleMouse(editor, view.in_right_half ? right : origin, hovered);
-  handleWalking(editor);
+  handleMoving(editor);
   if (previewed) return;
   drawExpectedLegend(editor, origin, size);
   drawCoverageLegend(editor, origin, size);
@@ -312,6 +295,7 @@ void drawViewport(Editor& editor) {
   drawRow(editor, both ? right : origin);
   drawPlaceGhost(editor, both ? right : origin, size);
   drawTeleport(editor, both ? right : origin);
+  drawTightPlaces(editor, both ? right : origin);
   drawTour(editor, origin, whole);
   contextMenu(editor);
   drawMaterialMenu(editor);

@@ -208,8 +208,22 @@ std::size_t endOf(InstanceRange range, const Environment& environment) {
 }  // namespace
 
 bool isShown(const ViewState& state, std::uint32_t product) {
-  if (!state.environment->products[product].inScene()) return false;
+  if (!state.environment->products[product].inScene() || isDrawnApart(state, product)) return false;
   return !state.hidden || product >= state.hidden->size() || (*state.hidden)[product] == 0;
+}
+
+ViewState stateOfDoors(const ViewState& state) {
+  ViewState doors = state;
+  doors.environment = state.doors;
+  doors.doors.reset();
+  doors.deviation.reset();
+  doors.selected.reset();
+  if (state.materials && !state.materials->result.assignment.faces.empty()) {  // they are of the whole model's faces
+    auto plain = std::make_shared<MaterialChoice>(*state.materials);
+    plain->result.assignment.faces.clear();
+    doors.materials = std::move(plain);
+  }
+  return doors;
 }
 
 MergedScene mergeVisible(const ViewState& state, InstanceRange range) {

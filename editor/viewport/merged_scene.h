@@ -52,6 +52,9 @@ struct InstanceRange {
 
 MergedScene mergeVisible(const ViewState& state, InstanceRange range = {});
 
+// What shows the doors of `state` as they stand open.
+ViewState stateOfDoors(const ViewState& state);
+
 // The colours of mergeVisible() without the geometry, for a view that shows the same triangles in another paint.
 struct MergedColours {
   std::vector<Rgba> opaque, transparent;

@@ -42,7 +42,7 @@ std::vector<InstanceRange> rangesOf(const Environment& environment, std::uint64_
 }
 
 ModelPieces::Look ModelPieces::lookOf(const ViewState& state) {
-  return {state.hidden, state.materials, state.deviation, state.colour, state.wavelength_nm};
+  return {state.hidden, state.materials, state.deviation, state.colour, state.wavelength_nm, state.doors != nullptr};
 }
 
 void ModelPieces::plan(const ViewState& state) {
@@ -96,7 +96,7 @@ bool ModelPieces::update(const ViewState& state) {
 
 // The same products as it is to show, and the same triangles of them.
 bool ModelPieces::shows(const Piece& piece, const ViewState& state, const Look& look) {
-  if (!piece.look) return false;
+  if (!piece.look || piece.look->doors_apart != look.doors_apart) return false;
   if (piece.look->hidden == look.hidden) return true;
   for (auto i = piece.range.first; i < piece.range.end; ++i)
     if (!sameShown(piece.look->hidden, look.hidden, state.environment->instances[i].product)) return false;

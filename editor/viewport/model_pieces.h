@@ -42,6 +42,7 @@ class ModelPieces {
     std::shared_ptr<const DeviationField> deviation;
     ColourMode colour = ColourMode::model;
     double wavelength_nm = 0;
+    bool doors_apart = false;  // a walk goes through the same doors from end to end
     bool operator==(const Look&) const = default;
   };
   struct Piece {

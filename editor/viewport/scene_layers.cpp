@@ -38,14 +38,19 @@ SceneLayers::SceneLayers(vtkRenderer* renderer) : renderer_(renderer), model_(re
   grid_.drawLines({0.6, 0.6, 0.6}, 1, 1);
   shadow_.drawSurface(0);
   shadow_.actor->GetProperty()->SetLighting(false);
+  doors_.drawSurface(1);
+  door_glass_.drawSurface(1);
+  door_edges_.drawLines({0.07, 0.08, 0.10}, 0.55, 1);
   shapes_.drawSurface(1);
   selected_.drawSurface(-1);
   selected_.actor->GetProperty()->SetAmbient(0.5);
   walkable_.drawSurface(-1);
   walkable_.actor->GetProperty()->SetAmbient(0.8);
   outline_.drawLines({0.42, 0.71, 1.0}, 1, 2);
-  for (Layer* layer : {&grid_, &shadow_, &selected_, &walkable_}) layer->actor->ForceTranslucentOn();
-  for (Layer* layer : {&shadow_, &shapes_, &selected_, &walkable_, &outline_, &grid_}) layer->hide();
+  for (Layer* layer : {&grid_, &shadow_, &door_glass_, &selected_, &walkable_}) layer->actor->ForceTranslucentOn();
+  for (Layer* layer :
+       {&shadow_, &doors_, &door_glass_, &door_edges_, &shapes_, &selected_, &walkable_, &outline_, &grid_})
+    layer->hide();
   arrange();
 }
 
@@ -55,6 +60,7 @@ void SceneLayers::arrange() {
   renderer_->AddActor(grid_.actor);
   model_.addSurfaces();
   renderer_->AddActor(shadow_.actor);
+  for (Layer* layer : {&doors_, &door_edges_, &door_glass_}) renderer_->AddActor(layer->actor);
   model_.addTransparent();
   for (Layer* layer : {&shapes_, &selected_, &walkable_}) renderer_->AddActor(layer->actor);
   model_.addEdges();
@@ -67,6 +73,10 @@ void SceneLayers::update(const ViewState& state, const ViewState* last) {
   const bool theme = last == nullptr || last->graphics.theme != state.graphics.theme;
   if (environment) bounds_ = state.environment ? standpoint::bounds(*state.environment) : Bounds();
   if (model_.update(state)) arrange();
+  if (shown || last->doors != state.doors || last->edges != state.edges || last->shapes != state.shapes ||
+      last->cloud != state.cloud || last->materials != state.materials || last->colour != state.colour ||
+      last->wavelength_nm != state.wavelength_nm)
+    updateDoors(state);
   if (shown || last->selected != state.selected) updateSelection(state);
   if (last == nullptr || last->collision != state.collision || last->walkable != state.walkable ||
       last->shapes != state.shapes)
@@ -82,8 +92,18 @@ void SceneLayers::update(const ViewState& state, const ViewState* last) {
 void SceneLayers::setPixels(int factor) {
   pixels_ = factor;
   model_.setLineWidth(static_cast<float>(factor));
-  grid_.actor->GetProperty()->SetLineWidth(static_cast<float>(factor));
+  for (Layer* layer : {&grid_, &door_edges_}) layer->actor->GetProperty()->SetLineWidth(static_cast<float>(factor));
   outline_.actor->GetProperty()->SetLineWidth(static_cast<float>(2 * factor));
+}
+
+void SceneLayers::updateDoors(const ViewState& state) {
+  for (Layer* layer : {&doors_, &door_glass_, &door_edges_}) layer->hide();
+  if (!state.doors || state.shapes || state.cloud) return;
+  const auto doors = stateOfDoors(state);
+  const auto merged = mergeVisible(doors);
+  doors_.show(merged.opaque);
+  door_glass_.show(merged.transparent);
+  if (state.edges) door_edges_.show(door_edge_cache_.edges(doors, nullptr));
 }
 
 void SceneLayers::updateSelection(const ViewState& state) {
@@ -128,7 +148,7 @@ void SceneLayers::updateCut(const ViewState& state) {
   const auto kept = keptSides(state.clip, state.cut_height_m);
   const auto cut = [&](Layer& layer) { layer.cut(kept); };
   model_.forEachLayer(cut);
-  for (Layer* layer : {&shapes_, &selected_, &walkable_, &outline_}) cut(*layer);
+  for (Layer* layer : {&doors_, &door_glass_, &door_edges_, &shapes_, &selected_, &walkable_, &outline_}) cut(*layer);
 }
 
 }  // namespace standpoint

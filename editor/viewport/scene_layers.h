@@ -30,14 +30,15 @@ class SceneLayers {
  private:
   void arrange();
   void updateSelection(const ViewState& state);
+  void updateDoors(const ViewState& state);
   void updateCollision(const ViewState& state);
   void updateGrid(const ViewState& state);
   void updateCut(const ViewState& state);
 
   vtkRenderer* renderer_;
-  EdgeCache edge_cache_;
+  EdgeCache edge_cache_, door_edge_cache_;
   ModelPieces model_;
-  Layer shadow_, shapes_, selected_, walkable_, outline_, grid_;
+  Layer shadow_, shapes_, selected_, walkable_, outline_, grid_, doors_, door_glass_, door_edges_;
   Bounds bounds_;
 };
 

@@ -158,12 +158,13 @@ class Window {
     pacer_.waitForWork(events_, [&] {
       FramePacer::Reasons reasons{.input = input_.pending(),
                                   .key_held = keyboard::anyHeld(),
-                                  .walker_moves = editor_.walk.moves(),
+                                  .walker_moves = editor_.walk.moves() || editor_.fly.moves(),
                                   .text_edited = ImGui::GetIO().WantTextInput,
                                   .job_runs = editor_.jobRuns(),
                                   .refining = refining(),
                                   .until_due_s = keeper_.untilGrown_s()};
-      if (reasons.walker_moves || (reasons.key_held && editor_.walk.active())) moveOn();
+      if (reasons.walker_moves || (reasons.key_held && (editor_.walk.active() || editor_.view.tool == Tool::fly)))
+        moveOn();
       if (!editor_.fine_picture) reasons.until_fine_s = std::max(0.0, untilFine());
       return reasons;
     });

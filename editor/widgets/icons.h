@@ -66,4 +66,6 @@
 #define ICON_UNDERLAY "\xef\x8a\xa1"
 #define ICON_UNDO "\xef\x83\xa2"
 #define ICON_WALK "\xef\x86\x83"
+#define ICON_BOOKMARK "\xef\x80\xae"
+#define ICON_PLANE "\xef\x81\xb2"
 #define ICON_WARNING "\xef\x81\xb1"

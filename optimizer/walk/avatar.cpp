@@ -22,6 +22,23 @@ const Vector3d kStepUp(0, 0, kHighestStep);
 
 }  // namespace
 
+std::optional<Contact> Avatar::sweep(const Body& body, const Vector3d& from, const Vector3d& to) const {
+  const auto first = obstacles_->sweep(body, from, to);
+  const auto other = others_ != nullptr ? others_->sweep(body, from, to) : std::nullopt;
+  return other && (!first || other->fraction < first->fraction) ? other : first;
+}
+
+std::optional<Contact> Avatar::overlap(const Body& body, const Vector3d& feet, double depth_m) const {
+  const auto found = obstacles_->overlap(body, feet, depth_m);
+  return found || others_ == nullptr ? found : others_->overlap(body, feet, depth_m);
+}
+
+void Avatar::near(const Body& body, const Vector3d& feet, double within_m,
+                  const std::function<void(const Contact&, double)>& visit) const {
+  obstacles_->near(body, feet, within_m, visit);
+  if (others_ != nullptr) others_->near(body, feet, within_m, visit);
+}
+
 // Under the axis itself, so that nobody floats beside a step.
 Avatar::Ground Avatar::groundUnder(const Vector3d& p, double below_m) const {
   const auto hit = obstacles_->ray(p + kStepUp, p - Vector3d(0, 0, below_m));
@@ -44,7 +61,7 @@ bool Avatar::stand(const Vector3d& p, double reach_m) {
   const auto ground = groundUnder(p, reach_m);
   if (ground.kind != Under::floor) return false;
   const Vector3d feet(p.x(), p.y(), ground.height);
-  if (obstacles_->overlap(upper(), feet + kStepUp, 1e-3)) return false;
+  if (overlap(upper(), feet + kStepUp, 1e-3)) return false;
   feet_ = feet;
   on_floor_ = true;
   return true;
@@ -61,7 +78,7 @@ std::optional<Vector3d> Avatar::offWalls(Vector3d feet) const {
   for (int i = 0; i < kMostPushes; ++i) {
     double deepest = -1e-4;
     Vector2d away = Vector2d::Zero();
-    obstacles_->near(upper(), feet + kStepUp, 0, [&](const Contact& contact, double gap) {
+    near(upper(), feet + kStepUp, 0, [&](const Contact& contact, double gap) {
       const Vector2d side = contact.normal.head<2>();
       if (gap >= deepest || gap < -kUneven || side.norm() < 0.7) return;
       deepest = gap;
@@ -70,7 +87,7 @@ std::optional<Vector3d> Avatar::offWalls(Vector3d feet) const {
     if (away.isZero()) break;
     feet.head<2>() += away;
   }
-  return obstacles_->overlap(upper(), feet + kStepUp, 1e-3) ? std::nullopt : std::optional(feet);
+  return overlap(upper(), feet + kStepUp, 1e-3) ? std::nullopt : std::optional(feet);
 }
 
 // The feet go to the floor there, unless it is too high or too steep for them; or too deep, where they mind.
@@ -84,10 +101,10 @@ bool Avatar::moveTo(const Vector3d& place, bool over_edges) {
     return true;
   }
   const Vector3d feet(place.x(), place.y(), ground.height);
-  if (!obstacles_->sweep(upper(), place + kStepUp, feet + kStepUp)) {
+  if (!sweep(upper(), place + kStepUp, feet + kStepUp)) {
     feet_ = feet;
   } else {
-    if (obstacles_->sweep(slim(), place + kStepUp, feet + kStepUp)) return false;
+    if (sweep(slim(), place + kStepUp, feet + kStepUp)) return false;
     const auto beside = offWalls(feet);
     if (!beside) return false;
     feet_ = *beside;
@@ -99,11 +116,11 @@ bool Avatar::moveTo(const Vector3d& place, bool over_edges) {
 void Avatar::stride(Vector2d way_m, bool over_edges) {
   for (int i = 0; i < kMostSlides && way_m.norm() > 1e-6; ++i) {
     const Vector3d from = feet_ + kStepUp, way(way_m.x(), way_m.y(), 0);
-    const auto hit = obstacles_->sweep(upper(), from, from + way);
+    const auto hit = sweep(upper(), from, from + way);
     const double fraction = hit ? hit->fraction : 1;
     if (fraction > 0 && !moveTo(feet_ + fraction * way, over_edges)) {
       const Vector3d over = way + kCrack * way.normalized();
-      if (!hit && !obstacles_->sweep(upper(), from, from + over)) moveTo(feet_ + over, false);
+      if (!hit && !sweep(upper(), from, from + over)) moveTo(feet_ + over, false);
       return;
     }
     if (!hit) return;
@@ -117,7 +134,7 @@ void Avatar::stride(Vector2d way_m, bool over_edges) {
 void Avatar::fall(double down_m) {
   if (const auto ground = groundUnder(feet_, down_m); ground.kind == Under::floor) {
     const Vector3d feet(feet_.x(), feet_.y(), ground.height);
-    if (!obstacles_->sweep(upper(), feet_ + kStepUp, feet + kStepUp)) {
+    if (!sweep(upper(), feet_ + kStepUp, feet + kStepUp)) {
       feet_ = feet;
       on_floor_ = true;
       return;
@@ -126,7 +143,7 @@ void Avatar::fall(double down_m) {
   on_floor_ = false;
   Vector3d way(0, 0, -down_m);
   for (int i = 0; i < kMostSlides && way.norm() > 1e-6; ++i) {
-    const auto hit = obstacles_->sweep(upper(), feet_ + kStepUp, feet_ + kStepUp + way);
+    const auto hit = sweep(upper(), feet_ + kStepUp, feet_ + kStepUp + way);
     feet_ += (hit ? hit->fraction : 1) * way;
     if (!hit) return;
     way *= 1 - hit->fraction;
@@ -138,15 +155,17 @@ double Avatar::headroom(double most_m) const {
   const double over = most_m - body_.height_m;
   if (over <= 0) return body_.height_m;
   const Vector3d from = feet_ + kStepUp;
-  const auto hit = obstacles_->sweep(slim(), from, from + Vector3d(0, 0, over));
+  const auto hit = sweep(slim(), from, from + Vector3d(0, 0, over));
   return body_.height_m + (hit ? hit->fraction : 1) * over;
 }
 
 double Avatar::ceiling(double most_m) const {
   double lowest = headroom(most_m);
+  // From where its crown begins: what is lower beside it, as the next treads of a stair are, is over nobody.
+  const Vector3d crown(0, 0, std::max(kHighestStep, body_.height_m - body_.radius_m));
   const auto look = [&](const Vector3d& aside) {
     const Vector3d from = feet_ + aside;
-    if (const auto hit = obstacles_->ray(from + kStepUp, from + Vector3d(0, 0, lowest)))
+    if (const auto hit = obstacles_->ray(from + crown, from + Vector3d(0, 0, lowest)))
       lowest = hit->point.z() - feet_.z();
   };
   look(Vector3d::Zero());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include <Eigen/Core>
@@ -33,6 +34,9 @@ class Avatar {
   // Down by this much, or to the floor that is nearer, sliding off what the body meets.
   void fall(double down_m);
 
+  // What else is in the way, as it stands between two strides; null: nothing. The floor is not among it.
+  void alsoMeet(const Obstacles* others) { others_ = others; }
+
   const Eigen::Vector3d& feet() const { return feet_; }
   // How high it can be where it is, as far as `most_m`.
   double headroom(double most_m) const;
@@ -48,6 +52,10 @@ class Avatar {
     double height = 0;
   };
   Body upper() const { return {body_.radius_m, body_.height_m - kHighestStep}; }
+  std::optional<Contact> sweep(const Body& body, const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
+  std::optional<Contact> overlap(const Body& body, const Eigen::Vector3d& feet, double depth_m) const;
+  void near(const Body& body, const Eigen::Vector3d& feet, double within_m,
+            const std::function<void(const Contact&, double)>& visit) const;
   Ground groundUnder(const Eigen::Vector3d& p, double below_m) const;
   bool carries(const Eigen::Vector3d& p) const;
   Body slim() const;
@@ -56,6 +64,7 @@ class Avatar {
   void stride(Eigen::Vector2d way_m, bool over_edges);
 
   const Obstacles* obstacles_;
+  const Obstacles* others_ = nullptr;
   Body body_;
   Eigen::Vector3d feet_ = Eigen::Vector3d::Zero();
   bool on_floor_ = true;

@@ -13,10 +13,8 @@
 #include "optimizer/simplify/collapses/collapse.h"
 #include "optimizer/simplify/mesh_job.h"
 #include "optimizer/surface/shape.h"
-#include "optimizer/walk/door_connectivity.h"
 #include "optimizer/walk/doors.h"
-#include "optimizer/walk/rooms.h"
-#include "optimizer/walk/walkable.h"
+#include "optimizer/walk/tight_places.h"
 
 namespace standpoint {
 
@@ -39,10 +37,10 @@ std::vector<bool> stopping(const Environment& environment, const CollideOptions&
   return result;
 }
 
-std::vector<bool> ceilingsOf(const Environment& environment) {
-  std::vector<bool> ceilings;
-  for (const auto& product : environment.products) ceilings.push_back(isSuspendedCeiling(product));
-  return ceilings;
+std::vector<bool> roofsAndCeilings(const Environment& environment) {
+  std::vector<bool> result;
+  for (std::uint32_t i = 0; i < environment.products.size(); ++i) result.push_back(isRoofOrCeiling(environment, i));
+  return result;
 }
 
 // The first product that is where no shape can be.
@@ -140,19 +138,21 @@ Result<CollideResult> collide(const Environment& environment, const CollideOptio
     result.products[shape.product].triangles += shape.mesh.triangles.size();
   }
   progress.stage("Find the walkable surface", 0.5, 0.9);
-  TRY_ASSIGN(auto walkable, walkableSurface(result.shapes, ceilingsOf(environment), options, progress));
-  if (walkable.cell_m > options.agent_radius_m / 10 + 1e-6)
+  const auto overhead = roofsAndCeilings(environment);
+  TRY_ASSIGN(auto world, walkedWorld(environment, result.shapes, overhead, options, progress));
+  if (world.walkable.cell_m > options.agent_radius_m / 10 + 1e-6)
     result.report.note(
         "walkable",
         fmt::format("computed on a grid of {:.3f} m because of the model size: narrow passages may be missing",
-                    walkable.cell_m));
-  progress.stage("Check doors", 0.9, 1);
-  TRY(progress.check());
-  result.doors = checkDoors(environment, result.shapes, options, result.report);
-  joinThroughDoors(environment, result.shapes, options, result.doors, walkable, result.report);
-  if (options.doors != DoorState::closed) result.rooms = checkRooms(environment, walkable, result.doors, result.report);
-  result.walkable_area_m2 = walkable.area_m2;
-  result.walkable = std::move(walkable.mesh);
+                    world.walkable.cell_m));
+  progress.stage("Look for low places", 0.9, 1);
+  TRY(findTightPlaces(environment, result.shapes, overhead, options, world, progress));
+  for (auto& issue : world.report.issues) result.report.issues.push_back(std::move(issue));
+  reportRooms(environment, world.rooms.rooms, result.report);
+  result.doors = std::move(world.doors);
+  result.rooms = std::move(world.rooms.rooms);
+  result.walkable_area_m2 = world.walkable.area_m2;
+  result.walkable = std::move(world.walkable.mesh);
   return result;
 }
 

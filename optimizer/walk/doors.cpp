@@ -215,6 +215,21 @@ std::vector<bool> closedDoors(const Environment& environment, const CollideOptio
   return result;
 }
 
+CollisionShape doorPlate(const Passage& passage, std::uint32_t product) {
+  std::vector<Vector3d> bottom;
+  for (const auto& [along, beside] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
+    bottom.push_back(passage.middle + passage.through * (along * kPlate / 2) +
+                     passage.across * (beside * passage.half_width));
+  auto top = bottom;
+  for (auto& p : top) p.z() += passage.height;
+  const auto plate = prism(bottom, top, CollisionShapeKind::box);
+  CollisionShape shape{plate.kind, product, {}};
+  for (const auto& p : plate.positions) shape.mesh.positions.push_back(p.cast<float>());
+  shape.mesh.triangles = plate.triangles;
+  shape.mesh.surface_of_triangle.assign(plate.triangles.size(), 0);
+  return shape;
+}
+
 void closeWhatIsOpen(const Environment& environment, const CollideOptions& options, std::vector<CollisionShape>& shapes,
                      Report& report) {
   const auto closed = closedDoors(environment, options);
@@ -223,18 +238,7 @@ void closeWhatIsOpen(const Environment& environment, const CollideOptions& optio
   for (const auto door : doorsOf(environment)) {
     const auto passage = closed[door] ? passageOf(environment, door) : std::nullopt;
     if (!passage || !freeWay(environment, obstacles, *passage, options)) continue;
-    std::vector<Vector3d> bottom;
-    for (const auto& [along, beside] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
-      bottom.push_back(passage->middle + passage->through * (along * kPlate / 2) +
-                       passage->across * (beside * passage->half_width));
-    auto top = bottom;
-    for (auto& p : top) p.z() += passage->height;
-    const auto plate = prism(bottom, top, CollisionShapeKind::box);
-    CollisionShape shape{plate.kind, door, {}};
-    for (const auto& p : plate.positions) shape.mesh.positions.push_back(p.cast<float>());
-    shape.mesh.triangles = plate.triangles;
-    shape.mesh.surface_of_triangle.assign(plate.triangles.size(), 0);
-    plates.push_back(std::move(shape));
+    plates.push_back(doorPlate(*passage, door));
     report.note(environment.products[door].id, "has no closing leaf: blocked by a plate");
   }
   shapes.insert(shapes.end(), std::make_move_iterator(plates.begin()), std::make_move_iterator(plates.end()));

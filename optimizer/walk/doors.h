@@ -41,6 +41,9 @@ std::vector<std::int32_t> doorOf(const Environment& environment);
 // For each product whether it is a door that stands closed, or a part of one.
 std::vector<bool> closedDoors(const Environment& environment, const CollideOptions& options);
 
+// A plate across the door, as thick as a leaf.
+CollisionShape doorPlate(const Passage& passage, std::uint32_t product);
+
 // The doors that the agent still passes although they are closed get a plate across, as many have no leaf that closes
 // them: it is drawn open, or as a line.
 void closeWhatIsOpen(const Environment& environment, const CollideOptions& options, std::vector<CollisionShape>& shapes,

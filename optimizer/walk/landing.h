@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include <Eigen/Core>
@@ -12,10 +13,12 @@ namespace standpoint {
 // Where somebody stands who points at a surface to be there.
 struct Landing {
   Eigen::Vector3d feet = Eigen::Vector3d::Zero();
-  std::string why_not;  // "too steep 52°", in at most five words; empty: one can stand there
+  std::uint32_t product = 0;  // that is stood on, where there is a floor
+  std::string why_not;        // "too steep 52°", in at most five words; empty: one can stand there
 };
 
-// `normal`: of the surface at `point`. Beside a wall it is as near to it as the body can be.
+// `normal`: of the surface at `point`. Beside a wall or an edge over which one would fall it is as near to it as the
+// body can be.
 Landing landingAt(const Obstacles& obstacles, const Body& body, const Eigen::Vector3d& point,
                   const Eigen::Vector3d& normal);
 

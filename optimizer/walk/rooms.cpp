@@ -134,26 +134,28 @@ std::set<std::uint32_t> reachedIslands(const Environment& environment, const Wal
 
 }  // namespace
 
-std::vector<Room> checkRooms(const Environment& environment, const Walkable& walkable, const std::vector<Door>& doors,
-                             Report& report) {
+RoomCheck checkRooms(const Environment& environment, const Walkable& walkable, const std::vector<Door>& doors) {
   std::vector<Space> spaces;
   for (auto& body : spaceBodies(environment)) spaces.push_back({std::move(body), {}, 0});
   tbb::parallel_for(std::size_t{0}, spaces.size(), [&](std::size_t i) { measure(walkable, spaces[i]); });
-  const auto reached = reachedIslands(environment, walkable, spaces, doors);
-  std::vector<Room> rooms;
+  RoomCheck check{{}, reachedIslands(environment, walkable, spaces, doors)};
   for (const auto& space : spaces) {
-    Room room{space.product, space.area_m2, false, 0.5 * (space.box.min + space.box.max)};
+    Room room{space.product, space.area_m2, false, 0.5 * (space.box.min + space.box.max), {}};
     for (const auto& [island, patch] : space.patches)
-      room.reached = room.reached || (patch.area_m2 > kLeast && reached.contains(island));
+      room.reached = room.reached || (patch.area_m2 > kLeast && check.reached_islands.contains(island));
     room.position.z() = space.box.min.z();
-    const auto& product = environment.products[space.product];
-    if (space.area_m2 <= kLeast)
-      report.warn(product.id, fmt::format("room {} has no floor large enough to stand on", readableName(product)));
-    else if (!room.reached)
-      report.warn(product.id, fmt::format("room {} cannot be reached", readableName(product)));
-    rooms.push_back(room);
+    check.rooms.push_back(room);
   }
-  return rooms;
+  return check;
+}
+
+void reportRooms(const Environment& environment, const std::vector<Room>& rooms, Report& report) {
+  for (const auto& room : rooms) {
+    const auto& product = environment.products[room.product];
+    if (room.reached || room.tight_place) continue;
+    const char* what = room.walkable_m2 <= kLeast ? "has no floor large enough to stand on" : "cannot be reached";
+    report.warn(product.id, fmt::format("room {} {}", readableName(product), what));
+  }
 }
 
 }  // namespace standpoint

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "optimizer/walk/avatar.h"
 #include "optimizer/walk/doors.h"
 #include "optimizer/walk/spaces.h"
+#include "optimizer/walk/walkable_map.h"
 
 namespace standpoint {
 
@@ -26,104 +26,12 @@ constexpr double kBelowEye = 3;          // m
 constexpr double kSmallestIsland = 2;    // m²
 constexpr double kHead = 1.1;            // m above the feet: over tables, below ceilings
 constexpr double kHighestCover = 60;     // m
-constexpr double kStoreyBelow = 1.5;     // m; what has a floor so far under it is not the ground
 constexpr double kBehindEntrance = 0.8;  // m
-constexpr double kBesideIsland = 0.6;    // m from a place to the rectangle of the island that it is on
 constexpr double kRoomStep = 0.25;       // m between the places that are compared in a room
 constexpr double kWideEnough = 2;        // m of clearance; more is no better
 constexpr double kLongView = 50;         // m
 
 Vector3d up(double height_m) { return {0, 0, height_m}; }
-
-// Triangles of the walkable surface that can be walked to from each other: level boxes that touch, with no more than a
-// step between them.
-class Islands {
- public:
-  explicit Islands(const Mesh& mesh) : root_(mesh.triangles.size()) {
-    std::iota(root_.begin(), root_.end(), 0U);
-    for (const auto& t : mesh.triangles) {
-      auto& box = boxes_.emplace_back();
-      for (const auto v : t) box.extend(mesh.positions[v].cast<double>());
-      const Vector3d size = box.max - box.min;
-      areas_.push_back(0.5 * size.x() * size.y());
-    }
-    join();
-    for (std::uint32_t i = 0; i < root_.size(); ++i) area_of_root_[rootOf(i)] += areas_[i];
-  }
-
-  std::size_t size() const { return boxes_.size(); }
-  const Bounds& box(std::uint32_t i) const { return boxes_[i]; }
-  double area(std::uint32_t i) const { return areas_[i]; }
-  std::uint32_t rootOf(std::uint32_t i) const {
-    while (root_[i] != i) i = root_[i];
-    return i;
-  }
-  double islandArea(std::uint32_t i) const { return area_of_root_.at(rootOf(i)); }
-
-  // The triangle that p stands on or beside.
-  std::optional<std::uint32_t> at(const Vector3d& p) const {
-    std::optional<std::uint32_t> best;
-    double nearest = kBesideIsland;
-    for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
-      const Vector3d off = p - p.cwiseMax(boxes_[i].min).cwiseMin(boxes_[i].max);
-      if (std::abs(off.z()) > kStepHeight || off.head<2>().norm() >= nearest) continue;
-      nearest = off.head<2>().norm();
-      best = i;
-    }
-    return best;
-  }
-
-  bool anyUnder(const Vector3d& p) const {
-    return std::any_of(boxes_.begin(), boxes_.end(), [&](const Bounds& box) {
-      return box.max.z() < p.z() - kStoreyBelow &&
-             (p.head<2>().array() >= box.min.head<2>().array() - kBesideIsland).all() &&
-             (p.head<2>().array() <= box.max.head<2>().array() + kBesideIsland).all();
-    });
-  }
-
- private:
-  void join() {
-    constexpr double kTouching = 1e-3;
-    std::vector<std::uint32_t> order(boxes_.size());
-    std::iota(order.begin(), order.end(), 0U);
-    const auto low = [&](std::uint32_t i) { return boxes_[i].min.y(); };
-    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return std::pair(low(a), a) < std::pair(low(b), b); });
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const Bounds& a = boxes_[order[i]];
-      for (std::size_t k = i + 1; k < order.size() && low(order[k]) <= a.max.y() + kTouching; ++k) {
-        const Bounds& b = boxes_[order[k]];
-        if (a.min.x() <= b.max.x() + kTouching && b.min.x() <= a.max.x() + kTouching &&
-            a.min.z() <= b.max.z() + kStepHeight && b.min.z() <= a.max.z() + kStepHeight)
-          unite(order[i], order[k]);
-      }
-    }
-  }
-
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = shortened(a), b = shortened(b);
-    root_[std::max(a, b)] = std::min(a, b);
-  }
-  std::uint32_t shortened(std::uint32_t i) {
-    while (root_[i] != i) i = root_[i] = root_[root_[i]];
-    return i;
-  }
-
-  std::vector<Bounds> boxes_;
-  std::vector<double> areas_;
-  std::vector<std::uint32_t> root_;
-  std::map<std::uint32_t, double> area_of_root_;
-};
-
-bool isRoofItself(const Product& product) {
-  return product.ifc_class == "IfcRoof" || (product.ifc_class == "IfcSlab" && product.predefined_type == "ROOF") ||
-         isSuspendedCeiling(product);
-}
-
-bool isRoof(const Environment& environment, std::uint32_t product) {
-  for (auto p = static_cast<std::int32_t>(product); p >= 0; p = environment.products[static_cast<std::size_t>(p)].whole)
-    if (isRoofItself(environment.products[static_cast<std::size_t>(p)])) return true;
-  return false;
-}
 
 // Everything that places are judged by.
 class Places {
@@ -170,13 +78,14 @@ class Places {
   }
 
   // Indoors where there is an indoors.
-  std::optional<StartPlace> largestIsland() {
+  std::optional<StartPlace> largestIsland(double lowest_m = -1e300, double highest_m = 1e300) {
     for (const bool indoors : {true, false}) {
       std::map<std::uint32_t, std::pair<double, Vector3d>> sums;  // by island: area, and first moment of it
       for (std::uint32_t i = 0; i < islands_.size(); ++i) {
-        const Vector3d middle = middleOf(i);
+        const Vector3d middle = islands_.middle(i);
+        if (middle.z() < lowest_m || middle.z() > highest_m) continue;
         if (islands_.islandArea(i) < kSmallestIsland || (indoors && !covered(middle)) || !bears(middle)) continue;
-        auto& [area, moment] = sums.try_emplace(islands_.rootOf(i), 0.0, Vector3d::Zero()).first->second;
+        auto& [area, moment] = sums.try_emplace(islands_.islandOf(i), 0.0, Vector3d::Zero()).first->second;
         area += islands_.area(i);
         moment += islands_.area(i) * middle;
       }
@@ -184,14 +93,12 @@ class Places {
                                          [](const auto& a, const auto& b) { return a.second.first < b.second.first; });
       if (most == sums.end()) continue;
       const Vector3d centre = most->second.second / std::max(most->second.first, 1e-9);
-      if (auto place = nearestOf(most->first, centre, indoors)) return place;
+      if (auto place = nearestOf(most->first, centre, indoors, lowest_m, highest_m)) return place;
     }
     return std::nullopt;
   }
 
  private:
-  Vector3d middleOf(std::uint32_t i) const { return 0.5 * (islands_.box(i).min + islands_.box(i).max); }
-
   std::optional<Vector3d> standing(const Vector3d& p, double reach_m) {
     return avatar_.stand(p, reach_m) ? std::optional(avatar_.feet()) : std::nullopt;
   }
@@ -203,7 +110,7 @@ class Places {
   // Neither roof nor ceiling by its class, nor by standing open to the sky above another floor.
   bool bears(const Vector3d& feet) const {
     const auto floor = obstacles_.ray(feet + up(kStepHeight), feet - up(kStepHeight));
-    if (!floor || isRoof(environment_, floor->product)) return false;
+    if (!floor || isRoofOrCeiling(environment_, floor->product)) return false;
     return covered(feet) || !islands_.anyUnder(feet);
   }
 
@@ -229,13 +136,15 @@ class Places {
     return StartPlace{*feet, ahead_inside ? through : Vector2d(-through)};
   }
 
-  std::optional<StartPlace> nearestOf(std::uint32_t island, const Vector3d& centre, bool indoors) {
+  std::optional<StartPlace> nearestOf(std::uint32_t island, const Vector3d& centre, bool indoors, double lowest_m,
+                                      double highest_m) {
     std::vector<std::pair<double, std::uint32_t>> order;
     for (std::uint32_t i = 0; i < islands_.size(); ++i)
-      if (islands_.rootOf(i) == island) order.emplace_back((middleOf(i) - centre).squaredNorm(), i);
+      if (islands_.islandOf(i) == island && islands_.middle(i).z() >= lowest_m && islands_.middle(i).z() <= highest_m)
+        order.emplace_back((islands_.middle(i) - centre).squaredNorm(), i);
     std::sort(order.begin(), order.end());
     for (const auto& [distance, i] : order) {
-      const auto feet = standing(middleOf(i), kStepHeight);
+      const auto feet = standing(islands_.middle(i), kStepHeight);
       if (feet && bears(*feet) && (!indoors || covered(*feet))) return StartPlace{*feet, {}};
     }
     return std::nullopt;
@@ -245,7 +154,7 @@ class Places {
   const CollideResult& collision_;
   const Obstacles& obstacles_;
   Avatar avatar_;
-  Islands islands_;
+  WalkableMap islands_;
   std::vector<SpaceBody> spaces_;
 };
 
@@ -283,6 +192,14 @@ std::optional<StartPlace> startPlace(const Environment& environment, const Colli
   if (auto place = places.lookedAt(onlooker)) return place;
   if (auto place = places.mainEntrance()) return place;
   return places.largestIsland();
+}
+
+std::optional<StartPlace> placeOnLevel(const Environment& environment, const CollideResult& collision,
+                                       const Obstacles& obstacles, const Body& body, double lowest_m,
+                                       double highest_m) {
+  auto place = Places(environment, collision, obstacles, body).largestIsland(lowest_m, highest_m);
+  if (place) place->facing = longestView(obstacles, place->feet);
+  return place;
 }
 
 std::optional<StartPlace> placeInRoom(const Environment& environment, std::uint32_t product,

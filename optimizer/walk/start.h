@@ -30,4 +30,8 @@ std::optional<StartPlace> startPlace(const Environment& environment, const Colli
 std::optional<StartPlace> placeInRoom(const Environment& environment, std::uint32_t product,
                                       const CollideResult& collision, const Obstacles& obstacles, const Body& body);
 
+// Where most is free around on a floor between two heights, under a cover where there is one.
+std::optional<StartPlace> placeOnLevel(const Environment& environment, const CollideResult& collision,
+                                       const Obstacles& obstacles, const Body& body, double lowest_m, double highest_m);
+
 }  // namespace standpoint

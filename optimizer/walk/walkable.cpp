@@ -111,13 +111,13 @@ struct Soup {
   std::vector<unsigned char> areas;
 };
 
-Soup soupOf(const Mesh& mesh, bool ceiling, rcContext& context) {
+Soup soupOf(const Mesh& mesh, bool over, rcContext& context) {
   Soup soup;
   for (const auto& p : mesh.positions) soup.corners.insert(soup.corners.end(), {p.x(), p.z(), -p.y()});
   for (const auto& t : mesh.triangles)
     for (const auto v : t) soup.triangles.push_back(static_cast<int>(v));
   soup.areas.assign(mesh.triangles.size(), RC_NULL_AREA);
-  if (ceiling) return soup;
+  if (over) return soup;
   rcMarkWalkableTriangles(&context, static_cast<float>(kSteepestSlopeDeg + kLeastSteeper), soup.corners.data(),
                           static_cast<int>(mesh.positions.size()), soup.triangles.data(),
                           static_cast<int>(mesh.triangles.size()), soup.areas.data());
@@ -271,7 +271,7 @@ void addMesh(const rcCompactHeightfield& field, const std::vector<std::uint32_t>
 }
 
 // `done`: the share of all shapes that are in the grids of other clusters.
-Result<void> addCluster(const std::vector<CollisionShape>& shapes, const std::vector<bool>& ceilings,
+Result<void> addCluster(const std::vector<CollisionShape>& shapes, const std::vector<bool>& overhead,
                         const Cluster& cluster, double cell, const CollideOptions& options, std::size_t done,
                         std::uint32_t& islands, Walkable& result, Progress& progress) {
   const Grid grid = gridOver(cluster.box, cell, options);
@@ -288,8 +288,8 @@ Result<void> addCluster(const std::vector<CollisionShape>& shapes, const std::ve
   for (const auto i : cluster.shapes) {
     TRY(progress.check());
     progress.advance(0.7 * static_cast<double>(done++) / static_cast<double>(shapes.size()));
-    const bool ceiling = shapes[i].product < ceilings.size() && ceilings[shapes[i].product];
-    const Soup soup = soupOf(shapes[i].mesh, ceiling, context);
+    const bool over = shapes[i].product < overhead.size() && overhead[shapes[i].product];
+    const Soup soup = soupOf(shapes[i].mesh, over, context);
     const bool solid = shapes[i].kind != CollisionShapeKind::mesh;
     if (!(solid ? addSolid(soup, *field, grid, climb, context, progress)
                 : addTriangles(soup, *field, climb, context, progress)))
@@ -319,7 +319,7 @@ Result<void> addCluster(const std::vector<CollisionShape>& shapes, const std::ve
 
 }  // namespace
 
-Result<Walkable> walkableSurface(const std::vector<CollisionShape>& shapes, const std::vector<bool>& ceilings,
+Result<Walkable> walkableSurface(const std::vector<CollisionShape>& shapes, const std::vector<bool>& overhead,
                                  const CollideOptions& options, Progress& progress) {
   Walkable result;
   const auto clusters = clustersOf(shapes, options);
@@ -328,7 +328,7 @@ Result<Walkable> walkableSurface(const std::vector<CollisionShape>& shapes, cons
   std::size_t done = 0;
   std::uint32_t islands = 0;
   for (const auto& cluster : clusters) {
-    TRY(addCluster(shapes, ceilings, cluster, result.cell_m, options, done, islands, result, progress));
+    TRY(addCluster(shapes, overhead, cluster, result.cell_m, options, done, islands, result, progress));
     done += cluster.shapes.size();
   }
   return result;

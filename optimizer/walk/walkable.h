@@ -21,8 +21,8 @@ struct Walkable {
 };
 
 // By Recast's voxels over the collision shapes, of which convex ones are solid. Islands smaller than the agent do not
-// count. `ceilings`: for each product whether it is one, which bears nobody; empty: none is.
-Result<Walkable> walkableSurface(const std::vector<CollisionShape>& shapes, const std::vector<bool>& ceilings,
+// count. `overhead`: for each product whether it is a roof or a ceiling, which nobody walks on; empty: none is.
+Result<Walkable> walkableSurface(const std::vector<CollisionShape>& shapes, const std::vector<bool>& overhead,
                                  const CollideOptions& options, Progress& progress);
 
 }  // namespace standpoint

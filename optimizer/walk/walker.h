@@ -29,6 +29,10 @@ class Walker {
   bool stand(const Eigen::Vector3d& p, double reach_m = 3);
   void go(const WalkWish& wish, double seconds);
 
+  // Of who walks, from now on; it rises as far as there is room.
+  void setHeight(double height_m) { body_.height_m = height_m; }
+  void alsoMeet(const Obstacles* others) { avatar_.alsoMeet(others); }
+
   Eigen::Vector3d feet() const { return between(before_.feet, now_.feet); }
   Eigen::Vector3d eyes() const { return between(before_.eyes, now_.eyes); }  // up and down without jerks
   double height() const { return avatar_.height(); }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/readable_name.h"
 #include "optimizer/walk/doors.h"
 #include "project/answers.h"
 #include "project/model/model_verbs.h"
@@ -72,6 +73,27 @@ void reportMissingSlabs(const Environment& environment, const CollideResult& res
   }
 }
 
+// In the frame of the file, unlike what the optimizer reports.
+void reportTightPlaces(const Environment& environment, const CollideResult& result, const CollideOptions& options,
+                       const Eigen::Vector3d& shift_m, Report& report) {
+  for (const auto& room : result.rooms) {
+    if (!room.tight_place) continue;
+    const auto& low = *room.tight_place;
+    const auto& product = environment.products[room.product];
+    const Eigen::Vector3d p = low.position + shift_m;
+    const auto where = fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x(), p.y(), p.z());
+    const bool too_low = low.passes_height_m < options.agent_height_m - 1e-6;
+    report.warn(product.id,
+                too_low ? fmt::format("room {} cannot be reached: headroom {:.2f} m at {}, agent {:.2f} m; a body of "
+                                      "{:.1f} m with a radius of {:.2f} m passes",
+                                      readableName(product), low.headroom_m, where, options.agent_height_m,
+                                      low.passes_height_m, low.passes_radius_m)
+                        : fmt::format("room {} cannot be reached: too narrow at {} for a radius of {:.2f} m; {:.2f} m "
+                                      "passes",
+                                      readableName(product), where, options.agent_radius_m, low.passes_radius_m));
+  }
+}
+
 CollideAnswer answerOf(const Environment& environment, const CollideResult& result, const Eigen::Vector3d& shift_m) {
   CollideAnswer answer;
   for (std::size_t i = 0; i < result.products.size(); ++i)
@@ -84,6 +106,7 @@ CollideAnswer answerOf(const Environment& environment, const CollideResult& resu
   for (const auto& r : result.rooms) {
     answer.rooms.push_back({identityOf(environment.products[r.product]), r});
     answer.rooms.back().position += shift_m;
+    if (auto& low = answer.rooms.back().tight_place) low->position += shift_m;
   }
   answer.shapes = result.shapes.size();
   answer.walkable_area_m2 = result.walkable_area_m2;
@@ -133,11 +156,22 @@ const AnswerFields<CollideDoor>& answerFields(const CollideDoor* door) {
   return fields;
 }
 
+const AnswerFields<TightPlace>& answerFields(const TightPlace*) {
+  using A = TightPlace;
+  static const AnswerFields<A> fields = {{"at", &A::position},
+                                         {"headroom_m", &A::headroom_m},
+                                         {"passes_height_m", &A::passes_height_m},
+                                         {"passes_radius_m", &A::passes_radius_m}};
+  return fields;
+}
+
 const AnswerFields<CollideRoom>& answerFields(const CollideRoom* room) {
   using A = CollideRoom;
-  static const auto fields =
-      withBases<A>({{"walkable_m2", &A::walkable_m2}, {"reached", &A::reached}, {"at", &A::position}},
-                   answerFields(static_cast<const ProductIdentity*>(room)));
+  static const auto fields = withBases<A>({{"walkable_m2", &A::walkable_m2},
+                                           {"reached", &A::reached},
+                                           {"at", &A::position},
+                                           {"tight_place", &A::tight_place}},
+                                          answerFields(static_cast<const ProductIdentity*>(room)));
   return fields;
 }
 
@@ -162,6 +196,7 @@ Result<Answered<CollideAnswer>> runCollide(const Document& document, const Colli
   const Eigen::Vector3d shift_m = document.georeference ? document.georeference->shift_m : Eigen::Vector3d::Zero();
   TRY_ASSIGN(auto result, collide(environment, typed, progress));
   Answered<CollideAnswer> outcome{document, answerOf(environment, result, shift_m), result.report};
+  reportTightPlaces(environment, result, typed, shift_m, outcome.report);
   reportMissingSlabs(environment, result, typed, shift_m.z(), outcome.report);
   outcome.description =
       fmt::format("Created {} collision shapes; {:.1f} m² walkable, {} of {} doors passable", result.shapes.size(),

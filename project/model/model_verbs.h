@@ -25,7 +25,8 @@ const AnswerFields<CollideProduct>& answerFields(const CollideProduct*);
 struct CollideDoor : ProductIdentity, Door {  // its position in the model's file frame
 };
 const AnswerFields<CollideDoor>& answerFields(const CollideDoor*);
-struct CollideRoom : ProductIdentity, Room {  // its position in the model's file frame
+const AnswerFields<TightPlace>& answerFields(const TightPlace*);
+struct CollideRoom : ProductIdentity, Room {  // its positions in the model's file frame
 };
 const AnswerFields<CollideRoom>& answerFields(const CollideRoom*);
 struct CollideAnswer {

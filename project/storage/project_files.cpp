@@ -13,6 +13,7 @@
 #include "core/part_file.h"
 #include "importers/gltf/gltf_writer.h"
 #include "project/materials/verification_json.h"
+#include "project/model/bookmarks.h"
 #include "project/storage/project_json.h"
 #include "project/storage/project_lock.h"
 #include "project/survey/measure_verb.h"
@@ -164,6 +165,8 @@ Result<Document> fromJson(const json& project, const fs::path& folder, Report& r
   }
   if (project.contains("measurements"))
     d.measurements = std::make_shared<const Measurements>(measurementsFrom(project.at("measurements"), report));
+  if (project.contains("bookmarks"))
+    d.bookmarks = std::make_shared<const std::vector<Bookmark>>(bookmarksFrom(project.at("bookmarks")));
   if (project.contains("underlays")) d.underlays = underlaysFrom(project.at("underlays"), folder);
   return d;
 }
@@ -218,6 +221,7 @@ Result<void> saveChanges(const Document& before, const Document& document, const
   if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), folder.string());
 
   json project = documentToJson(document);
+  if (document.bookmarks) project["bookmarks"] = bookmarksToJson(*document.bookmarks);
   if (!document.underlays.empty()) project["underlays"] = underlaysToJson(document.underlays, folder);
   if (document.measurements && !document.measurements->empty())
     project["measurements"] = measurementsToJson(*document.measurements);

@@ -168,7 +168,11 @@ json collisionToJson(const CollideResult& c) {
   for (const auto& d : c.doors)
     doors.push_back({d.product, d.floor, d.passable, d.closed, d.clear_width_m, toJson(d.position), d.led_through});
   json rooms = json::array();
-  for (const auto& r : c.rooms) rooms.push_back({r.product, r.walkable_m2, r.reached, toJson(r.position)});
+  for (const auto& r : c.rooms) {
+    rooms.push_back({r.product, r.walkable_m2, r.reached, toJson(r.position)});
+    if (const auto& low = r.tight_place)
+      rooms.back().push_back({toJson(low->position), low->headroom_m, low->passes_height_m, low->passes_radius_m});
+  }
   return {{"shapes", shapes},
           {"products", products},
           {"doors", doors},
@@ -332,8 +336,11 @@ std::shared_ptr<const CollideResult> collisionFrom(const json& part, const Envir
     c.doors.back().led_through =
         d.size() > 6 ? d.at(6).get<bool>() : c.doors.back().passable;  // before it was looked for
   }
-  for (const auto& r : part.value("rooms", json::array()))
-    c.rooms.push_back({r.at(0), r.at(1), r.at(2), vectorFrom(r.at(3))});
+  for (const auto& r : part.value("rooms", json::array())) {
+    c.rooms.push_back({r.at(0), r.at(1), r.at(2), vectorFrom(r.at(3)), {}});
+    if (r.size() > 4)
+      c.rooms.back().tight_place = TightPlace{vectorFrom(r[4].at(0)), r[4].at(1), r[4].at(2), r[4].at(3)};
+  }
   c.walkable_area_m2 = part.at("walkable_area_m2");
   return std::make_shared<const CollideResult>(std::move(c));
 }

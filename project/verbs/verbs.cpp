@@ -4,6 +4,7 @@
 #include "project/fields.h"
 #include "project/materials/materials_verb.h"
 #include "project/materials/verification.h"
+#include "project/model/bookmarks.h"
 #include "project/model/import_verb.h"
 #include "project/model/model_verbs.h"
 #include "project/model/optimize_verb.h"
@@ -50,6 +51,8 @@ const std::vector<Verb>& table() {
              S::changes, stationFields(), runStation),
       verbOf("target", "Add, remove or list targets, and list the stations that can measure them", S::changes,
              targetFields(), runTarget),
+      verbOf("bookmark", "Add, rename, remove or list named views of the model", S::changes, bookmarkFields(),
+             runBookmark),
       verbOf("underlay", "Add point clouds as underlays of the model, or list them; the points stay in their files",
              S::changes, underlayFields(), runUnderlay),
       verbOf("measure", "Measure distances, heights, angles, areas and planes between points, or list the measurements",

@@ -64,6 +64,7 @@ std::vector<Writer> writers() {
       {"georeference", "", {"georeference", "p", "--crs", "EPSG:25832"}, {project}},
       {"station", "", {"station", "p", "--add", "S9", at, "500001.5,5600001.5,1.5"}, {project}},
       {"target", "", {"target", "p", "--add", "T", at, "500001.5,5600001.5,1.5"}, {project}},
+      {"bookmark", "", {"bookmark", "p", "--add", "view"}, {project}},
       {"underlay", "", {"underlay", "p", "--add", "s.e57"}, {project}},
       {"verify", "", {"verify", "p", "--allow-loss"}, {project}},
       {"scan", "e57", with(scan, {"-o", "o.e57"}), {project, "o.e57"}},

@@ -72,6 +72,7 @@ const std::map<std::string, Words>& writingVerbs() {
       {"georeference", {"georeference", "PROJECT", "--crs", "EPSG:25832"}},
       {"station", {"station", "PROJECT", "--add", "S3", "--on", "500002,5600002,3"}},
       {"target", {"target", "PROJECT", "--add", "T2", "--at", "500002,5600001,1.5"}},
+      {"bookmark", {"bookmark", "PROJECT", "--add", "view"}},
       {"underlay", {"underlay", "PROJECT", "--remove", "cloud"}},
       {"verify", {"verify", "PROJECT"}},
       {"scan",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -198,6 +199,119 @@ TEST_F(Walking, JumpsToARoomAndToAStationByName) {
   choose("#S2");
   EXPECT_NEAR((editor.walk.feet() - Eigen::Vector3d(7.5, 5, 0)).norm(), 0, 0.05) << editor.walk.feet().transpose();
   EXPECT_EQ(walkPlaceName(editor), "Ground floor");
+}
+
+TEST_F(Walking, OpensTheDoorAheadAndClosesItBehindWithoutChangingTheDocument) {
+  walk();
+  const auto revision = editor.session.revision();
+  ASSERT_TRUE(editor.walk.doors()) << "the front door";
+  const auto closed = editor.walk.doors();
+  const auto leafIs = [&] {
+    Bounds box;
+    for (const auto& instance : editor.walk.doors()->instances)
+      box.extend(bounds(*editor.walk.doors()->meshes[instance.mesh], instance.world_from_mesh));
+    return box.max.y() - box.min.y();
+  };
+  EXPECT_NEAR(leafIs(), 0.06, 0.01);
+  editor.view.camera.azimuth_rad = std::numbers::pi;  // out of the house
+  keyboard::change('W', true);
+  gui.frames(90);
+  keyboard::change('W', false);
+  EXPECT_LT(editor.walk.feet().y(), -0.2) << "nothing was in the way";
+  EXPECT_NEAR(leafIs(), 1, 0.06) << "a quarter of a turn";
+  EXPECT_EQ(editor.viewState().doors, editor.walk.doors());
+  keyboard::change('W', true);
+  gui.frames(90);
+  keyboard::change('W', false);
+  gui.frames(60 * 3);
+  EXPECT_NEAR(leafIs(), 0.06, 0.01) << "closed again";
+  EXPECT_EQ(editor.session.revision(), revision);
+}
+
+TEST_F(Walking, IsStoppedByADoorThatWasShutByKeyUntilItIsOpened) {
+  walk();
+  const auto press = [&](int key, int frames) {
+    keyboard::change(key, true);
+    gui.frames(frames);
+    keyboard::change(key, false);
+    gui.frames(30);
+  };
+  editor.view.camera.azimuth_rad = std::numbers::pi;
+  press('W', 8);
+  EXPECT_TRUE(editor.walk.doorInReach(editor.view.camera));
+  gui.key('E');  // it has opened by itself: shut it
+  gui.frames(40);
+  const double before = editor.walk.feet().y();
+  press('W', 120);
+  EXPECT_GT(editor.walk.feet().y(), 0.16 + 0.2) << "in front of the leaf";
+  EXPECT_LT(editor.walk.feet().y(), before);
+  gui.key('E');
+  press('W', 90);
+  EXPECT_LT(editor.walk.feet().y(), 0);
+}
+
+TEST_F(Walking, LooksFromAnotherHeightAndAngleOnceTheyAreSet) {
+  walk();
+  editor.walk.setUprightEyes(1.2);
+  gui.frames(30);
+  EXPECT_NEAR(editor.view.camera.eye().z() - editor.walk.feet().z(), 1.2, 1e-3);
+  editor.walk.setUprightEyes(3);
+  gui.frames(60);
+  EXPECT_NEAR(editor.view.camera.eye().z() - editor.walk.feet().z(), 2.0, 1e-3);
+  editor.walk.setViewAngle(75, editor.view.camera);
+  EXPECT_NEAR(editor.view.camera.view_angle_rad, 75 * std::numbers::pi / 180, 1e-9);
+  EXPECT_NE(gui.find("###eye-height"), nullptr);
+  EXPECT_NE(gui.find("###view-angle"), nullptr);
+}
+
+TEST_F(Walking, JumpsToAStoreyAndAProductAndABookmark) {
+  const auto choose = [&](const char* query) {
+    ASSERT_TRUE(invoke(editor, "palette"));
+    gui.frames(3);
+    gui.type(query);
+    gui.key(kKeyEnter);
+    editor.walk_ground.wait();
+    gui.frames(3);
+  };
+  choose("@upper");
+  ASSERT_TRUE(editor.walk.active());
+  EXPECT_EQ(walkPlaceName(editor), "Upper floor");
+  ASSERT_TRUE(invoke(editor, "add-bookmark"));
+  gui.settle();
+  gui.frames(2);
+  ASSERT_TRUE(editor.session.document().bookmarks);
+  const Eigen::Vector3d upstairs = editor.walk.feet();
+  choose("/stair");
+  EXPECT_FALSE(editor.walk.active());
+  ASSERT_FALSE(editor.selection.empty());
+  EXPECT_EQ(editor.environment()->products[editor.selection.primary()].name, "Stair");
+  choose("*view 1");
+  ASSERT_TRUE(editor.walk.active());
+  EXPECT_NEAR((editor.walk.feet() - upstairs).norm(), 0, 0.05);
+}
+
+TEST_F(Walking, GoesToABookmarkInTheListAndRenamesItByF2) {
+  ASSERT_TRUE(invoke(editor, "add-bookmark"));
+  gui.settle();
+  editor.wanted_tab[0] = "bookmarks";
+  gui.frames(3);
+  const auto kept = editor.view.camera;
+  look(editor.view.camera, StandardView::top);
+  gui.frames(2);
+  ASSERT_TRUE(gui.click("###bookmark"));
+  gui.frames(2);
+  EXPECT_NEAR((editor.view.camera.eye() - kept.eye()).norm(), 0, 1e-6);
+  EXPECT_NEAR(editor.view.camera.azimuth_rad, kept.azimuth_rad, 1e-9);
+  EXPECT_NEAR(editor.view.camera.elevation_rad, kept.elevation_rad, 1e-9);
+  gui.key(kKeyF2);
+  gui.frames(3);
+  ASSERT_NE(gui.find("###bookmark-name"), nullptr);
+  gui.type("Garden");
+  gui.key(kKeyEnter);
+  gui.settle();
+  gui.frames(3);
+  EXPECT_EQ(editor.session.document().bookmarks->front().name, "Garden");
+  EXPECT_EQ(editor.session.history().undoDescription(), "Renamed bookmark View 1 to Garden");
 }
 
 // By its keys, straight ahead, as far as it gets.

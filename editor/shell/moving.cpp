@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/shell/moving.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "editor/shell/editor.h"
+#include "editor/shell/overlay.h"
+#include "editor/shell/view_pen.h"
+#include "editor/widgets/keyboard.h"
+#include "editor/widgets/number_field.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr float kMostTicks = 5;       // of a wheel in one frame: what a touchpad sends that was not answered in time
+constexpr double kTurn_px = 14;       // of a drag, that a tick to the side turns as much as
+constexpr double kPan_px = 28;        // of a drag
+constexpr double kTurnWalking = 0.1;  // rad for each tick
+constexpr int kTightRingCorners = 32;
+
+double axis(int less, int more) { return (keyboard::held(more) ? 1.0 : 0.0) - (keyboard::held(less) ? 1.0 : 0.0); }
+
+bool moves(const Editor& editor) { return editor.view.tool == Tool::walk || editor.view.tool == Tool::fly; }
+
+// The figures of a place in the file's frame, without "-0.00".
+std::string placeText(const Editor& editor, const Eigen::Vector3d& local) {
+  const auto toCentimetre = [](double x) { return std::round(100 * x) / 100 + 0.0; };
+  const Eigen::Vector3d p = (local + editor.shift_m()).unaryExpr(toCentimetre);
+  return fmt::format("{:.2f}  {:.2f}  {:.2f} m", p.x(), p.y(), p.z());
+}
+
+std::string walkLine(const Editor& editor) {
+  const auto& walk = editor.walk;
+  std::string line = placeText(editor, walk.feet());
+  if (const auto name = walkPlaceName(editor); !name.empty()) line += "   " + name;
+  line += trf("   eye {:.2f} m   {:.1f} m/s", walk.eyeHeight_m(), walk.speed_mps(false));
+  if (const auto note = walk.note(); !note.empty()) line += "   " + note;
+  return line;
+}
+
+}  // namespace
+
+void handleMoving(Editor& editor) {
+  const auto& io = ImGui::GetIO();
+  const bool keys_are_ours =
+      !io.WantTextInput && !io.KeyCtrl && !io.KeyAlt && !ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId);
+  if (editor.view.tool == Tool::fly) {
+    FlyKeys keys;
+    if (keys_are_ours) keys = {{axis('A', 'D'), axis('S', 'W'), axis('Q', 'E')}, io.KeyShift};
+    editor.fly.go(keys, io.DeltaTime, editor.view.camera);
+  }
+  if (!editor.walk.active()) return;
+  WalkKeys keys;
+  if (keys_are_ours) keys = {{axis('A', 'D'), axis('S', 'W')}, io.KeyShift, keyboard::held('C')};
+  if (keys_are_ours && keyboard::pressed('E')) editor.walk.toggleDoor(editor.view.camera);
+  editor.walk.go(keys, io.DeltaTime, editor.view.camera);
+}
+
+void handleWheel(Editor& editor, ImVec2 origin) {
+  const auto& io = ImGui::GetIO();
+  const double up = std::clamp(io.MouseWheel, -kMostTicks, kMostTicks),
+               aside = std::clamp(io.MouseWheelH, -kMostTicks, kMostTicks);
+  if (up == 0 && aside == 0) return;
+  auto& view = editor.view;
+  auto& camera = view.camera;
+  if (moves(editor)) {
+    if (view.tool == Tool::walk) editor.walk.changeSpeed(up);
+    if (view.tool == Tool::fly) editor.fly.changeSpeed(up);
+    const Eigen::Vector3d eye = camera.eye();
+    camera.azimuth_rad = std::remainder(camera.azimuth_rad + kTurnWalking * aside, 2 * std::numbers::pi);
+    camera.target = eye + camera.forward() * camera.distance_m;
+    return;
+  }
+  const Eigen::Vector2d pixel(io.MousePos.x - origin.x, io.MousePos.y - origin.y);
+  const auto ray = rayThrough(camera, pixel, view.size);
+  const Eigen::Vector3d on_target_plane =
+      ray.origin +
+      ray.direction * ((camera.target - ray.origin).dot(camera.forward()) / ray.direction.dot(camera.forward()));
+  const Eigen::Vector3d anchor = view.hover ? view.hover->position : on_target_plane;
+  if (io.KeyShift) {
+    const double depth = std::max(0.1, (anchor - camera.eye()).dot(camera.forward()));
+    return pan(camera, kPan_px * Eigen::Vector2d(aside, up), view.size, depth);
+  }
+  if (io.KeyCtrl) return zoom(camera, up, camera.target);
+  if (up != 0) zoom(camera, up, anchor);
+  if (aside != 0) orbit(camera, {kTurn_px * aside, 0}, anchor);
+}
+
+bool movesByKey(const Editor& editor, int key) {
+  return moves(editor) && key > 0 && key < 128 && std::strchr("WASDCEQ", key) != nullptr;
+}
+
+void movingChips(Editor& editor) {
+  if (!editor.walk.active()) return;
+  ImGui::NewLine();
+  double eyes = editor.walk.uprightEyes_m();
+  ImGui::SetNextItemWidth(editor.px(104));
+  if (ui::numberField("###eye-height", eyes,
+                      {.kind = {.unit = "m eyes", .least = Walk::kLowestEyes_m, .most = Walk::kHighestEyes_m},
+                       .decimals = 2,
+                       .drag = 0.01},
+                      "Eye height, standing upright"))
+    editor.walk.setUprightEyes(eyes);
+  ImGui::SameLine();
+  double angle = editor.walk.viewAngle_deg();
+  ImGui::SetNextItemWidth(editor.px(104));
+  if (ui::numberField("###view-angle", angle,
+                      {.kind = {.unit = "° view", .least = Walk::kNarrowestView_deg, .most = Walk::kWidestView_deg},
+                       .decimals = 0,
+                       .drag = 0.5},
+                      "Vertical angle of view"))
+    editor.walk.setViewAngle(angle, editor.view.camera);
+}
+
+const char* movingHint(const Editor& editor) {
+  if (editor.view.tool == Tool::fly)
+    return "W A S D to fly, E up, Q down, Shift faster, U to walk, drag to look around   Esc to leave";
+  if (editor.view.tool != Tool::walk) return nullptr;
+  return editor.walk.doorInReach(editor.view.camera)
+             ? "E to open or close the door   W A S D to walk, Shift to run, C to crouch, T to teleport   Esc to leave"
+             : "W A S D to walk, Shift to run, C to crouch, T to teleport, drag to look around   Esc to leave";
+}
+
+void drawMovingLine(const Editor& editor, ImVec2 origin, ImVec2 size) {
+  std::string words;
+  if (editor.walk.active())
+    words = walkLine(editor);
+  else if (editor.view.tool == Tool::fly)
+    words = placeText(editor, editor.view.camera.eye()) + fmt::format("   {:.1f} m/s", editor.fly.speed_mps(false));
+  if (!words.empty()) drawBanner(editor, origin, size, words, 52, IM_COL32(24, 26, 30, 220));
+}
+
+void drawTightPlaces(const Editor& editor, ImVec2 origin) {
+  const auto& collision = editor.session.document().collision;
+  if (!collision) return;
+  const ViewPen pen(editor, origin);
+  const ImU32 tone = verdictTone(Verdict::bad);
+  for (const auto& room : collision->rooms) {
+    const auto& low = room.tight_place;
+    const bool flown_to = low && editor.view.flown_to && (*editor.view.flown_to - low->position).norm() < 0.01;
+    if (!low || !(editor.view.walkable || flown_to)) continue;
+    const Eigen::Vector3d top = low->position + Eigen::Vector3d(0, 0, low->headroom_m);
+    for (const auto& middle : {low->position, top}) {
+      std::array<Eigen::Vector3d, kTightRingCorners> rim;
+      for (std::size_t i = 0; i < rim.size(); ++i) {
+        const double angle = 2 * std::numbers::pi * static_cast<double>(i) / kTightRingCorners;
+        rim[i] = middle + editor.walker.radius_m * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
+      }
+      pen.ring(rim, tone, 2.5F);
+    }
+    pen.rod(low->position, top, tone, 2.5F);
+    if (const auto at = pen.at(top))
+      pen.plate({at->x + editor.px(10), at->y}, verdictSign(Verdict::bad), tone,
+                tightPlaceName(*low, editor.walker) + ", " + whoPasses(*low));
+  }
+}
+
+}  // namespace standpoint
