@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/readable_name.h"
 #include "core/units.h"
-#include "optimizer/walk/route.h"
+#include "optimizer/walk/walkable_map.h"
 #include "survey/stations/levelling.h"
 
 namespace standpoint {
@@ -57,6 +58,29 @@ std::vector<Stop> roomStops(const WalkedGround& ground) {
     left.erase(next);
   }
   return stops;
+}
+
+// Of the rectangle that it stands on or near; none: no floor to walk on.
+std::optional<Eigen::Vector3d> onFloor(const WalkableMap& floor, const Eigen::Vector3d& feet) {
+  const auto rectangle = floor.at(feet);
+  if (!rectangle) return std::nullopt;
+  const auto& box = floor.box(*rectangle);
+  return Eigen::Vector3d(feet.cwiseMax(box.min).cwiseMin(box.max));
+}
+
+// A way by its corners, as places no farther apart than a step, at the height of the floor.
+void append(std::vector<Eigen::Vector3d>& way, const std::vector<Eigen::Vector3d>& corners, const WalkableMap& floor) {
+  constexpr double kPace_m = 0.1;
+  for (const auto& corner : corners) {
+    const Eigen::Vector3d from = way.back();
+    const auto paces = std::max(1, static_cast<int>(std::ceil((corner - from).head<2>().norm() / kPace_m)));
+    for (int k = 1; k <= paces; ++k) {
+      Eigen::Vector3d next = from + (corner - from) * k / paces;
+      next.z() = way.back().z();
+      if (const auto rectangle = floor.under(next)) next.z() = floor.box(*rectangle).min.z();
+      way.push_back(k == paces ? corner : next);
+    }
+  }
 }
 
 // Whoever walks opens doors; in a film they are left out instead.
@@ -121,14 +145,15 @@ Result<std::vector<Eigen::Vector3d>> wayThrough(const Document& document, const 
   } else {
     TRY_ASSIGN(all, stationStops(document, stops.stations));
   }
-  const WalkRoutes routes(ground.collision->walkable);
+  const WalkableMap floor(ground.collision->walkable);
   std::vector<Eigen::Vector3d> way;
   const Stop* last = nullptr;
   for (std::size_t i = 0; i < all.size(); ++i) {
     progress.advance(static_cast<double>(i) / static_cast<double>(all.size()));
-    const auto there = routes.nearest(all[i].feet);
+    TRY(progress.check());
+    const auto there = onFloor(floor, all[i].feet);
     if (!there) {
-      report.warn(all[i].name, "left out of the walk: no floor to walk on within 1.5 m");
+      report.warn(all[i].name, "left out of the walk: no floor to walk on beside it");
       continue;
     }
     if (last == nullptr) {
@@ -136,12 +161,12 @@ Result<std::vector<Eigen::Vector3d>> wayThrough(const Document& document, const 
       last = &all[i];
       continue;
     }
-    TRY_ASSIGN(const auto leg, routes.between(way.back(), *there, progress));
-    if (leg.empty()) {
+    const auto corners = floor.way(way.back(), *there);
+    if (corners.empty()) {
       report.warn(all[i].name, "left out of the walk: cannot be reached on foot from " + last->name);
       continue;
     }
-    way.insert(way.end(), leg.begin() + 1, leg.end());
+    append(way, corners, floor);
     last = &all[i];
   }
   return way;

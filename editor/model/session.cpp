@@ -218,8 +218,7 @@ bool Session::start(const VerbOptions& options, std::string title, Work work) {
 }
 
 bool Session::save(const std::filesystem::path& folder) {
-  return start(SaveOptions{folder, folder == folder_ ? on_disk_ : std::string()},
-               trf("Save {}", nameOf(folder)));
+  return start(SaveOptions{folder, folder == folder_ ? on_disk_ : std::string()}, trf("Save {}", nameOf(folder)));
 }
 
 bool Session::changedOnDisk() {

@@ -207,13 +207,11 @@ void followWalking(Model& model) {
 }
 
 std::string tightPlaceName(const TightPlace& place, const Body& agent) {
-  return place.passes_height_m < agent.height_m - 1e-6 ? fmt::format("headroom {:.2f} m", place.headroom_m)
-                                                       : "too narrow";
+  return place.passes_height_m < agent.height_m - 1e-6 ? trf("headroom {:.2f} m", place.headroom_m) : "too narrow";
 }
 
 std::string whoPasses(const TightPlace& place) {
-  return fmt::format("a body of {:.1f} m with a radius of {:.2f} m passes", place.passes_height_m,
-                     place.passes_radius_m);
+  return trf("a body of {:.1f} m with a radius of {:.2f} m passes", place.passes_height_m, place.passes_radius_m);
 }
 
 std::string walkPlaceName(const Model& model) {

@@ -11,6 +11,7 @@
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/words.h"
 
 namespace standpoint {
 
@@ -24,7 +25,7 @@ void drawBox(const Model& model, ClipBox box, Actions& actions) {
   const NumberFormat place{.kind = {.unit = "m"}, .decimals = 3, .drag = 0.01};
   const NumberFormat side{.kind = {.unit = "m", .least = kThinnestClip_m, .most = 1e5}, .decimals = 3, .drag = 0.01};
   for (Eigen::Index i = 0; i < 3; ++i) {
-    ui::propertyLabel(fmt::format("Middle {}", kAxes[i]).c_str());
+    ui::propertyLabel(trf("Middle {}", kAxes[i]).c_str());
     double middle = box.centre[i] + model.shift_m()[i];
     if (ui::numberField(fmt::format("###clip-middle-{}", kAxes[i]).c_str(), middle, place))
       box.centre[i] = middle - model.shift_m()[i];
@@ -87,7 +88,7 @@ void drawClip(const Model& model, Actions& actions) {
   ImGui::SameLine();
   actions.button("clip-turn", "Turn by 90°", half);
   bool handles = model.view.clip.handles;
-  if (ImGui::Checkbox("Handles in view", &handles)) actions.run("clip-handles");
+  if (ImGui::Checkbox(ui::Label("Handles in view"), &handles)) actions.run("clip-handles");
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/words.h"
 #include "project/model/model_verbs.h"
 
 namespace standpoint {
@@ -92,7 +93,7 @@ void drawTightPlace(const Model& model, Actions& actions, const TightPlace& plac
   if (ImGui::SmallButton(fmt::format("{}  {}###tight-place", ICON_CROSSHAIRS, name).c_str()))
     actions.flyTo(place.position);
   ImGui::PopStyleColor();
-  ui::tooltip(fmt::format("Not reachable: {} on the way; {}. Click to see the place", name, whoPasses(place)));
+  ui::tooltip(trf("Not reachable: {} on the way; {}. Click to see the place", name, whoPasses(place)));
 }
 
 void drawRooms(const Model& model, Actions& actions, const CollideResult& result) {

@@ -10,6 +10,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/words.h"
 #include "project/verbs/file_verbs.h"
 
 namespace standpoint {
@@ -35,7 +36,7 @@ void chooseCloud(const Model& model, Actions& actions, const char* id, const std
     if (ImGui::Selectable((clouds[i].label + "###" + id + std::to_string(i)).c_str(), file == clouds[i].file))
       file = clouds[i].file;
   ImGui::Separator();
-  if (ImGui::Selectable("Another file…"))
+  if (ImGui::Selectable(ui::Label("Another file…")))
     actions.askForFile(FileDialogState::Purpose::openFile, "Choose a point cloud", "Choose",
                        {".e57", ".las", ".laz", ".ply", ".pcd", ".ptx", ".pts", ".xyz"}, "",
                        [&states, is_a](Actions&, const std::filesystem::path& chosen) {
@@ -118,11 +119,11 @@ void drawRow(const Model& model, const Row& row) {
 
 void drawTable(const Model& model, const std::vector<Row>& rows, const char* id) {
   if (!ImGui::BeginTable(id, 5, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
-  ImGui::TableSetupColumn("Figure", ImGuiTableColumnFlags_WidthStretch, 2.2F);
+  ImGui::TableSetupColumn(ui::Label("Figure"), ImGuiTableColumnFlags_WidthStretch, 2.2F);
   ImGui::TableSetupColumn("A", ImGuiTableColumnFlags_WidthStretch, 0.8F);
   ImGui::TableSetupColumn("B", ImGuiTableColumnFlags_WidthStretch, 0.8F);
-  ImGui::TableSetupColumn("B against A", ImGuiTableColumnFlags_WidthStretch, 0.9F);
-  ImGui::TableSetupColumn("A blue, B orange", ImGuiTableColumnFlags_WidthStretch, 1.6F);
+  ImGui::TableSetupColumn(ui::Label("B against A"), ImGuiTableColumnFlags_WidthStretch, 0.9F);
+  ImGui::TableSetupColumn(ui::Label("A blue, B orange"), ImGuiTableColumnFlags_WidthStretch, 1.6F);
   ImGui::TableHeadersRow();
   for (const auto& row : rows) drawRow(model, row);
   ImGui::EndTable();

@@ -7,6 +7,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/sentences.h"
 
 namespace standpoint {
 
@@ -29,7 +30,8 @@ void drawStep(const Model& model, Actions& actions, std::size_t step) {
   const auto why = current ? std::string() : model.session.whyNotGoTo(step);
   ImGui::BeginDisabled(!why.empty());
   ImGui::PushStyleColor(ImGuiCol_Text, undone ? tone::kDim : tone::kText);
-  const std::string label = fmt::format("{}{}###step", history.description(step), undone ? "  (undone)" : "");
+  const std::string label =
+      fmt::format("{}{}###step", trSentence(history.description(step)), undone ? "  " + tr("(undone)") : "");
   if (ImGui::Selectable(label.c_str(), current, ImGuiSelectableFlags_SpanAllColumns) && !current) actions.goTo(step);
   ImGui::PopStyleColor();
   ImGui::EndDisabled();

@@ -8,6 +8,7 @@
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/words.h"
 #include "project/survey/measure_verb.h"
 
 namespace standpoint {
@@ -43,15 +44,15 @@ void lookAt(Actions& actions, const Measurement& m) {
 }
 
 void drawList(const Model& model, Actions& actions, const Measurements& measurements) {
-  ui::heading(model, fmt::format("Measurements  {}", measurements.size()).c_str());
+  ui::heading(model, trf("Measurements  {}", measurements.size()).c_str());
   if (measurements.empty()) {
     ui::dimWrapped("Choose what to measure, then click in the view: on the model, or on points of a scan.");
     return;
   }
   if (!ImGui::BeginTable("measurements", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
-  ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch, 1.2F);
-  ImGui::TableSetupColumn("Kind", ImGuiTableColumnFlags_WidthStretch, 0.8F);
-  ImGui::TableSetupColumn("Result", ImGuiTableColumnFlags_WidthStretch, 1);
+  ImGui::TableSetupColumn(ui::Label("Name"), ImGuiTableColumnFlags_WidthStretch, 1.2F);
+  ImGui::TableSetupColumn(ui::Label("Kind"), ImGuiTableColumnFlags_WidthStretch, 0.8F);
+  ImGui::TableSetupColumn(ui::Label("Result"), ImGuiTableColumnFlags_WidthStretch, 1);
   ImGui::TableHeadersRow();
   for (int i = 0; i < static_cast<int>(measurements.size()); ++i) {
     const auto& m = measurements[static_cast<std::size_t>(i)];
@@ -97,7 +98,7 @@ void drawChosen(const Model& model, MeasureState& state, Actions& actions, const
     drawName(model, state, actions, m);
     for (const auto& figure : figuresOf(m)) ui::property(figure.label, figureText(figure));
     for (std::size_t i = 0; i < m.points.size() && i < 12; ++i)
-      ui::property(fmt::format("Point {}", i + 1).c_str(), coordinates(m.points[i] + model.shift_m()));
+      ui::property(trf("Point {}", i + 1).c_str(), coordinates(m.points[i] + model.shift_m()));
     ui::endProperties();
   }
   if (!m.note.empty()) ui::dimWrapped(m.note);
@@ -130,7 +131,7 @@ void draw(const Model& model, MeasureState& state, Actions& actions) {
   drawList(model, actions, measurements);
   if (measurements.empty()) return;
   bool shown = model.view.measurements;
-  if (ImGui::Checkbox("Show in view", &shown)) actions.showMeasurements(shown);
+  if (ImGui::Checkbox(ui::Label("Show in view"), &shown)) actions.showMeasurements(shown);
   ImGui::SameLine();
   if (ui::button(ICON_COPY "  Copy all###copy-measurements", {}, {-FLT_MIN, 0}, "Copy all measurements as text")) {
     std::string text;

@@ -11,6 +11,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/words.h"
 
 namespace standpoint {
 
@@ -72,7 +73,7 @@ std::string underPointer(const PanoramaRead& read, const Eigen::Vector2i& pixel,
   if (!point) return "No point";
   const auto at = read.panorama.at(pixel.x(), pixel.y());
   std::string text = fmt::format("{:.3f} m", read.panorama.range_m[at]);
-  if (read.panorama.has_intensity) text += fmt::format("   intensity {:.3f}", read.panorama.intensity[at]);
+  if (read.panorama.has_intensity) text += trf("   intensity {:.3f}", read.panorama.intensity[at]);
   return text + "\n" + coordinates(read.request.local_from_cloud * *point + shift_m);
 }
 
@@ -145,8 +146,8 @@ void draw(const Model& model, PanoramaState& state, Actions& actions) {
   if (state.channel != PanoramaChannel::colour) {
     ImGui::SameLine();
     const auto scale = state.channel == PanoramaChannel::range
-                           ? fmt::format("{:.2f} m (dark) to {:.2f} m (yellow)", state.shades.low, state.shades.high)
-                           : fmt::format("{:.3g} (dark) to {:.3g} (light)", state.shades.low, state.shades.high);
+                           ? trf("{:.2f} m (dark) to {:.2f} m (yellow)", state.shades.low, state.shades.high)
+                           : trf("{:.3g} (dark) to {:.3g} (light)", state.shades.low, state.shades.high);
     ui::fitted(scale, ImGui::GetContentRegionAvail().x);
   }
   drawPicture(model, state, actions, *read);

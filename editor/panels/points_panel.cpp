@@ -10,6 +10,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/words.h"
 
 namespace standpoint {
 
@@ -76,9 +77,9 @@ void drawPoints(const Model& model, Actions& actions) {
     ui::endProperties();
   }
   bool shaded = model.view.shaded_points;
-  if (ImGui::Checkbox("Shade by depth", &shaded)) actions.run("shaded-points");
+  if (ImGui::Checkbox(ui::Label("Shade by depth"), &shaded)) actions.run("shaded-points");
   ui::tooltip("Eye-dome lighting: edges of what lies in front are darkened while the view is at rest");
-  ui::heading(model, fmt::format("Clouds  {}", clouds.size()).c_str());
+  ui::heading(model, trf("Clouds  {}", clouds.size()).c_str());
   for (std::size_t i = 0; i < clouds.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
     drawCloud(model, actions, clouds[i]);

@@ -12,6 +12,7 @@
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/words.h"
 #include "project/survey/measure_verb.h"
 
 namespace standpoint {
@@ -97,7 +98,7 @@ void drawHistogram(const Model& model, const WallFit& fit) {
     if (i > 0) list.AddLine(before, here, tone::kWarning, model.px(1.5F));
     before = here;
   }
-  drawEnds(model, plot, "−" + millimetres(reach), fmt::format("{} beyond", groupedDigits(fit.beyond)),
+  drawEnds(model, plot, "−" + millimetres(reach), trf("{} beyond", groupedDigits(fit.beyond)),
            "+" + millimetres(reach));
 }
 
@@ -135,7 +136,7 @@ void drawFigures(const WallResult& wall) {
   ui::property(fit.level ? "Tilt from level" : "Tilt from plumb",
                fmt::format("{:.3f}°  ({:.2f} mm/m)", fit.tilt_rad / kRadPerDeg, std::tan(fit.tilt_rad) * 1000));
   if (fit.incidence_rad) ui::property("Mean incidence", fmt::format("{:.1f}°", *fit.incidence_rad / kRadPerDeg));
-  ui::property(fmt::format("Roughness (r {:.3g} m)", fit.roughness.radius_m).c_str(),
+  ui::property(trf("Roughness (r {:.3g} m)", fit.roughness.radius_m).c_str(),
                fit.roughness.samples > 0 ? millimetres(fit.roughness.mean_m) : "too few neighbours");
   ui::property("Extent", fmt::format("{:.2f} × {:.2f} m", fit.width_m, fit.height_m));
   ui::endProperties();

@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 
 #include "core/part_file.h"
+#include "editor/words/words.h"
 
 namespace standpoint {
 
@@ -198,18 +199,21 @@ const LeftJob* leftScan(const LeftWork& left) {
 std::vector<std::string> sentencesOf(const LeftWork& left) {
   const auto& mark = left.mark;
   std::vector<std::string> said;
-  said.push_back(fmt::format("{}{}{}.", mark.display_lost ? "The display was lost" : "The editor closed unexpectedly",
-                             mark.name.empty() ? "" : fmt::format(" while '{}' was open", mark.name),
-                             left.last_heard.empty() ? "" : ", last seen at " + left.last_heard));
+  said.push_back(mark.display_lost ? tr("The display was lost.") : tr("The editor closed unexpectedly."));
+  if (!mark.name.empty()) said.push_back(trf("Open project: '{}'.", mark.name));
+  if (!left.last_heard.empty()) said.push_back(trf("Last seen at {}.", left.last_heard));
   if (!left.project.empty() && mark.saved_in.empty())
-    said.push_back("The project was never saved. A recovery copy of it is available.");
+    said.push_back(tr("The project was never saved. A recovery copy of it is available."));
+  else if (!left.project.empty() && mark.changes == 0)
+    said.push_back(tr("A recovery copy is available."));
   else if (!left.project.empty())
-    said.push_back(mark.changes == 0 ? "A recovery copy is available."
-                                     : fmt::format("A recovery copy is available. {} change{} newer than the project.",
-                                                   mark.changes, mark.changes == 1 ? " is" : "s are"));
-  for (const auto& job : mark.jobs)
-    said.push_back(fmt::format("{} stopped at {} %.", job.stage.empty() ? job.title : job.stage, job.percent) +
-                   (job.verb == "scan" ? " Stations that were finished are kept." : ""));
+    said.push_back(trn("A recovery copy is available. {} change is newer than the project.",
+                       "A recovery copy is available. {} changes are newer than the project.", mark.changes,
+                       mark.changes));
+  for (const auto& job : mark.jobs) {
+    said.push_back(trf("{} stopped at {} %.", job.stage.empty() ? job.title : job.stage, job.percent));
+    if (job.verb == "scan") said.push_back(tr("Stations that were finished are kept."));
+  }
   return said;
 }
 

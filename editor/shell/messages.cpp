@@ -18,6 +18,7 @@
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 #include "editor/words/sentences.h"
+#include "editor/words/words.h"
 
 namespace standpoint {
 
@@ -130,7 +131,7 @@ void drawOpenTwice(Editor& editor) {
   auto& session = editor.session;
   if (!ui::beginModal(editor, "Project is open in another editor###open-twice", !session.openElsewhere().empty(), 520))
     return;
-  ui::wrapped(fmt::format("'{}' is already open elsewhere:", session.name()));
+  ui::wrapped(trf("'{}' is already open elsewhere:", session.name()));
   ui::dimWrapped(session.openElsewhere());
   ui::gap(editor, 2);
   ui::wrapped(
@@ -142,12 +143,12 @@ void drawOpenTwice(Editor& editor) {
     ImGui::CloseCurrentPopup();
   }
   ImGui::SameLine();
-  if (ImGui::Button("Open here as well###beside", {editor.px(150), 0}) || ui::modalCancelled(true)) {
+  if (ImGui::Button(ui::Label("Open here as well###beside"), {editor.px(150), 0}) || ui::modalCancelled(true)) {
     session.stayBeside();
     ImGui::CloseCurrentPopup();
   }
   ImGui::SameLine();
-  if (ImGui::Button("Close it###close", {editor.px(90), 0})) {
+  if (ImGui::Button(ui::Label("Close it###close"), {editor.px(90), 0})) {
     session.clear();
     ImGui::CloseCurrentPopup();
   }
@@ -183,8 +184,8 @@ void drawShortcuts(Editor& editor) {
   if (!ui::beginModal(editor, "Keyboard and mouse###shortcuts", editor.dialogs.shortcuts, 560)) return;
   if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg,
                         {0, std::min(editor.px(480), ImGui::GetIO().DisplaySize.y * 0.6F)})) {
-    ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, editor.px(230));
-    ImGui::TableSetupColumn("meaning", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupColumn(ui::Label("keys"), ImGuiTableColumnFlags_WidthFixed, editor.px(230));
+    ImGui::TableSetupColumn(ui::Label("meaning"), ImGuiTableColumnFlags_WidthStretch);
     for (const auto& hint : kMouse) hintRow(hint.keys, hint.meaning);
     for (const auto& action : actions())
       if (action.shortcut.key != 0) hintRow(shortcutText(action.shortcut).c_str(), action.title);

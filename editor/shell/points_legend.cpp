@@ -8,6 +8,7 @@
 #include "editor/shell/editor.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/words.h"
 
 namespace standpoint {
 
@@ -31,8 +32,8 @@ void drawGround(const Editor& editor, ImVec2 at, ImVec2 size) {
 std::string clampText(const PointLegend& legend) {
   std::uint64_t all = legend.no_data + legend.below + legend.above;
   for (const auto n : legend.histogram) all += n;
-  std::string text = fmt::format("{} below, {} above", shareText(legend.below, all), shareText(legend.above, all));
-  if (legend.no_data > 0) text += fmt::format(", {} without (grey)", shareText(legend.no_data, all));
+  std::string text = trf("{} below, {} above", shareText(legend.below, all), shareText(legend.above, all));
+  if (legend.no_data > 0) text += trf(", {} without (grey)", shareText(legend.no_data, all));
   return text;
 }
 
@@ -80,7 +81,7 @@ void drawClasses(const Editor& editor, const PointLegend& legend, ImVec2 origin,
                       legend.classes[i].name + "   " + shareText(legend.classes[i].points, all));
   if (others > 0)
     rows.emplace_back(kOtherColour,
-                      fmt::format("{} others   {}", legend.classes.size() - kMostClasses, shareText(others, all)));
+                      trf("{} others   {}", legend.classes.size() - kMostClasses, shareText(others, all)));
   if (legend.no_data > 0) rows.emplace_back(kNoDataColour, "none   " + shareText(legend.no_data, all));
   const float line = ImGui::GetTextLineHeight() + editor.px(3), swatch = editor.px(10);
   float wide = ImGui::CalcTextSize(legend.title.c_str()).x;

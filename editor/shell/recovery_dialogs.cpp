@@ -44,7 +44,7 @@ void drawBareStart(Editor& editor) {
     ImGui::CloseCurrentPopup();
   }
   ImGui::SameLine();
-  if (ImGui::Button("Start as usual###as-usual", {editor.px(130), 0})) {
+  if (ImGui::Button(ui::Label("Start as usual###as-usual"), {editor.px(130), 0})) {
     editor.dialogs.bare = false;
     ImGui::CloseCurrentPopup();
     if (const auto start = std::exchange(editor.dialogs.start_as_usual, nullptr)) start();
@@ -83,7 +83,8 @@ void drawRecovery(Editor& editor) {
                            : ui::primaryButton(opens, why, {editor.px(120), 0});
     if (done) open(false);
   }
-  if (ImGui::SameLine(), !done && (ImGui::Button("Later###later", {editor.px(80), 0}) || ui::modalCancelled(true))) {
+  if (ImGui::SameLine(),
+      !done && (ImGui::Button(ui::Label("Later###later"), {editor.px(80), 0}) || ui::modalCancelled(true))) {
     done = true;
     close();
   }

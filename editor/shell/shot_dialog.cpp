@@ -15,6 +15,7 @@
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/words.h"
 
 namespace standpoint {
 
@@ -155,7 +156,7 @@ void drawFrom(const Editor& editor, ShotDialog& dialog) {
   ui::propertyLabel("From");
   auto& station = dialog.place.station;
   if (!ImGui::BeginCombo("###shot-from", station.empty() ? "The view" : ("Station " + station).c_str())) return;
-  if (ImGui::Selectable("The view###from-view", station.empty())) station.clear();
+  if (ImGui::Selectable(ui::Label("The view###from-view"), station.empty())) station.clear();
   if (const auto& job = editor.session.document().job)
     for (const auto& s : job->stations)
       if (ImGui::Selectable(fmt::format("Station {}###from-{}", s.name, s.name).c_str(), s.name == station))
@@ -169,9 +170,9 @@ void drawFields(const Editor& editor, ShotDialog& dialog) {
   if (dialog.kind == ShotKind::picture || dialog.kind == ShotKind::panorama) drawFrom(editor, dialog);
   if (dialog.kind == ShotKind::walk_through) {
     ui::propertyLabel("Through");
-    if (ImGui::RadioButton("Stations###through-stations", !dialog.stops.rooms)) dialog.stops.rooms = false;
+    if (ImGui::RadioButton(ui::Label("Stations###through-stations"), !dialog.stops.rooms)) dialog.stops.rooms = false;
     ImGui::SameLine();
-    if (ImGui::RadioButton("Rooms###through-rooms", dialog.stops.rooms)) dialog.stops.rooms = true;
+    if (ImGui::RadioButton(ui::Label("Rooms###through-rooms"), dialog.stops.rooms)) dialog.stops.rooms = true;
   }
   if (rowOf(dialog.kind).film) {
     ui::propertyLabel("Pictures per second");
@@ -203,7 +204,7 @@ void drawMade(Editor& editor, ShotDialog& dialog) {
                  film ? "Films cannot be copied; show the folder instead" : whyNotCopyPicture()))
     dialog.copy_problem = copyPicture(dialog.made);
   ImGui::SameLine();
-  if (ImGui::Button("Copy path###shot-path")) ImGui::SetClipboardText(dialog.made.c_str());
+  if (ImGui::Button(ui::Label("Copy path###shot-path"))) ImGui::SetClipboardText(dialog.made.c_str());
   for (const auto& problem : {dialog.copy_problem, dialog.opener.problem()})
     if (!problem.empty()) ui::wrapped(problem);
 }
@@ -211,8 +212,8 @@ void drawMade(Editor& editor, ShotDialog& dialog) {
 void askForFileThenBegin(Editor& editor) {
   const auto& row = rowOf(editor.shots.kind);
   auto extensions = row.film ? std::vector<std::string>{".mp4"} : std::vector<std::string>{".png", ".jpg"};
-  askForFile(editor, FileDialogState::Purpose::saveFile, fmt::format("Save {}", row.title), "Save",
-             std::move(extensions), fmt::format("{}-{}{}", editor.session.name(), row.id, row.extension),
+  askForFile(editor, FileDialogState::Purpose::saveFile, trf("Save {}", row.title), "Save", std::move(extensions),
+             fmt::format("{}-{}{}", editor.session.name(), row.id, row.extension),
              [&editor](const std::filesystem::path& chosen) { begin(editor, chosen); });
 }
 
@@ -226,7 +227,7 @@ void drawSetup(Editor& editor) {
   ui::gap(editor, 4);
   if (ui::primaryButton("Save as…###shot-make", whyNot(editor), {editor.px(110), 0})) askForFileThenBegin(editor);
   ImGui::SameLine();
-  if (ImGui::Button("Close###shot-close", {editor.px(110), 0}) || ui::modalCancelled()) dialog.open = false;
+  if (ImGui::Button(ui::Label("Close###shot-close"), {editor.px(110), 0}) || ui::modalCancelled()) dialog.open = false;
   if (const auto why = whyNot(editor); !why.empty()) {
     ImGui::SameLine();
     ImGui::PushStyleColor(ImGuiCol_Text, tone::kWarning);
@@ -241,15 +242,15 @@ void drawMaking(Editor& editor) {
   ui::wrapped(file.filename().string());
   if (dialog.shoot) {
     ui::meter(editor, dialog.shoot->fraction(), tone::kAccent);
-    ui::dimText(fmt::format("{} of {} pictures, {:.0f} %", dialog.shoot->done(), dialog.shoot->all(),
-                            100 * dialog.shoot->fraction()));
+    ui::dimText(
+        trf("{} of {} pictures, {:.0f} %", dialog.shoot->done(), dialog.shoot->all(), 100 * dialog.shoot->fraction()));
   } else {
     ui::meter(editor, dialog.finding ? dialog.finding->progress().fraction() : editor.walk_ground.fraction(),
               tone::kAccent);
     ui::dimText(dialog.finding ? "Finding the way" : "Preparing the walkable surface");
   }
   ui::gap(editor, 4);
-  if (ImGui::Button("Cancel###shot-cancel", {editor.px(110), 0}) || ui::modalCancelled(true)) {
+  if (ImGui::Button(ui::Label("Cancel###shot-cancel"), {editor.px(110), 0}) || ui::modalCancelled(true)) {
     dialog.waits_for_ground = false;
     dialog.finding.reset();
     dialog.shoot.reset();

@@ -90,7 +90,6 @@ void SceneLayers::update(const ViewState& state, const ViewState* last) {
 }
 
 void SceneLayers::setPixels(int factor) {
-  pixels_ = factor;
   model_.setLineWidth(static_cast<float>(factor));
   for (Layer* layer : {&grid_, &door_edges_}) layer->actor->GetProperty()->SetLineWidth(static_cast<float>(factor));
   outline_.actor->GetProperty()->SetLineWidth(static_cast<float>(2 * factor));

@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,13 @@ inline std::string withoutEscapes(const std::string& quoted) {
       text += quoted[++i] == 'n' ? '\n' : quoted[i];
   }
   return text;
+}
+
+// All of them, where a matcher would show the first ones.
+inline std::string oneALine(const std::set<std::string>& texts) {
+  std::string all;
+  for (const auto& text : texts) all += "\n" + text;
+  return all;
 }
 
 inline std::map<std::string, CatalogueText> textsOf(const std::string& file) {

@@ -97,6 +97,11 @@ std::map<std::string, std::vector<json>> samplesOfVerbs(const fs::path& folder) 
         {{"remove", "T1"}}}},
       {"underlay", {{{"add", scan}}, {{"hide", "S1"}}, {{"remove", "S1"}}}},
       {"plan", {json::object()}},
+      {"bookmark", {{{"add", "Stair"}}, {{"rename", "Door"}, {"name", "Entrance"}}, {{"remove", "Door"}}}},
+      {"measure",
+       {{{"add", "M2"}, {"kind", "height"}, {"points", {"1,1,0", "1,1,2.5"}}},
+        {{"rename", "M1"}, {"name", "Width"}},
+        {{"remove", "M1"}}}},
       {"scan", {{{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/32", "quality=4x"}}, {"output", scan}}}},
       {"register", {}},  // its line names only how many stations; a run needs overlapping scans
   };
@@ -126,6 +131,8 @@ TEST(UndoNames, OfEveryVerbAreInPlainWords) {
       {"station", {{"add", "S2"}, {"on", {3.8, 2.5, 2.8}}}},
       {"target", {{"add", "T1"}, {"at", {4, 2, 1.5}}}},
       {"materials", json::object()},
+      {"bookmark", {{"add", "Door"}}},
+      {"measure", {{"add", "M1"}, {"kind", "distance"}, {"points", {"1,1,0", "2,1,0"}}}},
       {"scan",
        {{"instrument", "faro-focus-s350"},
         {"stations", "S1"},

@@ -232,7 +232,7 @@ class CloudFiles : public ::testing::Test {
 };
 
 std::uint64_t readAll(const Cloud& cloud) {
-  CloudNodes nodes(cloud.octree, cloud.colouring, 1 << 30);
+  CloudNodes nodes(cloud.octree, ownPaint(cloud.colouring), 1 << 30);
   std::vector<std::uint32_t> all(cloud.octree->nodes().size());
   for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
   nodes.want(all);
@@ -301,7 +301,7 @@ TEST_F(CloudFiles, ArePreviewedWhileTheirOctreeIsMade) {
 TEST_F(CloudFiles, ThatVanishKeepWhatIsInMemory) {
   const auto cloud = open();
   ASSERT_TRUE(cloud);
-  CloudNodes nodes(cloud->octree, cloud->colouring, 1 << 30);
+  CloudNodes nodes(cloud->octree, ownPaint(cloud->colouring), 1 << 30);
   const std::vector<std::uint32_t> root = {0}, both = {0, 1};
   nodes.want(root);
   while (nodes.reading()) nodes.waitForNews(1);
@@ -321,7 +321,7 @@ TEST_F(CloudFiles, TakeNoMoreMemoryThanTheyMay) {
   ASSERT_TRUE(cloud);
   const auto& all = cloud->octree->nodes();
   ASSERT_GT(all.size(), 4U);
-  CloudNodes nodes(cloud->octree, cloud->colouring, 16 * (std::uint64_t{all[0].points} + all[1].points));
+  CloudNodes nodes(cloud->octree, ownPaint(cloud->colouring), 16 * (std::uint64_t{all[0].points} + all[1].points));
   for (std::uint32_t n = 1; n < 5; ++n) {
     const std::vector<std::uint32_t> wanted = {0, n};
     nodes.want(wanted);

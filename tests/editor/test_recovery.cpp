@@ -57,9 +57,9 @@ TEST_F(Recovery, SaysWhatRanAndHowFarItWas) {
   const auto left = findLeftWork(root);
   ASSERT_EQ(left.size(), 1U);
   EXPECT_THAT(sentencesOf(left[0]),
-              ElementsAre(StartsWith("The editor closed unexpectedly while 'House' was open, last seen at "),
+              ElementsAre("The editor closed unexpectedly.", "Open project: 'House'.", StartsWith("Last seen at "),
                           "A recovery copy is available. 3 changes are newer than the project.",
-                          "Scan K3 (2 of 5) stopped at 62 %. Stations that were finished are kept.",
+                          "Scan K3 (2 of 5) stopped at 62 %.", "Stations that were finished are kept.",
                           "Optimise stopped at 7 %."));
   ASSERT_NE(leftScan(left[0]), nullptr);
   EXPECT_EQ(*leftScan(left[0]), scan);

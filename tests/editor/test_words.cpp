@@ -258,7 +258,7 @@ TEST_F(Words, AreTranslatedWhereTheSourcesHaveThem) {
         missing.insert(path.filename().string() + ": " + asked);
     }
   }
-  EXPECT_THAT(missing, IsEmpty()) << "add them to editor/words/*.po";
+  EXPECT_THAT(missing, IsEmpty()) << "add them to editor/words/*.po:" << oneALine(missing);
 }
 
 TEST_F(Words, AreTranslatedForEveryVerbAndOption) {
@@ -279,7 +279,7 @@ TEST_F(Words, AreTranslatedForEveryVerbAndOption) {
     want(readableEffect(effect));
     want(std::string(effect.description));
   }
-  EXPECT_THAT(missing, IsEmpty()) << "add them to editor/words/*.po";
+  EXPECT_THAT(missing, IsEmpty()) << "add them to editor/words/*.po:" << oneALine(missing);
 }
 
 }  // namespace

@@ -222,7 +222,7 @@ TEST_F(DrawnWords, AreAllAskedForInPanelsMenusAndDialogs) {
         text.find(kFrom) == std::string::npos)
       missing.insert(text);
   }
-  EXPECT_THAT(missing, IsEmpty()) << "add them to editor/words/*.po";
+  EXPECT_THAT(missing, IsEmpty()) << "add them to editor/words/*.po:" << oneALine(missing);
 }
 
 TEST_F(DrawnWords, OfEveryActionHaveATranslation) {

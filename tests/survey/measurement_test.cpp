@@ -36,8 +36,8 @@ TEST(Measurement, OfAHeightIsNegativeWhereTheSecondPointIsLower) {
 }
 
 TEST(Measurement, OfAnAngleIsThatAtTheSecondPointAlsoOfAStraightLine) {
-  EXPECT_NEAR(figure(made(MeasurementKind::angle, {{2, 0, 0}, {0, 0, 0}, {0, 0, 5}}), "angle"),
-              std::numbers::pi / 2, 1e-12);
+  EXPECT_NEAR(figure(made(MeasurementKind::angle, {{2, 0, 0}, {0, 0, 0}, {0, 0, 5}}), "angle"), std::numbers::pi / 2,
+              1e-12);
   EXPECT_NEAR(figure(made(MeasurementKind::angle, {{-1, 0, 0}, {0, 0, 0}, {3, 0, 0}}), "angle"), std::numbers::pi,
               1e-7);
 }
