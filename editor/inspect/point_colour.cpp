@@ -46,14 +46,14 @@ constexpr std::array kFlags = {
     FlagClass{point_flag::kSaturated, "saturated"},
 };
 
-std::string namedChannel(std::uint32_t channel) {
+std::string whyNoChannel(std::uint32_t channel) {
   switch (channel) {
-    case cloud_channel::kColour: return "colours; scan with images";
-    case cloud_channel::kIntensity: return "intensities";
-    case cloud_channel::kLabels: return "labels of products and materials";
-    case cloud_channel::kTime: return "times; scan with time";
-    case cloud_channel::kReturns: return "numbers of returns; scan with returns";
-    default: return "truth; scan with truth";
+    case cloud_channel::kColour: return "The file has no colours; scan with images";
+    case cloud_channel::kIntensity: return "The file has no intensities";
+    case cloud_channel::kLabels: return "The file has no labels of products and materials";
+    case cloud_channel::kTime: return "The file has no times; scan with time";
+    case cloud_channel::kReturns: return "The file has no numbers of returns; scan with returns";
+    default: return "The file has no truth; scan with truth";
   }
 }
 
@@ -291,7 +291,7 @@ const ColourByRow& rowOf(ColourBy colour) { return kRows.at(static_cast<std::siz
 
 std::string whyNotColoured(ColourBy colour, const CloudHeader& header) {
   const auto needed = rowOf(colour).channels;
-  if ((header.channels & needed) != needed) return "The file has no " + namedChannel(needed);
+  if ((header.channels & needed) != needed) return whyNoChannel(needed);
   const bool any = std::any_of(header.stations.begin(), header.stations.end(), standsSomewhere);
   if (colour == C::range && !any) return "The file does not say where the scanner stood";
   return {};

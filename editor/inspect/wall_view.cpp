@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "editor/words/words.h"
 
 namespace standpoint {
 
@@ -31,26 +32,31 @@ std::array<Eigen::Vector3d, 4> cornersOf(const WallResult& wall) {
 
 std::string wallNote(const WallResult& wall) {
   const auto& fit = wall.fit;
-  auto text = fmt::format("Plane in {}: {} points, sigma {}, largest {}, ", wall.request.cloud, fit.fitted,
-                          millimetres(fit.sigma_m), millimetres(fit.max_m));
-  text += fmt::format("tilt from {} {:.3f}°", fit.level ? "level" : "plumb", fit.tilt_rad / kRadPerDeg);
-  if (fit.beam_sigma_m) text += fmt::format(", sigma along the beam {}", millimetres(*fit.beam_sigma_m));
-  text +=
-      fmt::format(", roughness {} (radius {})", millimetres(fit.roughness.mean_m), millimetres(fit.roughness.radius_m));
+  auto text = trf("Plane in {}: {} points, sigma {}, largest {}", wall.request.cloud, fit.fitted,
+                  millimetres(fit.sigma_m), millimetres(fit.max_m));
+  text += fit.level ? trf(", tilt from level {:.3f}°", fit.tilt_rad / kRadPerDeg)
+                    : trf(", tilt from plumb {:.3f}°", fit.tilt_rad / kRadPerDeg);
+  if (fit.beam_sigma_m) text += trf(", sigma along the beam {}", millimetres(*fit.beam_sigma_m));
+  text += trf(", roughness {} (radius {})", millimetres(fit.roughness.mean_m), millimetres(fit.roughness.radius_m));
   return text;
 }
 
 std::string wallText(const WallResult& wall) {
   const auto& fit = wall.fit;
-  std::string text = fmt::format("Cloud\t{}\nPoints in radius {:.3f} m\t{}\nFitted points\t{}\n", wall.request.cloud,
-                                 wall.request.ball.radius_m, wall.inside, fit.fitted);
-  text += fmt::format("Sigma\t{}\nLargest residual\t{}\n", millimetres(fit.sigma_m), millimetres(fit.max_m));
-  if (fit.beam_sigma_m) text += fmt::format("Sigma along the beam\t{}\n", millimetres(*fit.beam_sigma_m));
-  if (fit.incidence_rad) text += fmt::format("Mean incidence\t{:.1f}°\n", *fit.incidence_rad / kRadPerDeg);
-  text += fmt::format("Tilt from {}\t{:.3f}°\n", fit.level ? "level" : "plumb", fit.tilt_rad / kRadPerDeg);
-  text += fmt::format("Roughness (radius {})\t{}\n", millimetres(fit.roughness.radius_m),
-                      millimetres(fit.roughness.mean_m));
-  text += fmt::format("Width\t{:.3f} m\nHeight\t{:.3f} m\n", fit.width_m, fit.height_m);
+  std::string text;
+  const auto row = [&](const std::string& name, const std::string& value) { text += name + "\t" + value + "\n"; };
+  row(tr("Cloud"), wall.request.cloud);
+  row(tr("Radius"), millimetres(wall.request.ball.radius_m));
+  row(tr("Points in region"), fmt::format("{}", wall.inside));
+  row(tr("Fitted points"), fmt::format("{}", fit.fitted));
+  row(tr("Sigma"), millimetres(fit.sigma_m));
+  row(tr("Largest residual"), millimetres(fit.max_m));
+  if (fit.beam_sigma_m) row(tr("Sigma along the beam"), millimetres(*fit.beam_sigma_m));
+  if (fit.incidence_rad) row(tr("Mean incidence"), fmt::format("{:.1f}°", *fit.incidence_rad / kRadPerDeg));
+  row(fit.level ? tr("Tilt from level") : tr("Tilt from plumb"), fmt::format("{:.3f}°", fit.tilt_rad / kRadPerDeg));
+  row(trf("Roughness (r {:.3g} m)", fit.roughness.radius_m), millimetres(fit.roughness.mean_m));
+  row(tr("Width"), fmt::format("{:.3f} m", fit.width_m));
+  row(tr("Height"), fmt::format("{:.3f} m", fit.height_m));
   return text;
 }
 

@@ -291,7 +291,7 @@ std::string Session::whyNotGoTo(std::size_t step) const {
 
 void Session::goTo(std::size_t step) {
   if (!whyNotGoTo(step).empty()) return;
-  say(LogLevel::note, "", "Went to step: " + history_.description(step));
+  say(LogLevel::note, "", trf("Went to step: {}", history_.description(step)));
   history_.goTo(step);
   ++revision_;
 }

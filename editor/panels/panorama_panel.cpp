@@ -64,7 +64,7 @@ void chooseChannel(const Panorama& panorama, PanoramaState& state) {
     if (ImGui::RadioButton(name, state.channel == channel)) state.channel = channel;
     ImGui::EndDisabled();
     if (!there)
-      ui::tooltip(std::string("The scan has no ") + (channel == PanoramaChannel::colour ? "colours" : "intensities"));
+      ui::tooltip(channel == PanoramaChannel::colour ? "The scan has no colours" : "The scan has no intensities");
   }
 }
 

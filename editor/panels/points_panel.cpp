@@ -40,7 +40,7 @@ void drawColour(const Model& model, Actions& actions) {
 void drawCloud(const Model& model, Actions& actions, const InspectedCloud& cloud) {
   std::error_code ignored;
   const bool there = std::filesystem::is_regular_file(cloud.file, ignored);
-  const std::string gone = there ? "" : "The file is missing: " + cloud.file.string();
+  const std::string gone = there ? std::string() : trf("The file is missing: {}", cloud.file.string());
   const bool shown = model.cloud() && model.cloud()->file == cloud.file;
   ui::fitted(cloud.label, ImGui::GetContentRegionAvail().x);
   if (cloud.station >= 0) {

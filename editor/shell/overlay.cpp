@@ -177,10 +177,10 @@ void cloudChip(Editor& editor) {
 std::string cloudTrouble(const Editor& editor) {
   const auto& missing = editor.missingClouds();
   if (!missing.empty())
-    return missing.front().filename().string() +
-           " is no longer there: put it back to see all of it. What has been read stays on view.";
+    return trf("{} is no longer there: put it back to see all of it. What has been read stays on view.",
+               missing.front().filename().string());
   const std::string why = editor.scene != nullptr ? editor.scene->trouble() : "";
-  return why.empty() ? why : "Some points cannot be read: " + why + ". What has been read stays on view.";
+  return why.empty() ? why : trf("Some points cannot be read: {}. What has been read stays on view.", why);
 }
 
 void drawCloudTrouble(const Editor& editor, ImVec2 origin, ImVec2 size) {

@@ -8,6 +8,7 @@
 #include "editor/shell/editor.h"
 #include "editor/widgets/modal.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/words.h"
 #include "project/fields.h"
 #include "project/survey/survey_verbs.h"
 
@@ -58,7 +59,7 @@ void drawRecovery(Editor& editor) {
   const LeftWork left = found.front();
   const LeftJob* scan = leftScan(left);
   for (const auto& sentence : sentencesOf(left)) ui::wrapped(sentence);
-  if (!left.mark.saved_in.empty()) ui::dimWrapped("Saved in " + left.mark.saved_in);
+  if (!left.mark.saved_in.empty()) ui::dimWrapped(trf("Saved in {}", left.mark.saved_in));
   ui::gap(editor, 6);
   const bool copy = !left.project.empty();
   const auto why = whyNotOpen(editor, left);

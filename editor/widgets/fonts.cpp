@@ -14,6 +14,7 @@
 
 #include "editor/model/style.h"
 #include "editor/widgets/theme.h"
+#include "editor/words/words.h"
 
 namespace standpoint {
 
@@ -95,7 +96,7 @@ std::string missing(const FontFiles& files) {
                                       {files.mono, "fonts-jetbrains-mono"},
                                       {files.icons, "fonts-font-awesome"}})
     if (file.empty()) packages += std::string(packages.empty() ? "" : ", ") + package;
-  return packages.empty() ? "" : "Fonts are missing; install " + packages + " and start again";
+  return packages.empty() ? packages : trf("Fonts are missing; install {} and start again", packages);
 }
 
 }  // namespace
@@ -112,7 +113,7 @@ Fonts buildFonts(float scale, Roots roots) {
   fonts.problem = missing(files);
   if (build(files, scale, fonts)) return fonts;
   build({}, scale, fonts);  // Dear ImGui's own letters, which need no file
-  fonts.problem = "Font files are damaged; install fonts-inter, fonts-jetbrains-mono and fonts-font-awesome again";
+  fonts.problem = tr("Font files are damaged; install fonts-inter, fonts-jetbrains-mono and fonts-font-awesome again");
   return fonts;
 }
 
