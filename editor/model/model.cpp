@@ -104,9 +104,9 @@ void Model::followCloud() {
 }
 
 void Model::lookForClouds() {
-  constexpr std::chrono::seconds kPause(2);
+  constexpr std::chrono::seconds kBetweenLooks(2);
   const auto now = std::chrono::steady_clock::now();
-  if (now - looked_for_clouds_ < kPause) return;
+  if (now - looked_for_clouds_ < kBetweenLooks) return;
   looked_for_clouds_ = now;
   missing_clouds_.clear();
   const auto look = [&](const Cloud& cloud) {

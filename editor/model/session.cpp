@@ -181,7 +181,8 @@ std::string Session::whyNotAdopt() const { return whyHeld(); }
 std::string Session::whyNotSave() const { return whyNot("save-project"); }
 
 void Session::launch(const Verb& wanted, json options, std::string title, Task<Outcome>::Work work) {
-  running_.push_back(std::make_unique<VerbTask>(tr(title), wanted, std::move(options), std::move(work), wake_));
+  title = tr(title);
+  running_.push_back(std::make_unique<VerbTask>(std::move(title), wanted, std::move(options), std::move(work), wake_));
 }
 
 bool Session::start(std::string_view name, json options, std::string title) {

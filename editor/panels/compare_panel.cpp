@@ -24,7 +24,7 @@ struct CompareState {
 
 std::string nameOf(const std::vector<InspectedCloud>& clouds, const std::filesystem::path& file) {
   const auto* cloud = cloudOf(clouds, file);
-  return cloud != nullptr ? cloud->label : file.empty() ? "Choose a cloud" : file.filename().string();
+  return cloud != nullptr ? cloud->label : file.empty() ? tr("Choose a cloud") : file.filename().string();
 }
 
 // One of the project's clouds, or any file.

@@ -11,7 +11,7 @@ namespace standpoint {
   ROW(drawMaterialsPanel, "materials", "Materials", ICON_PAINT, N, N, L, N, N, N, N)          \
   ROW(drawSurveyPanel, "survey", "Survey", ICON_STATION, N, N, N, N, L, L, L)                 \
   ROW(drawOutlinerPanel, "outliner", "Outliner", ICON_LIST, L, L, L, L, L, N, L)              \
-  ROW(drawBookmarksPanel, "bookmarks", "Bookmarks", ICON_BOOKMARK, L, N, N, N, N, N, L)       \
+  ROW(drawBookmarksPanel, "bookmarks", "Bookmarks", ICON_BOOKMARK, L, N, N, N, N, N, N)       \
   ROW(drawGuidePanel, "guide", "Guide", ICON_FLAG, L, L, L, L, L, L, L)                       \
   ROW(drawPointsPanel, "points", "Points", ICON_DROP, N, N, N, N, N, N, L)                    \
   ROW(drawClipPanel, "clip", "Clip", ICON_CUT, N, N, N, N, N, N, L)                           \

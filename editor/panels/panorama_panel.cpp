@@ -41,7 +41,7 @@ void chooseScan(const Model& model, Actions& actions) {
   const auto clouds = inspectedClouds(model.session.document());
   const auto& read = model.panorama.result();
   ImGui::SetNextItemWidth(std::min(model.px(260), 0.36F * ImGui::GetWindowWidth()));
-  if (!ImGui::BeginCombo("###panorama-scan", read ? read->request.cloud.c_str() : "Choose a scan")) return;
+  if (!ImGui::BeginCombo("###panorama-scan", (read ? read->request.cloud : tr("Choose a scan")).c_str())) return;
   for (std::size_t i = 0; i < clouds.size(); ++i)
     if (ImGui::Selectable((clouds[i].label + "###panorama" + std::to_string(i)).c_str(),
                           read && read->request.file == clouds[i].file))
@@ -79,9 +79,10 @@ std::string underPointer(const PanoramaRead& read, const Eigen::Vector2i& pixel,
 
 void drawRing(const PanoramaState& state, std::uint64_t texture, ImVec2 corner, ImVec2 size) {
   const double aspect = size.x / size.y;
-  const auto [left, top] = panoramaAt(state.window, 0, 0, aspect);
-  const auto [middle, bottom] = panoramaAt(state.window, 0.5, 1, aspect);
-  double width = 2 * (middle - left);
+  const auto upper_left = panoramaAt(state.window, 0, 0, aspect),
+             lower_middle = panoramaAt(state.window, 0.5, 1, aspect);
+  const double left = upper_left.first, top = upper_left.second, bottom = lower_middle.second;
+  double width = 2 * (lower_middle.first - left);
   if (width <= 0) width += 2;
   width = std::min(width, 1.0);
   auto& list = *ImGui::GetWindowDrawList();

@@ -25,11 +25,12 @@ std::string whyNotBy(const Model& model, ColourBy colour) {
 void drawColour(const Model& model, Actions& actions) {
   ui::propertyLabel("Colour by");
   ImGui::SetNextItemWidth(-1);
-  if (!ImGui::BeginCombo("###points-by", rowOf(model.view.points_by).name, ImGuiComboFlags_HeightLarge)) return;
+  if (!ImGui::BeginCombo("###points-by", tr(rowOf(model.view.points_by).name).c_str(), ImGuiComboFlags_HeightLarge))
+    return;
   for (const auto& row : coloursBy()) {
     const auto why = whyNotBy(model, row.colour);
     ImGui::BeginDisabled(!why.empty());
-    if (ImGui::Selectable(row.name, model.view.points_by == row.colour)) actions.colourPointsBy(row.colour);
+    if (ImGui::Selectable(ui::Label(row.name), model.view.points_by == row.colour)) actions.colourPointsBy(row.colour);
     ImGui::EndDisabled();
     ui::tooltip(why);
   }

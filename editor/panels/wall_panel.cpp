@@ -28,7 +28,7 @@ void drawChoice(const Model& model, Actions& actions) {
   if (ui::beginProperties("wall-choice", 0.42F)) {
     ui::propertyLabel("Cloud");
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::BeginCombo("###wall-cloud", chosen ? chosen->label.c_str() : "none")) {
+    if (ImGui::BeginCombo("###wall-cloud", (chosen ? chosen->label : tr("none")).c_str())) {
       for (std::size_t i = 0; i < clouds.size(); ++i)
         if (ImGui::Selectable((clouds[i].label + "###cloud" + std::to_string(i)).c_str(),
                               chosen && chosen->file == clouds[i].file))

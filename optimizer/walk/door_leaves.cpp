@@ -89,7 +89,8 @@ std::vector<DoorPart> partsOf(const Environment& environment, const Passage& pas
       part.triangles.push_back(t);
       for (const auto& p : corners(t)) part.box.extend(p);
     }
-    for (auto& [root, part] : found) {
+    for (auto& of_root : found) {
+      auto& part = of_root.second;
       part.covers_middle = std::any_of(part.triangles.begin(), part.triangles.end(),
                                        [&](std::uint32_t t) { return coversMiddle(part, corners(t)); });
       parts.push_back(std::move(part));

@@ -2,6 +2,8 @@
 #include "pointclouds/octree/octree_subtree.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstring>
 #include <utility>
 
@@ -13,7 +15,8 @@ namespace {
 
 bool earlier(const Ranked& a, const Ranked& b) {
   if (a.rank != b.rank) return a.rank < b.rank;
-  return std::memcmp(&a.point, &b.point, sizeof(CloudPoint)) < 0;  // two of the same bytes are one as good as the other
+  using Bytes = std::array<std::uint8_t, sizeof(CloudPoint)>;
+  return std::bit_cast<Bytes>(a.point) < std::bit_cast<Bytes>(b.point);  // of equal ones one is as good as the other
 }
 
 std::uint64_t mixed(std::uint64_t x) {

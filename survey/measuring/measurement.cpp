@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 using Corners = std::vector<Vector3d>;
 
-constexpr double kApart_m = 1e-6;
+constexpr double kCoincident_m = 1e-6;
 constexpr std::array kKinds = {
     MeasurementKindRow{MeasurementKind::distance, "distance", 2, 2},
     MeasurementKindRow{MeasurementKind::height, "height", 2, 2},
@@ -166,10 +166,11 @@ Result<void> checkMeasurement(const Measurement& measurement) {
   for (const auto& point : p)
     if (!point.allFinite()) return failure(ErrorKind::usage, "a coordinate is no number");
   for (std::size_t i = 0; i + 1 < p.size(); ++i)
-    if ((p[i + 1] - p[i]).norm() < kApart_m)
+    if ((p[i + 1] - p[i]).norm() < kCoincident_m)
       return failure(ErrorKind::usage, fmt::format("points {} and {} are the same", i + 1, i + 2));
   if (measurement.kind != MeasurementKind::area && measurement.kind != MeasurementKind::plane) return {};
-  if (fitted(p).breadth_m < kApart_m) return failure(ErrorKind::usage, "the points lie on one line: add one beside it");
+  if (fitted(p).breadth_m < kCoincident_m)
+    return failure(ErrorKind::usage, "the points lie on one line: add one beside it");
   if (measurement.kind == MeasurementKind::area && edgesCross(p))
     return failure(ErrorKind::usage, "edges of the polygon cross: click its corners in their order");
   return {};
