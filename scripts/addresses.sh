@@ -6,7 +6,11 @@
 # it or to let its disk fail.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-export filter='-KilledEditor.*:*KilledVerb.*:*Faults*'
+export filter='-KilledEditor.*:*KilledVerb.*:*Faults*:KilledScan.*'
+# New suites join once a run with --all has been seen to the end with them.
+unseen=(Bookmark ClipBox CloudColours CloudFiles ColourScale DocsPictures DrawnWords Film Inspect LargeModel Measure
+  NodeChoice OctreeGrid OctreeTest PointColour PointPicking ShotPictures Splatter View WalkThrough WalkedBuildings WallFit)
+filter+=$(printf ':%s.*' "${unseen[@]}")
 long=(project emulated_ui optimizer)  # first, so that none of them is left alone at the end
 if [[ ${1:-} == --all ]]; then filter='*'; fi
 cmake --preset asan >/dev/null
