@@ -73,6 +73,8 @@ const std::map<std::string, Words>& writingVerbs() {
       {"station", {"station", "PROJECT", "--add", "S3", "--on", "500002,5600002,3"}},
       {"target", {"target", "PROJECT", "--add", "T2", "--at", "500002,5600001,1.5"}},
       {"bookmark", {"bookmark", "PROJECT", "--add", "view"}},
+      {"measure",
+       {"measure", "PROJECT", "--add", "M1", "--kind", "distance", "--points", "500001,5600001,0", "500002,5600001,0"}},
       {"underlay", {"underlay", "PROJECT", "--remove", "cloud"}},
       {"verify", {"verify", "PROJECT"}},
       {"scan",
