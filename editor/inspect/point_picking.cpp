@@ -13,9 +13,9 @@ std::optional<std::size_t> firstPoint(const PointPlaces& places, const SightCone
                                       const std::function<bool(const Eigen::Vector3d&)>& counts) {
   // The least distance wins, of equal ones the lower index: the same for any split.
   using Best = std::pair<double, std::size_t>;
-  constexpr Best kNothing{std::numeric_limits<double>::infinity(), std::numeric_limits<std::size_t>::max()};
+  constexpr Best kNoPointYet{std::numeric_limits<double>::infinity(), std::numeric_limits<std::size_t>::max()};
   const auto best = tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, places.count, 1 << 15), kNothing,
+      tbb::blocked_range<std::size_t>(0, places.count, 1 << 15), kNoPointYet,
       [&](const auto& range, Best found) {
         for (auto i = range.begin(); i < range.end(); ++i) {
           const float* p = places.first + i * places.stride;
@@ -29,7 +29,7 @@ std::optional<std::size_t> firstPoint(const PointPlaces& places, const SightCone
         return found;
       },
       [](const Best& a, const Best& b) { return std::min(a, b); });
-  if (best.second == kNothing.second) return std::nullopt;
+  if (best.second == kNoPointYet.second) return std::nullopt;
   return best.second;
 }
 
