@@ -22,6 +22,10 @@ PY
 )
 [[ -z $long ]] || { printf '%s\nLines: at most 120 columns.\n' "$long"; wrong=1; }
 
+# Tests run side by side, also those of two checkouts.
+fixed=$(git grep -nE 'testing::TempDir\(|temp_directory_path\(' -- 'tests/*_test.cpp' 'tests/*/test_*.cpp' || true)
+[[ -z $fixed ]] || { printf '%s\nPlaces: a test writes into a TemporaryFolder (tests/temporary_folder.h).\n' "$fixed"; wrong=1; }
+
 # The glossary's list, one regular expression a line, searched for in the texts of the program and its screens.
 python3 scripts/user_words.py || wrong=1
 ((wrong == 0)) && echo "style: ${#sources[@]} sources in order"

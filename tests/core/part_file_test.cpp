@@ -13,6 +13,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/temporary_folder.h"
+
 namespace standpoint {
 namespace {
 
@@ -27,19 +29,14 @@ void put(const fs::path& file, const std::string& text) { std::ofstream(file, st
 
 class PartFiles : public ::testing::Test {
  protected:
-  PartFiles() {
-    std::string pattern = (fs::temp_directory_path() / "standpoint-part-XXXXXX").string();
-    folder = mkdtemp(pattern.data());
-    file = folder / "house.glb";
-  }
-  ~PartFiles() override { fs::remove_all(folder); }
   std::vector<std::string> names() const {
     std::vector<std::string> all;
     for (const auto& entry : fs::directory_iterator(folder)) all.push_back(entry.path().filename());
     std::sort(all.begin(), all.end());
     return all;
   }
-  fs::path folder, file;
+  TemporaryFolder own;
+  fs::path folder = own.path(), file = own / "house.glb";
 };
 
 TEST_F(PartFiles, ReplaceTheOldFileOnlyInCommit) {

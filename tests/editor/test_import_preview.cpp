@@ -9,6 +9,7 @@
 #include "demo_verbs.h"
 #include "editor/shell/import_preview.h"
 #include "item_probe.h"
+#include "tests/temporary_folder.h"
 
 namespace standpoint {
 namespace {
@@ -197,8 +198,8 @@ TEST_F(Preview, CanBeAddedToWhatIsOpen) {
 }
 
 TEST_F(Preview, OfADroppedCloudWaitsForAModelAndThenLiesUnderIt) {
-  const auto file = std::filesystem::temp_directory_path() / "standpoint-preview-test.xyz";
-  std::ofstream(file) << "0 0 0 1\n1 2 3 5\n";
+  const TemporaryFolder folder;
+  const auto file = folder.write("points.xyz", "0 0 0 1\n1 2 3 5\n");
   openFiles(editor, {file, "house.ifc"});
   editor.preview.wait();
   acceptPreview(editor);
@@ -215,17 +216,15 @@ TEST_F(Preview, OfADroppedCloudWaitsForAModelAndThenLiesUnderIt) {
   const Eigen::Vector3d there = (matrix * last).head<3>() + editor.shift_m();
   EXPECT_LT((there - Eigen::Vector3d(1, 2, 3)).norm(), 1e-4);
   EXPECT_GT(cloud->colours[1][0], cloud->colours[0][0]) << "the brighter point is brighter";
-  std::filesystem::remove(file);
 }
 
 TEST_F(Preview, OfACloudWithoutAnyModelSaysWhatToDo) {
-  const auto file = std::filesystem::temp_directory_path() / "standpoint-preview-test2.xyz";
-  std::ofstream(file) << "0 0 0\n";
+  const TemporaryFolder folder;
+  const auto file = folder.write("points.xyz", "0 0 0\n");
   openFiles(editor, {file});
   gui.frames(1);
   ASSERT_EQ(editor.session.errors().size(), 1u);
   EXPECT_NE(editor.session.errors()[0].error.message.find("Import a model first"), std::string::npos);
-  std::filesystem::remove(file);
 }
 
 }  // namespace

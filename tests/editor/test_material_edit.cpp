@@ -8,6 +8,7 @@
 #include "editor/model/material_edit.h"
 #include "materials/materials.h"
 #include "project/verb.h"
+#include "tests/temporary_folder.h"
 
 namespace standpoint {
 namespace {
@@ -15,12 +16,8 @@ namespace {
 std::filesystem::path library() { return std::filesystem::path(dataFolder()) / "materials" / "library"; }
 
 Result<std::vector<PhysicalMaterial>> readBack(const MaterialEdit& edit) {
-  const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-  const auto file = std::filesystem::temp_directory_path() / (std::string("standpoint-") + info->name() + ".json");
-  std::ofstream(file) << libraryFileOf(edit).dump();
-  auto own = readOwnMaterials(file, library());
-  std::filesystem::remove(file);
-  return own;
+  const TemporaryFolder folder;
+  return readOwnMaterials(folder.write("own.json", libraryFileOf(edit).dump()), library());
 }
 
 TEST(MaterialEdit, OfEveryShippedMaterialThatIsNoGapReadsBackAsALibrary) {

@@ -15,6 +15,7 @@
 #include "editor/points/node_choice.h"
 #include "editor/points/splatter.h"
 #include "pointclouds/octree/octree_builder.h"
+#include "tests/temporary_folder.h"
 
 namespace standpoint {
 namespace {
@@ -210,22 +211,17 @@ TEST(NodeChoice, LeavesOutWhatIsNotInSight) {
 class CloudFiles : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::filesystem::create_directories(folder);
     std::ofstream out(file);
     std::mt19937 random(5);
     std::uniform_real_distribution<float> place(0, 10);
     for (int i = 0; i < kPoints; ++i)
       out << place(random) + 100 << ' ' << place(random) << ' ' << place(random) / 100 << ' ' << i % 200 << '\n';
   }
-  void TearDown() override {
-    std::filesystem::permissions(folder, std::filesystem::perms::owner_all);
-    std::filesystem::remove_all(folder);
-  }
+  void TearDown() override { std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_all); }
   Result<Cloud> open(PointSink* preview = nullptr) { return openCloud(file, {100, 0, 0}, 1000, preview, progress); }
 
   static constexpr int kPoints = 60000;
-  std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("standpoint-points-" + std::to_string(::getpid()));
+  TemporaryFolder folder;
   std::filesystem::path file = folder / "cloud.xyz";
   std::filesystem::path octree = folder / "cloud.xyz.octree";
   Progress progress;
@@ -282,7 +278,7 @@ TEST_F(CloudFiles, InAFolderThatCannotBeWrittenToHaveTheirOctreeInTheCache) {
   const auto cache = folder / "cache";
   ::setenv("XDG_CACHE_HOME", cache.c_str(), 1);
   std::filesystem::create_directories(cache);
-  std::filesystem::permissions(folder, std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
   const auto cloud = open();
   ::unsetenv("XDG_CACHE_HOME");
   ASSERT_TRUE(cloud) << describe(cloud.error());

@@ -7,6 +7,7 @@
 #include "editor/shell/actions.h"
 #include "item_probe.h"
 #include "project/survey/assess_verb.h"
+#include "tests/temporary_folder.h"
 
 namespace standpoint {
 namespace {
@@ -21,7 +22,7 @@ class QualityPanel : public ::testing::Test {
     gui.frames(3);
   }
   void scan() {
-    const auto file = std::filesystem::path(testing::TempDir()) / "standpoint-quality-panel.e57";
+    const auto file = folder / "scan.e57";
     ASSERT_TRUE(editor.session.start(ScanVerbOptions{.instrument = "faro-focus-s350",
                                                      .settings = {{"resolution", "1/20"}, {"quality", "4x"}},
                                                      .ideal = true,
@@ -32,6 +33,7 @@ class QualityPanel : public ::testing::Test {
     gui.frames(3);
   }
   const AssessAnswer* answer() { return editor.session.lastAnswer<AssessAnswer>("assess"); }
+  TemporaryFolder folder;
   Editor editor{verbsWithDemo(), [] {}};
   GuiDriver gui{editor, {1280, 1400}};
 };

@@ -10,6 +10,7 @@
 #include "editor/panels/scan_panel.h"
 #include "item_probe.h"
 #include "project/survey/scan_request.h"
+#include "tests/temporary_folder.h"
 
 namespace standpoint {
 namespace {
@@ -125,7 +126,7 @@ TEST_F(ScanPanel, NeedsNoSavedProjectToScanIn) {
 }
 
 TEST_F(ScanPanel, RefusesWeatherThatCannotBe) {
-  editor.panels.of<ScanState>().folder = testing::TempDir();
+  editor.panels.of<ScanState>().folder = "/anywhere";
   gui.frames(2);
   ASSERT_FALSE(gui.find("###run-scan")->disabled);
   asked().weather.visibility_km = 0;
@@ -134,7 +135,7 @@ TEST_F(ScanPanel, RefusesWeatherThatCannotBe) {
 }
 
 TEST_F(ScanPanel, RefusesSettingsThatDoNotGoTogether) {
-  editor.panels.of<ScanState>().folder = testing::TempDir();
+  editor.panels.of<ScanState>().folder = "/anywhere";
   chooseInstrument(asked(), *editor.instrument("faro-focus-s350"));
   for (auto& [key, value] : asked().settings)
     if (key == "resolution") value = "1/32";
@@ -156,8 +157,8 @@ TEST_F(ScanPanel, BeginsWithWhatTheProjectWasScannedWithLast) {
 }
 
 TEST_F(ScanPanel, ScansWithWhatIsSetAndTheDocumentRemembersIt) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "standpoint-scan-panel";
-  editor.panels.of<ScanState>().folder = folder.string();
+  const TemporaryFolder folder;
+  editor.panels.of<ScanState>().folder = folder.path().string();
   editor.panels.of<ScanState>().all_stations = false;
   editor.survey.station = 0;
   chooseInstrument(asked(), *editor.instrument("faro-focus-s350"));
@@ -182,7 +183,6 @@ TEST_F(ScanPanel, ScansWithWhatIsSetAndTheDocumentRemembersIt) {
   ASSERT_TRUE(editor.session.document().scanning);
   EXPECT_EQ(*editor.session.document().scanning, wanted);
   EXPECT_TRUE(std::filesystem::exists(folder / "S1.e57"));
-  std::filesystem::remove_all(folder);
 }
 
 PointBlock pointsAlongX(int from, int count) {

@@ -4,6 +4,7 @@
 #include "demo_verbs.h"
 #include "editor/model/target_list.h"
 #include "item_probe.h"
+#include "tests/temporary_folder.h"
 
 namespace standpoint {
 namespace {
@@ -48,8 +49,7 @@ TEST_F(Targets, AreChosenByAClick) {
 }
 
 TEST_F(Targets, AreMeasuredOnceTheirScanIsThere) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "standpoint-target-list";
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder folder;
   ASSERT_TRUE(editor.session.start("scan", {{"instrument", "faro-focus-s350"},
                                             {"set", {"resolution=1/16", "quality=4x"}},
                                             {"stations", "S1"},
@@ -75,7 +75,6 @@ TEST_F(Targets, AreMeasuredOnceTheirScanIsThere) {
   EXPECT_LT((station.true_pose * measured.fit->centre - Eigen::Vector3d(1, 1, 1.2)).norm(), 0.003);
   EXPECT_GT(measured.fit->points, 100U);
   EXPECT_GT(measured.fit->residual_m, 0);
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

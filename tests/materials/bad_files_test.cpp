@@ -5,6 +5,7 @@
 
 #include "tests/materials/bad_entries.h"
 #include "tests/materials/fixtures.h"
+#include "tests/temporary_folder.h"
 
 namespace standpoint {
 namespace {

@@ -41,29 +41,6 @@ inline const PhysicalMaterial* findMaterial(const std::string& id) {
   return nullptr;
 }
 
-// A folder of its own for the test, removed at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::path(BINARY_DIR) / (std::string("materials_") + test->test_suite_name() + test->name());
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return path_ / name;
-  }
-
- private:
-  std::filesystem::path path_;
-};
-
 // Squares of side 1 in the plane z = 0, one for each surface, in the surfaces' order.
 inline std::shared_ptr<const Mesh> unitSquares(std::vector<std::uint32_t> surfaces) {
   auto mesh = std::make_shared<Mesh>();

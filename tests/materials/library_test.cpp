@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "tests/materials/fixtures.h"
+#include "tests/temporary_folder.h"
 
 namespace standpoint {
 namespace {

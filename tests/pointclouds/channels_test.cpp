@@ -17,7 +17,6 @@ using testing::expectSamePoints;
 using testing::KeptScans;
 using testing::madeUpHeader;
 using testing::madeUpPicture;
-using testing::TemporaryFolder;
 using testing::writeFile;
 using testing::writeScan;
 using Projection = StationPicture::Projection;

@@ -12,7 +12,6 @@ namespace standpoint {
 namespace {
 
 using testing::KeptScans;
-using testing::TemporaryFolder;
 
 // A scan whose points are made by a function of the beam; nothing where it says 0.
 struct MadeScan {

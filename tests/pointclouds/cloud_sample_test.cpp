@@ -6,22 +6,17 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/temporary_folder.h"
+
 namespace standpoint {
 namespace {
-
-namespace fs = std::filesystem;
-
-fs::path written(const char* name, const std::string& text) {
-  const fs::path file = fs::temp_directory_path() / name;
-  std::ofstream(file) << text;
-  return file;
-}
 
 TEST(CloudSample, OfASmallCloudIsAllOfIt) {
   std::string text;
   for (int i = 0; i < 100; ++i) text += std::to_string(i) + " 0 0\n";
   Progress progress;
-  const auto sample = sampleCloud(written("sample-small.xyz", text), 1000, progress);
+  const TemporaryFolder folder;
+  const auto sample = sampleCloud(folder.write("sample-small.xyz", text), 1000, progress);
   ASSERT_TRUE(sample) << describe(sample.error());
   ASSERT_EQ(sample->position.size(), 100U);
   EXPECT_EQ(sample->position[42].x(), 42);
@@ -33,7 +28,8 @@ TEST(CloudSample, OfALargeCloudIsBoundedEvenAndTheSameEachTime) {
   std::string text;
   constexpr int kPoints = 20000;
   for (int i = 0; i < kPoints; ++i) text += std::to_string(i) + " 0 0\n";
-  const auto file = written("sample-large.xyz", text);
+  const TemporaryFolder folder;
+  const auto file = folder.write("sample-large.xyz", text);
   Progress progress;
   const auto sample = sampleCloud(file, 1000, progress), again = sampleCloud(file, 1000, progress);
   ASSERT_TRUE(sample && again);
@@ -48,9 +44,10 @@ TEST(CloudSample, OfALargeCloudIsBoundedEvenAndTheSameEachTime) {
 }
 
 TEST(CloudSample, KnowsTheStationOfAScanWithAGrid) {
-  const auto file = written("sample-grid.ptx",
-                            "2\n2\n10 20 1.5\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n10 20 1.5 1\n"
-                            "1 0 0 0.5\n1 0 1 0.25\n0 0 0 0.5\n2 1 1 0.75\n");
+  const TemporaryFolder folder;
+  const auto file = folder.write("sample-grid.ptx",
+                                 "2\n2\n10 20 1.5\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n10 20 1.5 1\n"
+                                 "1 0 0 0.5\n1 0 1 0.25\n0 0 0 0.5\n2 1 1 0.75\n");
   Progress progress;
   const auto sample = sampleCloud(file, 1000, progress);
   ASSERT_TRUE(sample) << describe(sample.error());

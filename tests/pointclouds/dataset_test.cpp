@@ -16,7 +16,6 @@ using testing::allPoints;
 using testing::bytesOf;
 using ::testing::HasSubstr;
 using testing::madeUpHeader;
-using testing::TemporaryFolder;
 using testing::writeFile;
 
 std::filesystem::path classesOf(const std::string& set) { return SOURCE_DIR "/pointclouds/classes/" + set + ".json"; }

@@ -12,7 +12,6 @@ namespace {
 
 using testing::KeptScans;
 using testing::madeUpHeader;
-using testing::TemporaryFolder;
 using testing::writeScan;
 
 // The kernel refuses to let a file grow beyond `bytes`, as a full disk would.
@@ -32,7 +31,7 @@ class FileSizeLimit {
 
 std::vector<std::string> filesIn(const TemporaryFolder& folder) {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder.path)) names.push_back(entry.path().filename());
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) names.push_back(entry.path().filename());
   std::sort(names.begin(), names.end());
   return names;
 }

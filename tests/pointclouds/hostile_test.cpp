@@ -14,7 +14,6 @@ namespace {
 
 using testing::KeptScans;
 using testing::madeUpHeader;
-using testing::TemporaryFolder;
 using testing::writeScan;
 
 Result<void> writePictured(CloudWriter& writer) {

@@ -13,7 +13,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using testing::KeptScans;
-using testing::TemporaryFolder;
 
 template <class T>
 void put(std::string& bytes, std::size_t at, T value) {

@@ -9,20 +9,9 @@
 
 #include "core/points.h"
 #include "core/random.h"
+#include "tests/temporary_folder.h"
 
 namespace standpoint::testing {
-
-// A folder of one test, gone with it.
-struct TemporaryFolder {
-  std::filesystem::path path;
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "standpoint-clouds-XXXXXX").string();
-    path = ::mkdtemp(name.data());
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() { std::filesystem::remove_all(path); }
-  std::filesystem::path operator/(const std::string& name) const { return path / name; }
-};
 
 // The inputs that are shared beside the project, or nothing.
 inline std::filesystem::path sharedFolder() {

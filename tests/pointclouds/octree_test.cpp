@@ -13,6 +13,7 @@
 #include "pointclouds/octree/octree_builder.h"
 #include "pointclouds/octree/octree_file.h"
 #include "pointclouds/octree/octree_grid.h"
+#include "tests/temporary_folder.h"
 
 namespace standpoint {
 namespace {
@@ -22,10 +23,7 @@ using Places = std::vector<std::array<float, 3>>;
 
 class OctreeTest : public ::testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder); }
-  void TearDown() override { std::filesystem::remove_all(folder); }
-  std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("standpoint-octree-" + std::to_string(::getpid()));
+  TemporaryFolder folder;
   std::filesystem::path file = folder / "cloud.octree";
   Progress progress;
 
@@ -61,7 +59,7 @@ class OctreeTest : public ::testing::Test {
   }
   void write(const std::string& content) const { std::ofstream(file, std::ios::binary) << content; }
   std::size_t filesInFolder() const {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder.path()), {}));
   }
   // What a viewer sees: opens and reads all; the first trouble.
   Result<void> readAll() const {

@@ -17,7 +17,6 @@ namespace {
 
 using testing::madeUpHeader;
 using testing::ScanKind;
-using testing::TemporaryFolder;
 using testing::writeScan;
 
 std::string output(const std::string& command) {
@@ -158,7 +157,7 @@ TEST(OutsideReaders, CloudCompareFindsThePointsOfOurPtxAndPly) {
   if (!installed("CloudCompare")) GTEST_SKIP() << "CloudCompare is not installed";
   const TemporaryFolder folder;
   const auto look = [&](const std::string& name) {
-    return output("QT_QPA_PLATFORM=offscreen HOME=" + folder.path.string() + " timeout 60 CloudCompare -SILENT -O " +
+    return output("QT_QPA_PLATFORM=offscreen HOME=" + folder.path().string() + " timeout 60 CloudCompare -SILENT -O " +
                   (folder / name).string());
   };
   const std::vector<ScanKind> scans = {{100, 50, true, false, "A"}, {70, 40, false, false, "B"}};

@@ -11,8 +11,6 @@
 namespace standpoint {
 namespace {
 
-using testing::TemporaryFolder;
-
 constexpr std::uint32_t kColumns = 128, kRows = 64;
 
 // A ball of 4 m around the station, farther where the azimuth is near 90°, in grey and colour by its height.

@@ -11,7 +11,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using testing::KeptScans;
-using testing::TemporaryFolder;
 
 template <class T>
 std::string binary(T value, bool big_endian) {

@@ -21,7 +21,6 @@ using testing::expectSamePoints;
 using testing::KeptScans;
 using testing::madeUpHeader;
 using testing::ScanKind;
-using testing::TemporaryFolder;
 using testing::writeFile;
 using testing::writeScan;
 

@@ -11,8 +11,6 @@
 namespace standpoint {
 namespace {
 
-using testing::TemporaryFolder;
-
 struct Wall {
   double sigma_m = 0.00203;  // along the beam
   double distance_m = 5;     // x of the wall, seen from the origin of the scanner's frame

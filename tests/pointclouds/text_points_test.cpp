@@ -9,7 +9,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using testing::KeptScans;
-using testing::TemporaryFolder;
 
 TEST(TextPoints, HaveTheColumnsThatTheirNumberSays) {
   const TemporaryFolder folder;

@@ -14,8 +14,6 @@
 namespace standpoint {
 namespace {
 
-using testing::TemporaryFolder;
-
 // A plane through `centre` as a scanner in the origin sees it, each point moved along its beam by white noise.
 struct MadeWall {
   Eigen::Vector3d centre{5, 0, 0}, along{0, 1, 0}, up{0, 0, 1};

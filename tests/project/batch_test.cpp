@@ -160,17 +160,16 @@ TEST(Batch, ScansAgainWhereThePanoramaHasAnotherSize) {
 
 TEST(Batch, SurvivesBeingKilled) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
-  // The same place in this process and in the one that dies: it runs this test from its beginning.
-  const fs::path folder = fs::temp_directory_path() / "standpoint-batch-killed";
+  // The same place in this process and in the one that dies, which runs this test from its beginning.
+  constexpr auto kPlace = "STANDPOINT_TEST_BATCH_KILLED";
+  std::optional<TemporaryFolder> own;
+  if (std::getenv(kPlace) == nullptr) setenv(kPlace, own.emplace().path().c_str(), 1);
+  const fs::path folder = std::getenv(kPlace);
   const fs::path file = folder / "all.e57";
   const Document d = threeStations();
-  EXPECT_EXIT(
-      {
-        fs::remove_all(folder);
-        fs::create_directories(folder);
-        (void)scanUntil(d, options(file), "S3", [](Progress&) { (void)std::raise(SIGKILL); });
-      },
-      testing::KilledBySignal(SIGKILL), "");
+  EXPECT_EXIT((void)scanUntil(d, options(file), "S3", [](Progress&) { (void)std::raise(SIGKILL); }),
+              testing::KilledBySignal(SIGKILL), "");
+  unsetenv(kPlace);
   EXPECT_FALSE(fs::exists(file)) << "a part is never mistaken for the whole";
   auto again = options(file);
   again["resume"] = true;

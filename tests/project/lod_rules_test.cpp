@@ -9,6 +9,7 @@
 
 #include "core/data_folder.h"
 #include "project/verb.h"
+#include "tests/temporary_folder.h"
 
 namespace standpoint {
 namespace {
@@ -102,10 +103,8 @@ class LodFile : public ::testing::Test {
     const auto place = text.find(from);
     EXPECT_NE(place, std::string::npos) << from;
     text.replace(place, from.size(), to);
-    const auto file = std::filesystem::path(::testing::TempDir()) / "lod_rules_test.json";
-    std::ofstream(file) << text;
-    const auto levels = readLodRules(file);
-    std::filesystem::remove(file);
+    const TemporaryFolder folder;
+    const auto levels = readLodRules(folder.write("lod_rules_test.json", text));
     return levels ? Error{ErrorKind::internal, "accepted", ""} : levels.error();
   }
 };

@@ -9,27 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "project/verb.h"
+#include "tests/temporary_folder.h"
 
 namespace standpoint {
-
-// A folder of the test's own that is gone afterwards.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "standpoint-test-XXXXXX").string();
-    path_ = mkdtemp(pattern.data());
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 // Adds the six inner or outer faces of a box from `min` to `max` as one product.
 inline void addBox(Environment& e, const std::string& id, const std::string& ifc_class, const Eigen::Vector3d& min,

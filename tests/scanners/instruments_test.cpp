@@ -9,6 +9,7 @@
 
 #include "core/units.h"
 #include "tests/scanners/scenes.h"
+#include "tests/temporary_folder.h"
 
 namespace standpoint {
 namespace {
@@ -336,12 +337,9 @@ class ChangedInstrument : public ::testing::Test {
     const auto place = text.find(from);
     EXPECT_NE(place, std::string::npos) << from;
     text.replace(place, from.size(), to);
-    const auto folder =
-        std::filesystem::path(::testing::TempDir()) / ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::create_directories(folder);
-    std::ofstream(folder / (id + ".json")) << text;
-    const auto read = readInstruments(folder);
-    std::filesystem::remove_all(folder);
+    const TemporaryFolder folder;
+    folder.write(id + ".json", text);
+    const auto read = readInstruments(folder.path());
     return read ? Error{ErrorKind::internal, "accepted", ""} : read.error();
   }
 };

@@ -9,6 +9,7 @@
 
 #include "scanners/instruments/stand.h"
 #include "tests/scanners/scenes.h"
+#include "tests/temporary_folder.h"
 
 namespace standpoint {
 namespace {
@@ -84,13 +85,13 @@ TEST(Stand, IsReadWithItsSourcesAndRefusedWithItsPlace) {
   EXPECT_DOUBLE_EQ(stand->highest_m(0.2), 2.2);
   std::ifstream stream(shipped);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const TemporaryFolder folder;
   const auto changed = [&](const std::string& from, const std::string& to) {
     auto other = text;
     other.replace(other.find(from), from.size(), to);
-    const auto file = std::filesystem::path(::testing::TempDir()) / "changed-tripod.json";
+    const auto file = folder / "changed-tripod.json";
     std::ofstream(file) << other;
     const auto read = readTripodStand(file);
-    std::filesystem::remove(file);
     return read ? "" : describe(read.error());
   };
   EXPECT_THAT(changed("\"lowest_m\": 0.6", "\"lowest_m\": 6"), HasSubstr("/plate/highest_m"));

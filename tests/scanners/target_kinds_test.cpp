@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/scanners/scenes.h"
+#include "tests/temporary_folder.h"
 
 namespace standpoint {
 namespace {
@@ -47,13 +48,13 @@ TEST(TargetKinds, AreMeasuredAsFarAsTheTableOfTheReferenceHasIt) {
 }
 
 TEST(TargetKinds, SayWhatIsWrongWithTheirFileAndWhere) {
-  const fs::path file = fs::temp_directory_path() / "standpoint-target-kinds-test.json";
+  const TemporaryFolder folder;
+  const fs::path file = folder / "kinds.json";
   const auto refused = [&](const std::string& kinds) {
     std::ofstream(file)
         << R"({"sources": {"S1": "a paper"}, "rules": {"source": "S1", "least_points": 60, "most_distance_m": 100, )"
         << R"("most_incidence_deg": 60}, "kinds": )" << kinds << "}";
     const auto read = readTargetKinds(file);
-    fs::remove(file);
     return read ? std::string("read") : describe(read.error());
   };
   const std::string one = R"({"id": "a", "label": "A", "shape": "sphere", "size_mm": {"value": 145, "source": "S1"}})";
