@@ -68,7 +68,7 @@ Times once(Editor& editor, Offscreen& offscreen, const std::filesystem::path& fi
   times.points = editor.cloud() ? editor.cloud()->colours.size() : 0;
   editor.session.cancelAll();
   settle(editor);
-  editor.showCloud({});
+  editor.showClouds({});
   editor.session.errors().clear();
   offscreen.frame(editor);
   return times;

@@ -14,7 +14,7 @@
 #include <sys/resource.h>
 #include <vector>
 
-#include "editor/model/cloud_loader.h"
+#include "editor/clouds/cloud_loader.h"
 #include "editor/viewport/offscreen.h"
 #include "pointclouds/octree/octree_builder.h"
 

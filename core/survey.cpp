@@ -7,6 +7,11 @@
 
 namespace standpoint {
 
+Pose inverse(const Pose& pose) {
+  const Eigen::Quaterniond back = pose.rotation.conjugate();
+  return {back, -(back * pose.translation)};
+}
+
 Pose at(const Trajectory& trajectory, double time_s) {
   const auto& times = trajectory.time_s;
   if (trajectory.pose.size() == 1 || time_s <= times.front()) return trajectory.pose.front();

@@ -15,7 +15,9 @@ struct Pose {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  // w >= 0, |q| = 1
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();         // metres, local frame
   Eigen::Vector3d operator*(const Eigen::Vector3d& p) const { return rotation * p + translation; }
+  Pose operator*(const Pose& first) const { return {rotation * first.rotation, *this * first.translation}; }
 };
+Pose inverse(const Pose& pose);
 
 // A pose as a function of time: constant for a tripod (one sample), interpolated between samples for what moves.
 struct Trajectory {

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "editor/desktop/user_folders.h"
 #include "editor/device_pictures.h"
 #include "editor/instrument/instrument.h"
 #include "editor/pictures.h"

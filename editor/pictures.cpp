@@ -30,7 +30,7 @@ void reset(Editor& editor) {
   editor.view.walkable = false;
   editor.view.tool = Tool::select;
   editor.preview.close();
-  editor.showCloud({});
+  editor.showClouds({});
   editor.view.shaded_points = false;
   editor.view.camera.orthographic = false;
   look(editor.view.camera, StandardView::corner);
@@ -167,7 +167,7 @@ void scan(Editor& editor) {
   if (!job || job->stations.empty() || job->stations.front().scans.empty()) return;
   *editor.visibility.cut_height_m += 0.6;
   editor.view.shaded_points = true;
-  editor.showCloud(job->stations.front().scans.back().file);
+  editor.showClouds({job->stations.front().scans.back().file});
   while (editor.readingCloud()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     editor.update();

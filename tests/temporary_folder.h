@@ -8,7 +8,8 @@
 
 namespace standpoint {
 
-// A folder of one test's own that is gone afterwards. Tests run side by side, so none may write at a place with a fixed name.
+// A folder of one test's own that is gone afterwards. Tests run side by side, so none may write at a place with a fixed
+// name.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

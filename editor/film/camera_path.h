@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "core/environment.h"
-#include "editor/model/camera.h"
+#include "editor/camera/camera.h"
 
 namespace standpoint {
 

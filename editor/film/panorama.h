@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "core/result.h"
-#include "editor/model/camera.h"
+#include "editor/camera/camera.h"
 #include "editor/model/view_state.h"
 
 namespace standpoint {

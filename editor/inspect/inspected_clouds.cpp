@@ -32,9 +32,4 @@ const InspectedCloud* cloudOf(const std::vector<InspectedCloud>& clouds, const s
   return at == clouds.end() ? nullptr : &*at;
 }
 
-Pose inverse(const Pose& pose) {
-  const Eigen::Quaterniond back = pose.rotation.conjugate();
-  return {back, -(back * pose.translation)};
-}
-
 }  // namespace standpoint

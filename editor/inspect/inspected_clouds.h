@@ -23,6 +23,4 @@ std::vector<InspectedCloud> inspectedClouds(const Document& document);
 // Nothing where `file` is none of them.
 const InspectedCloud* cloudOf(const std::vector<InspectedCloud>& clouds, const std::filesystem::path& file);
 
-Pose inverse(const Pose& pose);
-
 }  // namespace standpoint

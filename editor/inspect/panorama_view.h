@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/survey.h"
-#include "editor/inspect/colour_scale.h"
+#include "editor/colours/colour_scale.h"
 #include "pointclouds/inspection/panorama.h"
 #include "project/task.h"
 

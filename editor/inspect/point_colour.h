@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "editor/inspect/colour_scale.h"
+#include "editor/colours/colour_scale.h"
 #include "editor/points/cloud_colours.h"
 #include "pointclouds/octree/cloud_point.h"
 

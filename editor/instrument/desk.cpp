@@ -146,7 +146,7 @@ void advance(InstrumentDesk& desk, Editor& editor) {
       editor.wake();  // panels that were drawn before this one show it, too
     }
   }
-  if (const auto view = desk.shown()->takeView()) editor.showCloud(view->file);
+  if (const auto view = desk.shown()->takeView()) editor.showClouds({view->file});
   if (!desk.view.texture)
     desk.view.texture = [&desk, &editor](const std::shared_ptr<const ScanPreview>& preview) -> std::uint64_t {
       if (editor.scene == nullptr || !preview) return 0;
@@ -217,7 +217,7 @@ void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercis
     return;
   }
   if (!editor.session.open(folder / "project")) return;
-  editor.showCloud({});  // what was looked at before belongs to another environment
+  editor.showClouds({});  // what was looked at before belongs to another environment
   editor.view.colour = ColourMode::model;
   editor.scan_choice = ScanChoice{.instrument = (*rehearsal)->device().type().instrument.id};
   desk.opener.forget();

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "editor/model/desktop_opener.h"
+#include "editor/desktop/desktop_opener.h"
 #include "editor/shell/editor.h"
 #include "emulated-ui/draw/device_view.h"
 #include "emulated-ui/host.h"

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "editor/colours/colour_scale.h"
+
 namespace standpoint {
 
 namespace {
@@ -14,8 +16,7 @@ using Rgba = std::array<std::uint8_t, 4>;
 // Told apart by people who do not tell red from green, too: from amber over straw to deep green and blue.
 constexpr std::array<Rgba, kMostCounted> kCounts = {
     {{238, 170, 70, 255}, {226, 222, 130, 255}, {110, 180, 110, 255}, {50, 120, 170, 255}}};
-constexpr std::array<std::array<double, 3>, 5> kScale = {
-    {{40, 110, 160}, {90, 175, 160}, {226, 222, 130}, {238, 160, 70}, {190, 70, 40}}};
+constexpr ColourStops kScale = {{{40, 110, 160}, {90, 175, 160}, {226, 222, 130}, {238, 160, 70}, {190, 70, 40}}};
 
 std::shared_ptr<const Expectation> expectationOf(const std::shared_ptr<const RayScene>& scene,
                                                  const std::shared_ptr<const MaterialChoice>& materials,
@@ -57,15 +58,7 @@ Rgba countColour(int stations) {
   return stations <= 0 ? kHoleColour : kCounts[static_cast<std::size_t>(std::min(stations, kMostCounted) - 1)];
 }
 
-Rgba coverageScale(double fraction) {
-  const double at = std::clamp(fraction, 0.0, 1.0) * (kScale.size() - 1);
-  const auto stop = std::min(static_cast<std::size_t>(at), kScale.size() - 2);
-  Rgba colour = {0, 0, 0, 255};
-  for (std::size_t k = 0; k < 3; ++k)
-    colour[k] = static_cast<std::uint8_t>(
-        std::lround(std::lerp(kScale[stop][k], kScale[stop + 1][k], at - static_cast<double>(stop))));
-  return colour;
-}
+Rgba coverageScale(double fraction) { return colourAlong(kScale, fraction); }
 
 Rgba coverageColour(CoverageQuantity quantity, const PlaceCoverage& coverage) {
   if (quantity == CoverageQuantity::stations || coverage.stations == 0) return countColour(coverage.stations);

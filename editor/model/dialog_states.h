@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "editor/model/file_list.h"
+#include "editor/desktop/file_list.h"
 #include "editor/model/option_form.h"
 #include "editor/recovery/left_work.h"
 

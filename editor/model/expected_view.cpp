@@ -7,6 +7,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "editor/colours/colour_scale.h"
 #include "editor/model/picker.h"
 
 namespace standpoint {
@@ -15,10 +16,8 @@ namespace {
 
 using Rgba = std::array<std::uint8_t, 4>;
 
-// Five stops of viridis, and of a scale that is calm where noise is low; rounded.
-constexpr std::array<std::array<double, 3>, 5> kIntensityStops = {
-    {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}}};
-constexpr std::array<std::array<double, 3>, 5> kNoiseStops = {
+// Calm where noise is low.
+constexpr ColourStops kNoiseStops = {
     {{225, 238, 250}, {110, 170, 215}, {253, 208, 120}, {240, 120, 70}, {150, 20, 60}}};
 
 Rgba shaded(const Rgba& colour, float fraction) {
@@ -59,14 +58,7 @@ Rgba fateColour(ReturnFate fate) {
 }
 
 Rgba scaleColour(ExpectedQuantity quantity, double fraction) {
-  const auto& stops = quantity == ExpectedQuantity::noise ? kNoiseStops : kIntensityStops;
-  const double at = std::clamp(fraction, 0.0, 1.0) * (stops.size() - 1);
-  const auto stop = std::min(static_cast<std::size_t>(at), stops.size() - 2);
-  Rgba colour = {0, 0, 0, 255};
-  for (std::size_t k = 0; k < 3; ++k)
-    colour[k] = static_cast<std::uint8_t>(
-        std::lround(std::lerp(stops[stop][k], stops[stop + 1][k], at - static_cast<double>(stop))));
-  return colour;
+  return quantity == ExpectedQuantity::noise ? colourAlong(kNoiseStops, fraction) : viridis(fraction);
 }
 
 Rgba expectedColour(ExpectedQuantity quantity, const ExpectedReturn& expected) {

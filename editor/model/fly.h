@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "editor/model/camera.h"
+#include "editor/camera/camera.h"
 
 namespace standpoint {
 

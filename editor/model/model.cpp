@@ -54,11 +54,30 @@ bool Model::jobRuns() const {
          !underlays.reading().empty() || walk_ground.preparing() || wall.busy() || panorama.busy();
 }
 
-void Model::showCloud(const std::filesystem::path& file) {
-  cloud_.reset();
+void Model::showClouds(const std::vector<std::filesystem::path>& files) {
+  show(nullptr);
   live_.reset();
   cloud_loader_.drop();
-  if (!file.empty()) cloud_loader_.start(file, shift_m(), wake);
+  if (!files.empty()) cloud_loader_.start(files, shift_m(), wake);
+}
+
+void Model::show(std::shared_ptr<const Cloud> cloud) {
+  read_ = cloud_ = std::move(cloud);
+  solved_by_.reset();
+}
+
+void Model::followPoses() {
+  const auto& job = session.document().job;
+  const auto wanted = view.poses == ScanPoses::solved && job && hasSolvedPose(*job) ? job : nullptr;
+  if (!wanted) view.poses = ScanPoses::truth;
+  if (!read_ || live_ || solved_by_ == wanted) return;
+  solved_by_ = wanted;
+  if (!wanted) {
+    cloud_ = read_;
+    return;
+  }
+  const auto files = read_->files.empty() ? std::span(&read_->file, 1) : std::span(read_->files);
+  cloud_ = std::make_shared<const Cloud>(moved(*read_, solvedMoves(*wanted, read_->header, shift_m(), files)));
 }
 
 bool Model::startScan(const ScanVerbOptions& options, std::string title) {
@@ -70,9 +89,9 @@ bool Model::startScan(const ScanVerbOptions& options, std::string title) {
   };
   if (!session.start(options, std::move(title), work)) return false;
   live_ = std::move(live);
+  live_file_ = options.output;
   live_task_ = session.running().back().get();
-  cloud_ =
-      std::make_shared<const Cloud>();  // nothing yet: the model need not be drawn once more before the first points
+  show(std::make_shared<const Cloud>());  // nothing yet: the model is not drawn once more before the first points
   return true;
 }
 
@@ -81,25 +100,30 @@ void Model::followLiveScan() {
   const auto& running = session.running();
   const bool over =
       std::none_of(running.begin(), running.end(), [&](const auto& task) { return task.get() == live_task_; });
-  if (auto cloud = live_->newer(over)) cloud_ = std::move(cloud);
+  if (auto cloud = live_->newer(over)) show(std::move(cloud));
   if (!over) return;
   live_.reset();
   const auto& finished = session.finished();
   const auto scan =
       std::find_if(finished.begin(), finished.end(), [](const FinishedTask& t) { return t.verb == "scan"; });
-  if (scan == finished.end() || !scan->ok || cloud_->points.empty()) cloud_.reset();  // back to the model
+  if (scan == finished.end() || !scan->ok || cloud_->points.empty()) return show(nullptr);  // back to the model
+  // What was seen of it as it came is an even part: all of it takes its place.
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(live_file_, ignored)) cloud_loader_.start({live_file_}, shift_m(), wake);
 }
 
 // What has been seen of a large one stays where the rest cannot be had.
 void Model::followCloud() {
-  if (auto sample = cloud_loader_.newer()) cloud_ = std::move(sample);
+  if (auto sample = cloud_loader_.newer(); sample && (!read_ || sample->points.size() >= read_->points.size()))
+    show(std::move(sample));
   if (auto read = cloud_loader_.take()) {
     if (*read)
-      cloud_ = std::make_shared<const Cloud>(**std::move(read));
+      show(std::make_shared<const Cloud>(**std::move(read)));
     else if (read->error().kind != ErrorKind::cancelled)
       session.errors().push_back(
           {cloud_ ? "Cannot display all of the scan" : "Cannot display the scan", read->error()});
   }
+  followPoses();
   lookForClouds();
 }
 
@@ -249,7 +273,7 @@ void Model::adoptDocument() {
   views = {};
   visibility.reset(imported_ ? imported_->products.size() : 0);
   visibility.cut_height_m.reset();
-  cloud_.reset();
+  show(nullptr);
   view.tool = Tool::select;
   view.measuring.points.clear();
   view.clip.box.reset();

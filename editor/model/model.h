@@ -11,26 +11,28 @@
 #include <string>
 #include <vector>
 
+#include "editor/camera/camera.h"
+#include "editor/clouds/cloud.h"
+#include "editor/clouds/cloud_loader.h"
+#include "editor/clouds/live_cloud.h"
+#include "editor/clouds/underlay_view.h"
+#include "editor/desktop/desktop_opener.h"
 #include "editor/inspect/clip_box.h"
 #include "editor/inspect/inspected_clouds.h"
 #include "editor/inspect/measuring.h"
 #include "editor/inspect/panorama_view.h"
 #include "editor/inspect/point_colour.h"
 #include "editor/inspect/point_painter.h"
+#include "editor/inspect/solved_poses.h"
 #include "editor/inspect/wall_view.h"
 #include "editor/labels/room_labels.h"
 #include "editor/model/budget_preview.h"
-#include "editor/model/camera.h"
 #include "editor/model/catalogue.h"
-#include "editor/model/cloud.h"
-#include "editor/model/cloud_loader.h"
-#include "editor/model/desktop_opener.h"
 #include "editor/model/expected_view.h"
 #include "editor/model/fly.h"
 #include "editor/model/graphics.h"
 #include "editor/model/guide.h"
 #include "editor/model/import_preview.h"
-#include "editor/model/live_cloud.h"
 #include "editor/model/outliner_rows.h"
 #include "editor/model/picker.h"
 #include "editor/model/scan_outlook.h"
@@ -41,7 +43,6 @@
 #include "editor/model/style.h"
 #include "editor/model/target_list.h"
 #include "editor/model/tour.h"
-#include "editor/model/underlay_view.h"
 #include "editor/model/view_state.h"
 #include "editor/model/visibility.h"
 #include "editor/model/walking.h"
@@ -124,6 +125,7 @@ struct ViewportState {
   Eigen::Vector2d size = {800, 600};  // of the picture, in interface points
   ClipState clip;
   ColourBy points_by = ColourBy::natural;  // of the scan that is shown
+  ScanPoses poses = ScanPoses::truth;
   Measuring measuring;
   bool measurements = true;                    // kept ones are drawn
   std::optional<Eigen::Vector3d> measured_at;  // under the pointer while a tool measures: of a cloud, or the model
@@ -261,7 +263,7 @@ struct Model : Style {
   // What the probe's instrument gets from the model and its materials; null until picking is ready.
   std::shared_ptr<const Expectation> expectation();
   // Shows a scan's points instead of the model, once they are read; an empty path goes back to the model.
-  void showCloud(const std::filesystem::path& file);
+  void showClouds(const std::vector<std::filesystem::path>& files);  // one, several together, or none
   const std::shared_ptr<const Cloud>& cloud() const { return cloud_; }
   // Starts the verb `scan`; its points are shown instead of the model as they come.
   bool startScan(const ScanVerbOptions& options, std::string title);
@@ -307,6 +309,8 @@ struct Model : Style {
   void startWaitingCloud();
   void followLiveScan();
   void followCloud();
+  void show(std::shared_ptr<const Cloud> cloud);  // null: the model
+  void followPoses();
   void lookForClouds();
   bool followModel(const Environment& before, const Environment& after);  // false when they have no product in common
   Bounds boundsOfVisible(bool with_terrain) const;                        // of the model
@@ -314,9 +318,11 @@ struct Model : Style {
   Bounds shownScanBounds() const;
   std::optional<Camera> camera_before_preview_;
   CloudLoader cloud_loader_;
-  std::shared_ptr<const Cloud> cloud_;
+  std::shared_ptr<const Cloud> read_, cloud_;  // as its file has it, and as it is shown
+  std::shared_ptr<const Job> solved_by_;       // that cloud_ is moved by; null: it is not
   std::vector<std::filesystem::path> missing_clouds_;
   std::chrono::steady_clock::time_point looked_for_clouds_;
+  std::filesystem::path live_file_;              // that the scan is written to
   std::shared_ptr<LiveCloud> live_;              // null: none, or it is no longer looked at
   const VerbTask* live_task_ = nullptr;          // that it belongs to, while that runs
   std::shared_ptr<const Environment> imported_;  // whose products selection and visibility speak of

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "editor/model/camera.h"
+#include "editor/camera/camera.h"
 #include "editor/model/view_state.h"
 #include "project/task.h"
 #include "scanners/engine/ray_engine.h"

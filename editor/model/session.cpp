@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "editor/desktop/user_folders.h"
 #include "editor/model/settings.h"
 #include "editor/words/sentences.h"
 #include "editor/words/words.h"

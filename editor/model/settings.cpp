@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "core/part_file.h"
-#include "editor/model/interface_scale.h"
+#include "editor/desktop/interface_scale.h"
 #include "editor/words/words.h"
 
 namespace standpoint {
@@ -17,13 +17,6 @@ namespace {
 
 using nlohmann::json;
 constexpr std::size_t kRecent = 12;
-
-std::filesystem::path baseFolder(const char* variable, const char* fallback) {
-  if (const char* set = std::getenv(variable); set != nullptr && *set != 0) return set;
-  if (const char* home = std::getenv("HOME"); home != nullptr && *home != 0)
-    return std::filesystem::path(home) / fallback;
-  return std::filesystem::temp_directory_path();
-}
 
 // Reads what is there, and notes the keys of what makes no sense.
 class Reader {
@@ -131,16 +124,6 @@ Settings settingsFrom(const json& object, std::vector<std::string>& wrong) {
   reader.choice("theme", result.theme, themeOf);
   reader.choice("language", result.language, languageChoice);
   return result;
-}
-
-std::filesystem::path settingsFile() { return baseFolder("XDG_CONFIG_HOME", ".config") / "standpoint" / "editor.json"; }
-
-std::filesystem::path unsavedRoot() { return baseFolder("XDG_DATA_HOME", ".local/share") / "standpoint" / "unsaved"; }
-
-std::filesystem::path octreeCache() { return baseFolder("XDG_CACHE_HOME", ".cache") / "standpoint" / "octrees"; }
-
-std::filesystem::path recoveryRoot() {
-  return baseFolder("XDG_STATE_HOME", ".local/state") / "standpoint" / "recovery";
 }
 
 StoredSettings readSettings(const std::filesystem::path& file) {

@@ -50,11 +50,6 @@ nlohmann::json toJson(const Settings& settings);
 // `wrong` gets the keys of what makes no sense.
 Settings settingsFrom(const nlohmann::json& object, std::vector<std::string>& wrong);
 
-std::filesystem::path settingsFile();  // XDG_CONFIG_HOME/standpoint/editor.json
-std::filesystem::path unsavedRoot();   // XDG_DATA_HOME/standpoint/unsaved: what was scanned before a project was saved
-std::filesystem::path
-octreeCache();  // XDG_CACHE_HOME/standpoint/octrees: of clouds in folders that cannot be written to
-std::filesystem::path recoveryRoot();  // XDG_STATE_HOME/standpoint/recovery
 struct StoredSettings {
   Settings settings;
   std::string problem;  // what was not usable, for the user; "" mostly

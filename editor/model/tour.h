@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "editor/model/camera.h"
+#include "editor/camera/camera.h"
 
 namespace standpoint {
 

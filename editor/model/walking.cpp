@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "core/ceiling.h"
 #include "core/readable_name.h"
 #include "editor/model/model.h"
 #include "editor/words/words.h"
@@ -82,14 +81,13 @@ void startWalking(Model& model) {
 
 std::string whyNoLanding(const Landing& landing, const Model& model) {
   if (!landing.why_not.empty()) return landing.why_not;
-  if (isRoofOrCeiling(*model.session.document().imported, landing.product)) return "roof";
   const bool far = model.walk.active() && (landing.feet - model.walk.feet()).norm() > kReach_m;
   return far ? "out of reach" : "";
 }
 
 void teleport(Model& model, const RayHit& hit) {
   walkFrom(model, [&model, hit, body = model.walker](const WalkedGround& ground) -> Result<StartPlace> {
-    const auto landing = landingAt(ground.obstacles, body, hit.position, hit.normal);
+    const auto landing = landingOn(ground, body, hit.position, hit.normal);
     const auto why = whyNoLanding(landing, model);
     if (!why.empty()) return tl::unexpected(nowhere(trf("Cannot stand there: {}", why)));
     return StartPlace{landing.feet, {}};

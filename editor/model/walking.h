@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "editor/model/walk.h"
+#include "editor/walking/walk.h"
 #include "optimizer/walk/landing.h"
 #include "scanners/engine/ray_engine.h"
 

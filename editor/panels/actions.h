@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "editor/inspect/solved_poses.h"
 #include "editor/model/dialog_states.h"
 #include "editor/model/import_preview.h"
 #include "editor/model/model.h"
@@ -50,7 +51,9 @@ class Actions {
   virtual void showReflectanceAt(double wavelength_nm) = 0;
   virtual void showWalkable(bool shown) = 0;
   virtual void showShapes(bool shown) = 0;
-  virtual void showScan(const std::filesystem::path& file) = 0;  // its points, instead of the model
+  // Their points, instead of the model; none: the model again.
+  virtual void showScans(const std::vector<std::filesystem::path>& files) = 0;
+  virtual void drawScansAt(ScanPoses poses) = 0;
 
   // What several panels and the view share.
   virtual void choose(const SurveyChoice& choice) = 0;

@@ -69,7 +69,7 @@ void drawClip(const Model& model, Actions& actions) {
     ui::emptyState(model, ICON_CUT, "Nothing to clip", "Import a model (Ctrl+I).");
     return;
   }
-  const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+  const float half = ui::shareOfRow(2);
   ui::heading(model, "Clip box");
   actions.button("clip-box", "Around selection", half);
   ImGui::SameLine();

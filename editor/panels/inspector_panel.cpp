@@ -295,7 +295,7 @@ void drawPlaceProperties(const Model& model, const Product& product) {
 
 // What can be done with what is selected.
 void drawButtons(Actions& actions) {
-  const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+  const float width = ui::shareOfRow(2);
   int i = 0;
   for (const auto& [id, text] : {std::pair{"frame", "Frame"}, std::pair{"hide", "Hide"},
                                  std::pair{"isolate", "Isolate"}, std::pair{"exclude", "Exclude"},

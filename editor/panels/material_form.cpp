@@ -114,7 +114,7 @@ void drawMaterialForm(const Model& model, MaterialCardState& state, Actions& act
   MaterialEdit& edit = *state.edit;
   const auto flaw = flawOf(edit);
   const auto why = flaw.empty() ? model.session.whyNot("materials") : flaw;
-  const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+  const float width = ui::shareOfRow(2);
   const bool kept = ui::primaryButton(ICON_CHECK "  Keep###keep-material", why, {width, 0});
   ImGui::SameLine();
   const bool given_up = ui::button(ICON_CLOSE "  Cancel###cancel-material", {}, {width, 0});

@@ -43,7 +43,7 @@ void drawCoverage(const Model& model, const MaterialReport& report) {
 
 void drawMaterialButtons(const Model& model, Actions& actions) {
   const auto why = model.session.whyNot("materials");
-  const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+  const float width = ui::shareOfRow(2);
   if (ui::primaryButton(ICON_MAGIC "  Assign by rules###assign-rules", why, {width, 0}))
     actions.start(MaterialsOptions{}, "Assign materials by rules");
   ImGui::SameLine();
@@ -145,7 +145,7 @@ void drawBulk(const Model& model, MaterialsState& state, Actions& actions) {
   if (state.bulk.empty()) return;
   const auto meant = select(*model.environment(), state.bulk);
   const auto* material = model.offeredMaterial(model.material.id);
-  const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+  const float width = ui::shareOfRow(2);
   const std::string none = meant.empty() ? "No products match" : "";
   if (ui::button(trf("{}  Select {}###bulk-select", ICON_POINTER, meant.size()).c_str(), none, {width, 0}))
     actions.select(meant);

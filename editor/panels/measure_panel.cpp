@@ -20,10 +20,8 @@ struct MeasureState {
   std::string asked, problem;  // the title of the last task, and why it was refused
 };
 
-float half() { return (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2; }
-
 void drawTools(Actions& actions) {
-  const float width = half();
+  const float width = ui::shareOfRow(2);
   actions.button("measure", "Distance", width);
   ImGui::SameLine();
   actions.button("measure-height", "Height", width);
@@ -107,7 +105,7 @@ void drawChosen(const Model& model, MeasureState& state, Actions& actions, const
     ui::wrapped(state.problem);
     ImGui::PopStyleColor();
   }
-  const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
+  const float width = ui::shareOfRow(3);
   if (ui::button(ui::fittingLabel(ICON_CROSSHAIRS, "Look", "look-measurement", width).c_str(), {}, {width, 0},
                  "Frame in view"))
     lookAt(actions, m);

@@ -39,7 +39,7 @@ void drawMapSwitch(const Model& model, Actions& actions) {
       {"Spacing###map-spacing", ColourMode::coverage_spacing, "Point spacing of the densest scan"},
       {"Incidence###map-incidence", ColourMode::coverage_incidence, "Smallest angle of incidence on each surface"}};
   ui::dimText("Show on the model");
-  const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
+  const float width = ui::shareOfRow(3);
   for (const auto& map : kMaps) {
     if (&map != kMaps) ImGui::SameLine();
     const bool lit = model.view.colour == map.mode;

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "core/units.h"
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
 #include "editor/widgets/icons.h"
@@ -15,6 +19,8 @@
 namespace standpoint {
 
 namespace {
+
+using Files = std::vector<std::filesystem::path>;
 
 std::string whyNotBy(const Model& model, ColourBy colour) {
   if (!model.cloud()) return "Show the points of a scan first";
@@ -47,7 +53,7 @@ void drawCloud(const Model& model, Actions& actions, const InspectedCloud& cloud
   if (cloud.station >= 0) {
     if (ui::iconButton(shown ? ICON_EYE_OFF "###show-points" : ICON_EYE "###show-points",
                        shown ? "Return to the model" : "Show its points instead of the model", gone, shown))
-      actions.showScan(shown ? std::filesystem::path() : cloud.file);
+      actions.showScans(shown ? Files() : Files{cloud.file});
     ImGui::SameLine();
   }
   if (ui::iconButton(ICON_GLOBE "###show-panorama", "Panorama: what its station saw", gone)) {
@@ -60,6 +66,50 @@ void drawCloud(const Model& model, Actions& actions, const InspectedCloud& cloud
   const std::string missing = !cloudCompareProgram().empty() ? gone : "CloudCompare is not installed";
   if (ui::iconButton(ICON_EXPORT "###cloud-compare", "Open with CloudCompare", missing))
     actions.openInCloudCompare(cloud.file);
+}
+
+// The newest scan of each station.
+Files newestOf(const std::vector<InspectedCloud>& clouds) {
+  Files files;
+  int station = -1;
+  for (const auto& cloud : clouds)
+    if (cloud.station >= 0 && std::exchange(station, cloud.station) != cloud.station &&
+        std::find(files.begin(), files.end(), cloud.file) == files.end())
+      files.push_back(cloud.file);
+  return files;
+}
+
+void drawTogether(const Model& model, Actions& actions, const std::vector<InspectedCloud>& clouds) {
+  const auto files = newestOf(clouds);
+  if (files.size() < 2) return;
+  std::error_code ignored;
+  std::string gone;
+  for (const auto& file : files)
+    if (!std::filesystem::is_regular_file(file, ignored)) gone = trf("The file is missing: {}", file.string());
+  const bool shown = model.cloud() && !model.cloud()->files.empty();
+  if (ui::button(shown ? ICON_EYE_OFF "  Return to the model###show-together"
+                       : ICON_EYE "  Show all scans together###show-together",
+                 gone, {-FLT_MIN, 0}, "The newest scan of each station; of large ones an even part"))
+    actions.showScans(shown ? Files() : files);
+}
+
+// Where the scans lie: where they were made, or where registration believes them to be.
+void drawPoses(const Model& model, Actions& actions) {
+  const auto& job = model.session.document().job;
+  const bool registered = job && hasSolvedPose(*job);
+  const bool believed = model.view.poses == ScanPoses::solved;
+  bool wanted = believed;
+  ImGui::BeginDisabled(!registered);
+  if (ImGui::Checkbox(ui::Label("Solved poses"), &wanted))
+    actions.drawScansAt(wanted ? ScanPoses::solved : ScanPoses::truth);
+  ImGui::EndDisabled();
+  ui::tooltip(registered ? "Draws each scan where registration has its station, instead of where it was made"
+                         : "Register the stations first");
+  if (!believed) return;
+  for (const auto& offset : poseOffsets(*job))
+    ui::dimText(offset.registered ? trf("{} is off by {:.1f} mm and {:.4f}°", offset.station, offset.moved_m * 1000,
+                                        offset.turned_rad / kRadPerDeg)
+                                  : trf("{} is not registered", offset.station));
 }
 
 void drawPoints(const Model& model, Actions& actions) {
@@ -77,10 +127,12 @@ void drawPoints(const Model& model, Actions& actions) {
       actions.pointSize(size);
     ui::endProperties();
   }
+  drawPoses(model, actions);
   bool shaded = model.view.shaded_points;
   if (ImGui::Checkbox(ui::Label("Shade by depth"), &shaded)) actions.run("shaded-points");
   ui::tooltip("Eye-dome lighting: edges of what lies in front are darkened while the view is at rest");
   ui::heading(model, trf("Clouds  {}", clouds.size()).c_str());
+  drawTogether(model, actions, clouds);
   for (std::size_t i = 0; i < clouds.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
     drawCloud(model, actions, clouds[i]);

@@ -150,7 +150,7 @@ void drawScans(const Model& model, Actions& actions, const Station& station) {
       const bool there = std::filesystem::is_regular_file(file, ignored);
       if (ui::button(ICON_EYE "  Show points###show-scan",
                      there ? std::string() : trf("The file is missing: {}", scan.file), {-FLT_MIN, 0}))
-        actions.showScan(file);
+        actions.showScans({file});
       ImGui::TreePop();
     }
     ImGui::PopID();

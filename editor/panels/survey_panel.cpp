@@ -112,7 +112,7 @@ void draw(const Model& model, PanelStates& states, Actions& actions) {
     return;
   }
   // Beside one another where both have room.
-  const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+  const float half = ui::shareOfRow(2);
   const float wanted =
       ImGui::CalcTextSize(tr(ICON_STATION "  Add station").c_str()).x + 2 * ImGui::GetStyle().FramePadding.x;
   const bool beside = half >= wanted;

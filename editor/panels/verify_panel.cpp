@@ -57,7 +57,7 @@ void chooseInstrument(const Model& model, VerifyState& state) {
 }
 
 void drawVerifyButtons(const Model& model, VerifyState& state, Actions& actions) {
-  const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+  const float width = ui::shareOfRow(2);
   const auto why =
       !model.session.document().materials ? std::string("Assign materials first") : model.session.whyNot("verify");
   if (ui::primaryButton(ICON_CHECK "  Compare###verify", why, {width, 0}))

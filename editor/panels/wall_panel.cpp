@@ -152,7 +152,7 @@ void keep(const Model& model, Actions& actions, const WallResult& wall) {
 }
 
 void drawButtons(const Model& model, Actions& actions, const WallResult& wall) {
-  const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
+  const float width = ui::shareOfRow(3);
   if (ui::button(ui::fittingLabel(ICON_REDO, "Again", "wall-again", width).c_str(), {}, {width, 0},
                  "Measure at the same place with the cloud and the radius above")) {
     const Eigen::Vector3d place = wall.request.local_from_cloud * wall.request.ball.centre;

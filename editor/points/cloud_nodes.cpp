@@ -30,13 +30,20 @@ PackedPoints emptyFor(std::size_t points) {
 }
 
 // Those of a node are in such an order already.
-PackedPoints packedNode(const OctreeNode& node, std::span<const CloudPoint> points, const PaintOfPoints& paint) {
-  std::vector<CloudPoint> in_cloud(points.begin(), points.end());
-  for (auto& p : in_cloud)
-    for (std::size_t k = 0; k < 3; ++k) p.position_m[k] += static_cast<float>(node.min_m[static_cast<Eigen::Index>(k)]);
-  const auto colours = paint(in_cloud);
+PackedPoints packedNode(const OctreeNode& node, std::vector<CloudPoint> points, const PaintOfPoints& paint,
+                        const CloudNodes::MoveOfPoints& move) {
+  const auto shift = [&](float sign) {
+    for (auto& p : points)
+      for (std::size_t k = 0; k < 3; ++k)
+        p.position_m[k] += sign * static_cast<float>(node.min_m[static_cast<Eigen::Index>(k)]);
+  };
+  const std::vector<CloudPoint> in_node = move ? std::vector<CloudPoint>() : points;
+  shift(1);
+  if (move) move(points);
+  const auto colours = paint(points);
+  if (move) shift(-1);
   PackedPoints to = emptyFor(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) add(to, points[i], colours[i]);
+  for (std::size_t i = 0; i < points.size(); ++i) add(to, move ? points[i] : in_node[i], colours[i]);
   return to;
 }
 
@@ -71,8 +78,13 @@ std::uint64_t mostNodeBytes() {
   return std::min(kMost, static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_bytes) / 4);
 }
 
-CloudNodes::CloudNodes(std::shared_ptr<const OctreeFile> octree, PaintOfPoints paint, std::uint64_t most_bytes)
-    : octree_(std::move(octree)), paint_(std::move(paint)), most_bytes_(most_bytes), reader_([this] { work(); }) {}
+CloudNodes::CloudNodes(std::shared_ptr<const OctreeFile> octree, PaintOfPoints paint, std::uint64_t most_bytes,
+                       MoveOfPoints move)
+    : octree_(std::move(octree)),
+      paint_(std::move(paint)),
+      move_(std::move(move)),
+      most_bytes_(most_bytes),
+      reader_([this] { work(); }) {}
 
 CloudNodes::~CloudNodes() {
   {
@@ -151,7 +163,8 @@ void CloudNodes::work() {
     reading_ = true;
     lock.unlock();
     Result<std::vector<CloudPoint>> points = octree_->read(index);
-    Node made = points ? std::make_shared<const PackedPoints>(packedNode(node, *points, paint_)) : nullptr;
+    Node made =
+        points ? std::make_shared<const PackedPoints>(packedNode(node, *std::move(points), paint_, move_)) : nullptr;
     lock.lock();
     reading_ = false;
     if (made) {

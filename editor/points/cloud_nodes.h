@@ -3,6 +3,7 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <list>
 #include <memory>
 #include <mutex>
@@ -32,7 +33,10 @@ std::uint64_t mostNodeBytes();  // a quarter of the machine's memory, at most 2 
 class CloudNodes {
  public:
   using Node = std::shared_ptr<const PackedPoints>;
-  CloudNodes(std::shared_ptr<const OctreeFile> octree, PaintOfPoints paint, std::uint64_t most_bytes);
+  // `move`: of points relative to the cloud's origin, before they are coloured; empty: none.
+  using MoveOfPoints = std::function<void(std::span<CloudPoint> points)>;
+  CloudNodes(std::shared_ptr<const OctreeFile> octree, PaintOfPoints paint, std::uint64_t most_bytes,
+             MoveOfPoints move = {});
   ~CloudNodes();
   CloudNodes(const CloudNodes&) = delete;
   CloudNodes& operator=(const CloudNodes&) = delete;
@@ -53,6 +57,7 @@ class CloudNodes {
   bool makeRoom(std::uint64_t bytes);
   std::shared_ptr<const OctreeFile> octree_;
   PaintOfPoints paint_;
+  MoveOfPoints move_;
   std::uint64_t most_bytes_;
 
   mutable std::mutex mutex_;

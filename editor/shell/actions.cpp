@@ -8,9 +8,10 @@
 #include <imgui.h>
 
 #include "core/data_folder.h"
+#include "editor/desktop/interface_scale.h"
+#include "editor/desktop/user_folders.h"
 #include "editor/model/bookmark_steps.h"
 #include "editor/model/floor_plan.h"
-#include "editor/model/interface_scale.h"
 #include "editor/model/station_steps.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"

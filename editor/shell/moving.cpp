@@ -101,22 +101,17 @@ bool movesByKey(const Editor& editor, int key) {
 void movingChips(Editor& editor) {
   if (!editor.walk.active()) return;
   ImGui::NewLine();
-  double eyes = editor.walk.uprightEyes_m();
-  ImGui::SetNextItemWidth(editor.px(104));
-  if (ui::numberField("###eye-height", eyes,
-                      {.kind = {.unit = "m eyes", .least = Walk::kLowestEyes_m, .most = Walk::kHighestEyes_m},
-                       .decimals = 2,
-                       .drag = 0.01},
-                      "Eye height, standing upright"))
+  const auto field = [&](const char* id, double& value, const NumberFormat& format, const char* tip) {
+    ImGui::SetNextItemWidth(editor.px(104));
+    return ui::numberField(id, value, format, tip);
+  };
+  constexpr NumberKind kEyes = {.unit = "m eyes", .least = Walk::kLowestEyes_m, .most = Walk::kHighestEyes_m};
+  constexpr NumberKind kAngle = {.unit = "° view", .least = Walk::kNarrowestView_deg, .most = Walk::kWidestView_deg};
+  double eyes = editor.walk.uprightEyes_m(), angle = editor.walk.viewAngle_deg();
+  if (field("###eye-height", eyes, {.kind = kEyes, .decimals = 2, .drag = 0.01}, "Eye height, standing upright"))
     editor.walk.setUprightEyes(eyes);
   ImGui::SameLine();
-  double angle = editor.walk.viewAngle_deg();
-  ImGui::SetNextItemWidth(editor.px(104));
-  if (ui::numberField("###view-angle", angle,
-                      {.kind = {.unit = "° view", .least = Walk::kNarrowestView_deg, .most = Walk::kWidestView_deg},
-                       .decimals = 0,
-                       .drag = 0.5},
-                      "Vertical angle of view"))
+  if (field("###view-angle", angle, {.kind = kAngle, .decimals = 0, .drag = 0.5}, "Vertical angle of view"))
     editor.walk.setViewAngle(angle, editor.view.camera);
 }
 

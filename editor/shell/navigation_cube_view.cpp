@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "editor/model/navigation_cube.h"
+#include "editor/camera/navigation_cube.h"
 #include "editor/shell/editor.h"
 #include "editor/widgets/theme.h"
 

@@ -161,7 +161,7 @@ void cloudChip(Editor& editor) {
   const auto& cloud = *editor.cloud();
   beside(editor, editor.px(150));
   if (ImGui::Button(trf("{}  Return to model###cloud", ICON_CUBE).c_str())) {
-    editor.showCloud({});
+    editor.showClouds({});
     return;
   }
   const std::string name = cloud.file.empty() ? tr("Scan") : cloud.file.filename().string();
@@ -298,7 +298,12 @@ float chipWidth(const Editor& editor, const std::string& label, float least_pt) 
 void drawBanner(const Editor& editor, ImVec2 origin, ImVec2 size, const ui::Text& words, float above_pt, ImU32 ground) {
   const ImVec2 text = ImGui::CalcTextSize(words.c_str());
   const float pad = editor.px(8);
-  const ImVec2 at(origin.x + (size.x - text.x) / 2, origin.y + size.y - text.y - editor.px(above_pt));
+  ImVec2 at(origin.x + (size.x - text.x) / 2, origin.y + size.y - text.y - editor.px(above_pt));
+  // It goes up where it would hide what is pointed at.
+  const ImVec2 pointer = ImGui::GetIO().MousePos;
+  const bool in_the_way = std::abs(pointer.x - origin.x - size.x / 2) < text.x / 2 + editor.px(48) &&
+                          pointer.y > at.y - editor.px(64) && pointer.y < origin.y + size.y;
+  if (in_the_way) at.y = origin.y + editor.px(above_pt) + 2 * pad;
   auto& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled({at.x - pad, at.y - pad / 2}, {at.x + text.x + pad, at.y + text.y + pad / 2}, ground, pad / 2);
   list.AddText(at, IM_COL32(255, 255, 255, 255), words.c_str());

@@ -58,7 +58,8 @@ void PanelActions::showReflectanceAt(double wavelength_nm) { editor_.view.wavele
 void PanelActions::showWalkable(bool shown) { editor_.view.walkable = shown; }
 void PanelActions::showShapes(bool shown) { editor_.view.shapes = shown; }
 
-void PanelActions::showScan(const std::filesystem::path& file) { editor_.showCloud(file); }
+void PanelActions::showScans(const std::vector<std::filesystem::path>& files) { editor_.showClouds(files); }
+void PanelActions::drawScansAt(ScanPoses poses) { editor_.view.poses = poses; }
 
 void PanelActions::choose(const SurveyChoice& choice) { editor_.survey = choice; }
 void PanelActions::choose(const ChosenMaterial& material) { editor_.material = material; }

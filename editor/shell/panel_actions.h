@@ -37,7 +37,8 @@ class PanelActions final : public Actions {
   void showReflectanceAt(double wavelength_nm) override;
   void showWalkable(bool shown) override;
   void showShapes(bool shown) override;
-  void showScan(const std::filesystem::path& file) override;
+  void showScans(const std::vector<std::filesystem::path>& files) override;
+  void drawScansAt(ScanPoses poses) override;
 
   void choose(const SurveyChoice& choice) override;
   void choose(const ChosenMaterial& material) override;

@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
+#include "editor/desktop/desktop_opener.h"
 #include "editor/film/shot.h"
 #include "editor/film/shot_setup.h"
-#include "editor/model/desktop_opener.h"
 #include "project/task.h"
 
 namespace standpoint {

@@ -27,7 +27,7 @@ std::optional<Landing> landingUnderPointer(const Editor& editor) {
   const auto& hit = editor.view.hover;
   const auto ground = editor.walk_ground.of(editor.session.document(), editor.walker);
   if (!hit || !ground) return std::nullopt;
-  auto landing = landingAt(ground->obstacles, editor.walker, hit->position, hit->normal);
+  auto landing = landingOn(*ground, editor.walker, hit->position, hit->normal);
   landing.why_not = whyNoLanding(landing, editor);
   return landing;
 }

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "editor/model/camera.h"
+#include "editor/camera/camera.h"
 #include "editor/model/graphics.h"
 #include "editor/viewport/full_screen.h"
 #include "editor/viewport/ground_shadow.h"

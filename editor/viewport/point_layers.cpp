@@ -41,6 +41,11 @@ Eigen::Matrix4d movedTo(const Eigen::Vector3d& place) {
   return matrix;
 }
 
+CloudNodes::MoveOfPoints movesOf(const std::shared_ptr<const Cloud>& cloud) {
+  if (cloud->moves.empty()) return {};
+  return [cloud](std::span<CloudPoint> points) { move(points, cloud->header.origin_m - cloud->shift_m, cloud->moves); };
+}
+
 }  // namespace
 
 void PointLayers::show(std::shared_ptr<const Cloud> cloud, std::shared_ptr<const CloudPaint> paint,
@@ -54,7 +59,7 @@ void PointLayers::show(std::shared_ptr<const Cloud> cloud, std::shared_ptr<const
     layer = std::make_unique<Layer>();
     if (cloud->octree)
       layer->nodes = std::make_unique<CloudNodes>(cloud->octree, paint ? paint->others : ownPaint(cloud->colouring),
-                                                  mostNodeBytes());
+                                                  mostNodeBytes(), movesOf(cloud));
     else
       layer->points = packed(cloud->points, paint ? paint->colours : cloud->colours);
     layer->cloud = std::move(cloud);

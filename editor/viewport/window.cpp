@@ -10,9 +10,10 @@
 #include <imgui.h>
 #include <vtk_glew.h>
 
-#include "editor/model/frame_pacer.h"
-#include "editor/model/input_queue.h"
-#include "editor/model/interface_scale.h"
+#include "editor/desktop/frame_pacer.h"
+#include "editor/desktop/input_queue.h"
+#include "editor/desktop/interface_scale.h"
+#include "editor/desktop/user_folders.h"
 #include "editor/model/recovery_keeper.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/import_preview.h"

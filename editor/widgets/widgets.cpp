@@ -211,6 +211,11 @@ void textRightAligned(const Text& text) {
   ImGui::TextUnformatted(text.c_str());
 }
 
+float shareOfRow(int count) {
+  const auto n = static_cast<float>(count);
+  return (ImGui::GetContentRegionAvail().x - (n - 1) * ImGui::GetStyle().ItemSpacing.x) / n;
+}
+
 std::string fittingLabel(const char* icon, const char* text, const char* id, float width) {
   const std::string said = tr(text), whole = std::string(icon) + "  " + said;
   const float room = width - 2 * ImGui::GetStyle().FramePadding.x;

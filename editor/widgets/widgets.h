@@ -76,6 +76,8 @@ void meter(const Style& style, double fraction, ImU32 tone, float width = 0);  /
 void swatch(const Style& style, const Colour& colour);
 bool searchField(const char* id, const char* hint, std::string& text);
 void textRightAligned(const Text& text);
+// The width of each of `count` widgets that fill a row.
+float shareOfRow(int count);
 // The label of a button of this width: icon and text, or only what of them fits.
 std::string fittingLabel(const char* icon, const char* text, const char* id, float width);
 // Cuts the text with … to what fits; the tooltip then has all of it.

@@ -16,13 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Pose product(const Pose& a, const Pose& b) { return {a.rotation * b.rotation, a * b.translation}; }
-
-Pose inverse(const Pose& p) {
-  const Eigen::Quaterniond back = p.rotation.conjugate();
-  return {back, -(back * p.translation)};
-}
-
 // Another pose makes another scan.
 std::string guidAt(const ScanHeader& header, const Pose& pose) {
   const auto text =
@@ -44,7 +37,7 @@ class PosedSink final : public PointSink {
     ScanHeader posed = header;
     posed.file_from_scanner = *station.solved_pose;
     posed.file_from_scanner.translation += shift_m_;
-    moved_ = product(posed.file_from_scanner, inverse(header.file_from_scanner));
+    moved_ = posed.file_from_scanner * inverse(header.file_from_scanner);
     posed.guid = guidAt(header, posed.file_from_scanner);
     posed.description += std::string(header.description.empty() ? "" : "; ") + "pose by registration";
     return to_.begin(posed);
@@ -52,7 +45,7 @@ class PosedSink final : public PointSink {
   Result<void> write(const PointBlock& block) override { return to_.write(block); }
   Result<void> picture(const StationPicture& picture) override {
     StationPicture posed = picture;
-    posed.file_from_camera = product(moved_, picture.file_from_camera);
+    posed.file_from_camera = moved_ * picture.file_from_camera;
     return to_.picture(posed);
   }
   Result<void> end() override { return to_.end(); }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "item_probe.h"
 
+#include <chrono>
+#include <thread>
+
 #include "editor/shell/shell.h"
 #include "editor/widgets/keyboard.h"
 #include "editor/widgets/theme.h"
@@ -124,6 +127,8 @@ void GuiDriver::frames(int count) {
 
 void GuiDriver::settle() {
   editor_.session.wait();
+  editor_.update();
+  while (editor_.readingCloud()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   editor_.update();
   editor_.picker.wait();
   frames(2);

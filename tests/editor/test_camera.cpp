@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "editor/model/camera.h"
+#include "editor/camera/camera.h"
 
 namespace standpoint {
 namespace {

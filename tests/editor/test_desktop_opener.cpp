@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "editor/model/desktop_opener.h"
+#include "editor/desktop/desktop_opener.h"
 #include "tests/project/support.h"
 
 namespace standpoint {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "editor/model/file_list.h"
-#include "editor/model/interface_scale.h"
+#include "editor/desktop/file_list.h"
+#include "editor/desktop/interface_scale.h"
 #include "editor/model/settings.h"
 
 namespace standpoint {

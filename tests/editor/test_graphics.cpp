@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "demo_verbs.h"
-#include "editor/model/frame_pacer.h"
+#include "editor/desktop/frame_pacer.h"
 #include "editor/model/graphics.h"
 #include "editor/shell/actions.h"
 #include "item_probe.h"

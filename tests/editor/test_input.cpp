@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include "editor/model/input_queue.h"
+#include "editor/desktop/input_queue.h"
 
 namespace standpoint {
 namespace {

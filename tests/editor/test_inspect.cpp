@@ -12,6 +12,7 @@
 #include "editor/inspect/panorama_view.h"
 #include "editor/inspect/point_colour.h"
 #include "editor/inspect/point_picking.h"
+#include "editor/inspect/solved_poses.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
@@ -65,6 +66,79 @@ std::vector<CloudPoint> hundred() {
     p.time_s = static_cast<float>(i);
   }
   return points;
+}
+
+Pose poseAt(const Eigen::Vector3d& place, double yaw_rad) {
+  return {Eigen::Quaterniond(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ())), place};
+}
+
+// S1 was registered 5 mm and 0.01 rad off, S2 was not registered; the scans have the frame of header().
+Job halfRegistered() {
+  Job job;
+  for (const char* name : {"S1", "S2"}) {
+    Station station;
+    station.name = name;
+    station.true_pose = poseAt({1.5, 1.5, 1.5}, 0);
+    station.scans.push_back({.file = std::string(name) + ".e57"});
+    job.stations.push_back(station);
+  }
+  job.stations[0].solved_pose = poseAt({1.505, 1.5, 1.5}, 0.01);
+  return job;
+}
+
+TEST(SolvedPoses, MoveEachScanToWhereItsStationIsBelievedToBe) {
+  const Job job = halfRegistered();
+  const Eigen::Vector3d shift_m(500000, 5600000, 0);
+  const std::vector<std::filesystem::path> files = {"both.e57"};
+  const auto moves = solvedMoves(job, header(0), shift_m, files);
+  ASSERT_EQ(moves.size(), 2u);
+  EXPECT_LT((moves[0] * Eigen::Vector3d(1.5, 1.5, 1.5) - Eigen::Vector3d(1.505, 1.5, 1.5)).norm(), 1e-9);
+  EXPECT_LT(
+      (moves[0] * Eigen::Vector3d(2.5, 1.5, 1.5) - Eigen::Vector3d(1.505 + std::cos(0.01), 1.5 + std::sin(0.01), 1.5))
+          .norm(),
+      1e-9)
+      << "turned about the scanner";
+  const Eigen::Vector3d anywhere(4, 5, 6);
+  EXPECT_EQ(moves[1] * anywhere, anywhere) << "S2 was not registered";
+}
+
+TEST(SolvedPoses, KnowTheStationOfANamelessScanByItsFile) {
+  const Job job = halfRegistered();
+  auto nameless = header(0);
+  for (auto& scan : nameless.stations) scan.name = "Scan 1";
+  const Eigen::Vector3d shift_m(500000, 5600000, 0), place(1.5, 1.5, 1.5);
+  const auto movedBy = [&](std::vector<std::filesystem::path> files, std::size_t scan) {
+    return (solvedMoves(job, nameless, shift_m, files)[scan] * place - place).norm();
+  };
+  EXPECT_GT(movedBy({"S1.e57"}, 0), 0.004);
+  EXPECT_EQ(movedBy({"S2.e57"}, 0), 0);
+  EXPECT_EQ(movedBy({"other.e57"}, 0), 0);
+  EXPECT_GT(movedBy({"S2.e57", "S1.e57"}, 1), 0.004) << "each scan has its file";
+}
+
+TEST(SolvedPoses, AreComparedWithTheTruth) {
+  Job job = halfRegistered();
+  const auto offsets = poseOffsets(job);
+  ASSERT_EQ(offsets.size(), 2u);
+  EXPECT_NEAR(offsets[0].moved_m, 0.005, 1e-9);
+  EXPECT_NEAR(offsets[0].turned_rad, 0.01, 1e-9);
+  EXPECT_FALSE(offsets[1].registered);
+  EXPECT_TRUE(hasSolvedPose(job));
+  job.stations[0].scans.clear();
+  EXPECT_FALSE(hasSolvedPose(job)) << "a station without scans has nothing to show";
+}
+
+TEST(SolvedPoses, MoveThePointsAndTheStationsOfACloud) {
+  Cloud cloud;
+  cloud.header = header(0);
+  cloud.shift_m = {500000, 5600000, 0};
+  cloud.points = hundred();  // the first 30 are of S1
+  const auto other = moved(cloud, {poseAt({0.5, 0, 0}, 0), Pose()});
+  EXPECT_FLOAT_EQ(other.points[0].position_m[0], 2.0F);
+  EXPECT_FLOAT_EQ(other.points[29].position_m[0], 2.0F);
+  EXPECT_EQ(other.points[30].position_m, cloud.points[30].position_m);
+  EXPECT_NEAR(other.header.stations[0].file_from_scanner.translation.x(), 500002, 1e-6);
+  EXPECT_NEAR(other.header.stations[1].file_from_scanner.translation.x(), 500001.5, 1e-6);
 }
 
 constexpr std::uint32_t kAll = 63;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 
-#include <gtest/gtest.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include "demo_verbs.h"
 #include "editor/shell/actions.h"
 #include "editor/widgets/keyboard.h"
 #include "item_probe.h"
+#include "tests/temporary_folder.h"
 
 namespace standpoint {
 namespace {
@@ -135,6 +137,57 @@ TEST_F(Inspect, ASectionIsLookedAtAlongItsThinSide) {
   editor.lookAlongClip();
   EXPECT_TRUE(editor.view.camera.orthographic);
   EXPECT_NEAR(std::abs(editor.view.camera.forward().x()), 1, 1e-9);
+}
+
+// A scan of two points, 1 m along the scanner's X and Y.
+std::string ptxAt(const Eigen::Vector3d& place) {
+  const auto at = fmt::format("{} {} {}", place.x(), place.y(), place.z());
+  return "2\n1\n" + at + "\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n" + at + " 1\n1 0 0 0.5\n0 1 0 0.5\n";
+}
+
+TEST_F(Inspect, ScansAreShownTogetherAndWhereRegistrationBelievesThemToBe) {
+  const TemporaryFolder folder;
+  Document document = editor.session.document();
+  Job job = *document.job;
+  job.stations.resize(1);
+  job.stations.push_back(job.stations.front());
+  job.stations.back().name = "S2";
+  for (auto& station : job.stations) {
+    const Eigen::Vector3d place = station.true_pose.translation + editor.shift_m();
+    station.scans = {{.file = folder.write(station.name + ".ptx", ptxAt(place)).string(), .points = 2}};
+  }
+  document.job = std::make_shared<const Job>(job);
+  ASSERT_TRUE(editor.session.adopt({document, {}, {}, "scanned"}));
+  editor.wanted_tab[0] = "points";
+  gui.frames(3);
+  ASSERT_NE(gui.find("Solved poses"), nullptr);
+  EXPECT_TRUE(gui.find("Solved poses")->disabled) << "nothing is registered";
+  ASSERT_TRUE(gui.click("###show-together"));
+  gui.settle();
+  ASSERT_TRUE(editor.cloud());
+  ASSERT_EQ(editor.cloud()->points.size(), 4u);
+  const auto before = editor.cloud()->points;
+
+  job.stations[1].solved_pose = job.stations[1].true_pose;
+  job.stations[1].solved_pose->translation.x() += 0.5;
+  document.job = std::make_shared<const Job>(job);
+  ASSERT_TRUE(editor.session.adopt({document, {}, {}, "registered"}));
+  gui.frames(3);
+  ASSERT_TRUE(gui.click("Solved poses"));
+  gui.frames(3);
+  const auto& after = editor.cloud()->points;
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(after[i].position_m[0] - before[i].position_m[0], i < 2 ? 0 : 0.5, 1e-5) << i;
+  itemProbe().listens = true;
+  gui.frame();
+  itemProbe().listens = false;
+  EXPECT_THAT(itemProbe().texts, testing::IsSupersetOf({"S2 is off by 500.0 mm and 0.0000°", "S1 is not registered"}));
+  ASSERT_TRUE(gui.click("Solved poses"));
+  gui.frames(3);
+  EXPECT_EQ(editor.cloud()->points[3].position_m, before[3].position_m);
+  ASSERT_TRUE(gui.click("###show-together"));
+  gui.settle();
+  EXPECT_FALSE(editor.cloud()) << "back to the model";
 }
 
 TEST_F(Inspect, AWallIsPickedOnlyWhereThereIsACloudAndElseSaysWhy) {

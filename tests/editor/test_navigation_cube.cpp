@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "demo_verbs.h"
-#include "editor/model/navigation_cube.h"
+#include "editor/camera/navigation_cube.h"
 #include "editor/shell/actions.h"
 #include "editor/widgets/keyboard.h"
 #include "item_probe.h"

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "editor/model/cloud_loader.h"
+#include "editor/clouds/cloud_loader.h"
 #include "editor/points/cloud_nodes.h"
 #include "editor/points/node_choice.h"
 #include "editor/points/splatter.h"
@@ -255,6 +255,45 @@ TEST_F(CloudFiles, OfManyPointsAreShownByAnOctreeThatIsMadeOnce) {
   const auto again = open();
   ASSERT_TRUE(again) << describe(again.error());
   EXPECT_EQ(again->points_in_file, static_cast<std::uint64_t>(kPoints) + 1) << "made anew for another file";
+}
+
+TEST_F(CloudFiles, AreMovedWhenTheirNodesAreRead) {
+  const auto cloud = open();
+  ASSERT_TRUE(cloud) << describe(cloud.error());
+  Pose aside;
+  aside.translation = {0.25, 0, 0};
+  const auto other = moved(*cloud, {aside});
+  const std::vector<std::uint32_t> root = {0};
+  const auto rootOf = [&](CloudNodes& nodes) {
+    nodes.want(root);
+    while (nodes.reading()) nodes.waitForNews(1);
+    return nodes.want(root).front();
+  };
+  CloudNodes as_made(cloud->octree, ownPaint(cloud->colouring), 1 << 30);
+  CloudNodes as_moved(cloud->octree, ownPaint(cloud->colouring), 1 << 30, [&](std::span<CloudPoint> points) {
+    move(points, other.header.origin_m - other.shift_m, other.moves);
+  });
+  const auto before = rootOf(as_made), after = rootOf(as_moved);
+  ASSERT_TRUE(before && after);
+  ASSERT_EQ(before->size(), after->size());
+  for (std::size_t i = 0; i < before->size(); ++i) {
+    ASSERT_NEAR(after->x_m[i], before->x_m[i] + 0.25F, 1e-4F);
+    ASSERT_NEAR(after->y_m[i], before->y_m[i], 1e-4F);
+  }
+  EXPECT_FLOAT_EQ(other.points.front().position_m[0], cloud->points.front().position_m[0] + 0.25F);
+}
+
+TEST_F(CloudFiles, AreShownTogether) {
+  std::ofstream(folder / "few.xyz") << "101 0 0 1\n102 0 0 1\n";
+  const std::vector<std::filesystem::path> files = {file, folder / "few.xyz"};
+  const auto both = sampleCloud(files, {100, 0, 0}, 100000, progress);
+  ASSERT_TRUE(both) << describe(both.error());
+  EXPECT_EQ(both->files, files);
+  EXPECT_EQ(both->points.size(), static_cast<std::size_t>(kPoints) + 2);
+  EXPECT_EQ(both->header.stations.size(), 2U);
+  EXPECT_FLOAT_EQ(both->points.back().position_m[0], 2.0F);
+  const std::vector<std::filesystem::path> lost = {file, folder / "gone.xyz"};
+  EXPECT_FALSE(sampleCloud(lost, {100, 0, 0}, 100000, progress));
 }
 
 TEST_F(CloudFiles, OfFewPointsNeedNoOctree) {

@@ -4,7 +4,8 @@
 
 #include "core/data_folder.h"
 #include "demo_verbs.h"
-#include "editor/model/live_cloud.h"
+#include "editor/clouds/live_cloud.h"
+#include "editor/desktop/user_folders.h"
 #include "editor/model/scan_form.h"
 #include "editor/model/scan_outlook.h"
 #include "editor/panels/scan_panel.h"
@@ -177,8 +178,8 @@ TEST_F(ScanPanel, ScansWithWhatIsSetAndTheDocumentRemembersIt) {
   EXPECT_FALSE(editor.showsLiveScan());
   const auto& scan = editor.session.document().job->stations[0].scans.back();
   EXPECT_EQ(editor.cloud()->points_in_file, scan.points);
-  EXPECT_LE(editor.cloud()->points.size(), kMostShownPoints);
-  EXPECT_GE(editor.cloud()->points.size(), std::min<std::uint64_t>(scan.points, kMostShownPoints / 2) - 1);
+  EXPECT_EQ(editor.cloud()->file, folder / "S1.e57") << "all of it, in place of what was seen as it came";
+  EXPECT_EQ(editor.cloud()->points.size(), std::min<std::uint64_t>(scan.points, kMostInMemory));
   ASSERT_TRUE(editor.session.errors().empty()) << describe(editor.session.errors().front().error);
   ASSERT_TRUE(editor.session.document().scanning);
   EXPECT_EQ(*editor.session.document().scanning, wanted);

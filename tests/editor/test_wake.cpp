@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "demo_verbs.h"
-#include "editor/model/frame_pacer.h"
+#include "editor/desktop/frame_pacer.h"
 #include "editor/model/time_left.h"
 #include "item_probe.h"
 

@@ -12,9 +12,8 @@
 #include "core/ceiling.h"
 #include "core/data_folder.h"
 #include "core/readable_name.h"
-#include "editor/model/walk.h"
+#include "editor/walking/walk.h"
 #include "importers/importers.h"
-#include "optimizer/walk/landing.h"
 #include "optimizer/walk/walkable_map.h"
 
 namespace standpoint {
@@ -186,8 +185,8 @@ Teleports teleportAnywhere(const WalkedGround& ground, int count) {
     const auto hit = ground.obstacles.ray(eye, eye - Vector3d(0, 0, 4));
     if (!hit) continue;
     ++result.tried;
-    const auto landing = landingAt(ground.obstacles, kVisitor, hit->point, hit->normal);
-    const bool allowed = landing.why_not.empty() && !isRoofOrCeiling(*ground.environment, landing.product);
+    const auto landing = landingOn(ground, kVisitor, hit->point, hit->normal);
+    const bool allowed = landing.why_not.empty();
     result.allowed += allowed ? 1 : 0;
     const auto surface = onSurface(map, allowed ? landing.feet : hit->point);
     if (surface != (allowed ? OnSurface::no : OnSurface::yes)) continue;

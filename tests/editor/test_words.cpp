@@ -223,8 +223,9 @@ bool isProse(const std::string& text) {
 }
 
 bool isTranslated(const std::string& before) {
-  static const std::regex call(R"(((\b(tr|trf|trn|heading|emptyState|property|propertyLabel|primaryButton|button)|)"
-                               R"(ui::(Label|tooltip|wrapped|dimText|dimWrapped))\((\w+, )*(ICON_\w+ )?)$)");
+  static const std::regex call(
+      R"(((\b(tr|trf|trn|heading|emptyState|property|propertyLabel|primaryButton|button)|)"
+      R"(ui::(Label|tooltip|wrapped|dimText|dimWrapped))\(((\w+|"[a-z-]+"), )*(ICON_\w+ )?)$)");
   return std::regex_search(before, call);
 }
 

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "editor/model/camera.h"
+#include "editor/camera/camera.h"
 
 namespace standpoint {
 

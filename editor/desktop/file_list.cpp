@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/model/file_list.h"
+#include "editor/desktop/file_list.h"
 
 #include <algorithm>
 #include <cctype>

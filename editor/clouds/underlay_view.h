@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "editor/model/cloud_loader.h"
+#include "editor/clouds/cloud_loader.h"
 #include "project/document.h"
 
 namespace standpoint {

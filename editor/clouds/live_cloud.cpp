@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/model/live_cloud.h"
+#include "editor/clouds/live_cloud.h"
 
 namespace standpoint {
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -27,7 +28,16 @@ struct Cloud {
   std::vector<PointColour> colours;  // of the points, by colourOf() and `colouring`
   std::uint64_t points_in_file = 0;
   std::shared_ptr<const OctreeFile> octree;  // where all points are; null: they are `points`
+  // By which each of header.stations, and its points, is moved from where the files have it: local frame to local
+  // frame. Empty: none is. Points that come from the octree are moved when they are read.
+  std::vector<Pose> moves;
+  std::vector<std::filesystem::path> files;  // of header.stations, where there are several; `file` is empty then
 };
+
+// The cloud with each station where `moves` takes it, one for each of header.stations; `cloud` is not moved yet.
+Cloud moved(const Cloud& cloud, std::vector<Pose> moves);
+// Moves points relative to `origin_m`, local frame, each as its station.
+void move(std::span<CloudPoint> points, const Eigen::Vector3d& origin_m, std::span<const Pose> moves);
 
 constexpr std::uint64_t kMostShownPoints = 600000;  // what software rendering still turns smoothly
 
@@ -43,6 +53,7 @@ class CloudSampler : public PointSink {
 
   Cloud coloured() const;                       // what there is so far
   std::uint64_t seen() const { return seen_; }  // points, kept or not
+  std::size_t scans() const { return maker_.header().stations.size(); }
   bool empty() const { return points_.empty(); }
 
  private:
@@ -52,8 +63,9 @@ class CloudSampler : public PointSink {
   std::vector<CloudPoint> points_;
 };
 
-// Every k-th point, so that at most `most` are kept; memory does not grow with the file.
-Result<Cloud> sampleCloud(const std::filesystem::path& file, const Eigen::Vector3d& shift_m, std::uint64_t most,
-                          Progress& progress);
+// Every k-th point, so that at most `most` are kept; memory does not grow with the file. Of several files, one after
+// the other.
+Result<Cloud> sampleCloud(std::span<const std::filesystem::path> files, const Eigen::Vector3d& shift_m,
+                          std::uint64_t most, Progress& progress);
 
 }  // namespace standpoint

@@ -8,9 +8,9 @@
 #include <Eigen/Core>
 
 #include "core/units.h"
-#include "editor/model/camera.h"
-#include "editor/model/swinging_doors.h"
-#include "editor/model/walk_ground.h"
+#include "editor/camera/camera.h"
+#include "editor/walking/swinging_doors.h"
+#include "editor/walking/walk_ground.h"
 #include "optimizer/walk/start.h"
 #include "optimizer/walk/walker.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/model/underlay_view.h"
+#include "editor/clouds/underlay_view.h"
 
 #include <algorithm>
 #include <chrono>
@@ -48,7 +48,7 @@ void UnderlayView::follow(const Document& document, const std::function<void()>&
   for (const auto& u : document.underlays) {
     if (!u->visible || clouds_.contains(u->file)) continue;
     loading_ = u->file;
-    loader_.start(u->file, middleOf(*u), wake);
+    loader_.start({u->file}, middleOf(*u), wake);
     return;
   }
 }

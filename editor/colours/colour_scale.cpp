@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/inspect/colour_scale.h"
+#include "editor/colours/colour_scale.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +10,9 @@ namespace standpoint {
 
 namespace {
 
-using Stops = std::array<std::array<double, 3>, 5>;
-constexpr Stops kViridis = {{{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}}};  // rounded
-constexpr Stops kDiverging = {{{4, 78, 150}, {106, 168, 214}, {240, 240, 240}, {240, 160, 80}, {176, 74, 0}}};
+constexpr ColourStops kViridis = {
+    {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}}};  // rounded
+constexpr ColourStops kDiverging = {{{4, 78, 150}, {106, 168, 214}, {240, 240, 240}, {240, 160, 80}, {176, 74, 0}}};
 constexpr std::array<Rgba8, kClassColours> kClasses = {{{230, 159, 0, 255},
                                                         {86, 180, 233, 255},
                                                         {0, 158, 115, 255},
@@ -21,7 +21,13 @@ constexpr std::array<Rgba8, kClassColours> kClasses = {{{230, 159, 0, 255},
                                                         {213, 94, 0, 255},
                                                         {204, 121, 167, 255}}};
 
-Rgba8 between(const Stops& stops, double fraction) {
+double ticksWithin(double low, double high, double step) {
+  return std::floor(high / step + 1e-9) - std::ceil(low / step - 1e-9) + 1;
+}
+
+}  // namespace
+
+Rgba8 colourAlong(const ColourStops& stops, double fraction) {
   const double at = std::clamp(fraction, 0.0, 1.0) * (stops.size() - 1);
   const auto stop = std::min(static_cast<std::size_t>(at), stops.size() - 2);
   Rgba8 colour = {0, 0, 0, 255};
@@ -31,14 +37,8 @@ Rgba8 between(const Stops& stops, double fraction) {
   return colour;
 }
 
-double ticksWithin(double low, double high, double step) {
-  return std::floor(high / step + 1e-9) - std::ceil(low / step - 1e-9) + 1;
-}
-
-}  // namespace
-
-Rgba8 viridis(double fraction) { return between(kViridis, fraction); }
-Rgba8 diverging(double fraction) { return between(kDiverging, fraction); }
+Rgba8 viridis(double fraction) { return colourAlong(kViridis, fraction); }
+Rgba8 diverging(double fraction) { return colourAlong(kDiverging, fraction); }
 Rgba8 classColour(std::size_t index) { return kClasses.at(index); }
 
 std::vector<double> roundTicks(double low, double high) {

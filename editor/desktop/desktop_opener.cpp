@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/model/desktop_opener.h"
+#include "editor/desktop/desktop_opener.h"
 
 #include <chrono>
 #include <cstdlib>

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/model/walk_ground.h"
+#include "editor/walking/walk_ground.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <numbers>
 #include <utility>
 #include <vector>
+
+#include "core/ceiling.h"
 
 namespace standpoint {
 
@@ -23,11 +27,40 @@ GroundPtr groundOf(std::shared_ptr<const Environment> environment, std::shared_p
                [&](const CollisionShape& shape) { return door_of[shape.product] < 0; });
   Obstacles obstacles(shapes);
   auto doors = std::make_shared<const DoorLeaves>(doorLeaves(*environment));
-  return std::make_shared<const WalkedGround>(WalkedGround{
-      std::move(environment), std::move(collision), std::move(obstacles), std::move(doors), std::move(spaces), lowest});
+  WalkableMap map(collision->walkable);
+  return std::make_shared<const WalkedGround>(WalkedGround{std::move(environment), std::move(collision),
+                                                           std::move(obstacles), std::move(doors), std::move(spaces),
+                                                           std::move(map), lowest});
+}
+
+// On the surface, or on its rim, where it and the body's own sweeps differ by a cell and a skin.
+bool isNear(const WalkableMap& map, const Eigen::Vector3d& feet) {
+  constexpr double kRim_m = 0.07;
+  constexpr int kAround = 16;
+  for (int i = 0; i < kAround; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kAround;
+    if (map.under(feet + kRim_m * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0))) return true;
+  }
+  return map.under(feet).has_value();
+}
+
+bool isOpenToTheSky(const Obstacles& obstacles, const Eigen::Vector3d& feet) {
+  constexpr double kNothingAbove_m = 100;
+  return !obstacles.ray(feet + Eigen::Vector3d(0, 0, 0.02), feet + Eigen::Vector3d(0, 0, kNothingAbove_m));
 }
 
 }  // namespace
+
+Landing landingOn(const WalkedGround& ground, const Body& body, const Eigen::Vector3d& point,
+                  const Eigen::Vector3d& normal) {
+  Landing landing = landingAt(ground.obstacles, body, point, normal);
+  if (!landing.why_not.empty()) return landing;
+  if (isRoofOrCeiling(*ground.environment, landing.product))
+    landing.why_not = "roof";
+  else if (!isNear(ground.map, landing.feet) && isOpenToTheSky(ground.obstacles, landing.feet))
+    landing.why_not = "not walkable";
+  return landing;
+}
 
 bool WalkGround::isFor(const Document& document, const Body& body) const {
   return task_ && environment_ == document.imported && body_ == body;

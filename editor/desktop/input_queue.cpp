@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/model/input_queue.h"
+#include "editor/desktop/input_queue.h"
 
 #include <algorithm>
 

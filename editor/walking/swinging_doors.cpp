@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/model/swinging_doors.h"
+#include "editor/walking/swinging_doors.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/model/frame_pacer.h"
+#include "editor/desktop/frame_pacer.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/model/walk.h"
+#include "editor/walking/walk.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/model/navigation_cube.h"
+#include "editor/camera/navigation_cube.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/model/cloud_loader.h"
+#include "editor/clouds/cloud_loader.h"
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <unistd.h>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "editor/model/settings.h"
+#include "editor/desktop/user_folders.h"
 #include "pointclouds/formats.h"
 #include "pointclouds/octree/octree_builder.h"
 
@@ -59,7 +60,7 @@ Result<Cloud> openCloud(const std::filesystem::path& file, const Eigen::Vector3d
   TRY_ASSIGN(const auto info, format->info(file));
   std::uint64_t points = 0;
   for (const auto& scan : info.scans) points += scan.points;
-  if (points <= most_in_memory) return sampleCloud(file, shift_m, most_in_memory, progress);
+  if (points <= most_in_memory) return sampleCloud(std::span(&file, 1), shift_m, most_in_memory, progress);
   TRY_ASSIGN(const auto key, octreeKeyOf(file));
   const auto places = octreePlaces(file);
   for (const auto& place : places)
@@ -75,13 +76,15 @@ Result<Cloud> openCloud(const std::filesystem::path& file, const Eigen::Vector3d
   return cloudOf(std::move(octree), file, shift_m);
 }
 
-void CloudLoader::start(const std::filesystem::path& file, const Eigen::Vector3d& shift_m, std::function<void()> wake) {
+void CloudLoader::start(const std::vector<std::filesystem::path>& files, const Eigen::Vector3d& shift_m,
+                        std::function<void()> wake) {
   drop();
   preview_ = std::make_shared<LiveCloud>(shift_m, wake);
   task_ = std::make_unique<Task<Cloud>>(
-      "Show " + file.filename().string(),
-      [file, shift_m, preview = preview_](Progress& progress) {
-        return openCloud(file, shift_m, kMostInMemory, preview.get(), progress);
+      files.size() == 1 ? "Show " + files.front().filename().string() : "Show all scans together",
+      [files, shift_m, preview = preview_](Progress& progress) {
+        return files.size() == 1 ? openCloud(files.front(), shift_m, kMostInMemory, preview.get(), progress)
+                                 : sampleCloud(files, shift_m, kMostInMemory, progress);
       },
       std::move(wake));
 }

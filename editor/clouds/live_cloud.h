@@ -6,7 +6,7 @@
 #include <memory>
 #include <mutex>
 
-#include "editor/model/cloud.h"
+#include "editor/clouds/cloud.h"
 
 namespace standpoint {
 

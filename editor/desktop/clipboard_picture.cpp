@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/model/clipboard_picture.h"
+#include "editor/desktop/clipboard_picture.h"
 
 #include <cstdlib>
 #include <fcntl.h>

@@ -5,8 +5,10 @@
 #include <memory>
 
 #include "optimizer/walk/door_leaves.h"
+#include "optimizer/walk/landing.h"
 #include "optimizer/walk/obstacles.h"
 #include "optimizer/walk/spaces.h"
+#include "optimizer/walk/walkable_map.h"
 #include "project/document.h"
 #include "project/task.h"
 
@@ -19,8 +21,14 @@ struct WalkedGround {
   Obstacles obstacles;  // without doors, which open
   std::shared_ptr<const DoorLeaves> doors;
   std::vector<SpaceBody> spaces;
+  WalkableMap map;
   double lowest_m = 0;
 };
+
+// landingAt(), but neither on a roof nor, under the open sky, where the walkable surface has no place: on top of a
+// wall. Under a ceiling one may crouch, of which that surface knows nothing.
+Landing landingOn(const WalkedGround& ground, const Body& body, const Eigen::Vector3d& point,
+                  const Eigen::Vector3d& normal);
 
 // The document's collision shapes, made ready to walk between. Where it has none, they are computed beside the
 // interface for this view alone: that somebody looked around is no change of the document, and no step to undo.

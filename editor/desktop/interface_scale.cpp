@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/model/interface_scale.h"
+#include "editor/desktop/interface_scale.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,6 +10,10 @@ namespace standpoint {
 
 using Rgba8 = std::array<std::uint8_t, 4>;
 
+// Red, green and blue (0..255) at equal distances along a scale.
+using ColourStops = std::array<std::array<double, 3>, 5>;
+Rgba8 colourAlong(const ColourStops& stops, double fraction);  // `fraction` as below
+
 // Scales that people without red, green or blue cones read, too; `fraction` 0..1, what is beyond has the colour of the
 // end.
 Rgba8 viridis(double fraction);    // from dark violet over green to yellow: lighter is more

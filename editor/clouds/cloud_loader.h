@@ -9,8 +9,8 @@
 
 #include "core/progress.h"
 #include "core/result.h"
-#include "editor/model/cloud.h"
-#include "editor/model/live_cloud.h"
+#include "editor/clouds/cloud.h"
+#include "editor/clouds/live_cloud.h"
 #include "project/task.h"
 
 namespace standpoint {
@@ -30,10 +30,11 @@ Result<Cloud> cloudOf(std::shared_ptr<const OctreeFile> octree, const std::files
 Result<Cloud> openCloud(const std::filesystem::path& file, const Eigen::Vector3d& shift_m, std::uint64_t most_in_memory,
                         PointSink* preview, Progress& progress);
 
-// Opens a cloud in the background.
+// Opens a cloud in the background, or an even part of several together.
 class CloudLoader {
  public:
-  void start(const std::filesystem::path& file, const Eigen::Vector3d& shift_m, std::function<void()> wake);
+  void start(const std::vector<std::filesystem::path>& files, const Eigen::Vector3d& shift_m,
+             std::function<void()> wake);
   void drop();  // what is being opened is not wanted any more
   bool busy() const { return task_ && !task_->done(); }
   Progress* progress() { return busy() ? &task_->progress() : nullptr; }

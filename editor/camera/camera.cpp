@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/model/camera.h"
+#include "editor/camera/camera.h"
 
 #include <algorithm>
 #include <cmath>
