@@ -19,9 +19,11 @@ bool editsBeforeCharacters(const InputEvent& e) {
   return e.kind == EventKind::key && e.down && e.code >= 256 && !onlyModifies(e.code);
 }
 
-// A click belongs to the place where the pointer was, so nothing moves after a button within a frame. Dear ImGui takes
-// the characters of a frame before its keys: a character waits for such a key before it, and no key for a character. A
-// key goes down with the modifiers of its moment, so these change in the next frame.
+// A click belongs to the place where the pointer was, so nothing moves after a button within a frame; and what is
+// clicked must have been hovered in the frame before: Dear ImGui lets tabs, and rows with buttons in them, know of a
+// press only then, so a press waits for the move that led there. Dear ImGui takes the characters of a frame before its
+// keys: a character waits for such a key before it, and no key for a character. A key goes down with the modifiers of
+// its moment, so these change in the next frame.
 bool mustWait(const InputEvent& event, const std::vector<InputEvent>& taken) {
   const auto has = [&](EventKind kind) {
     return std::any_of(taken.begin(), taken.end(), [&](const InputEvent& e) { return e.kind == kind; });
@@ -29,7 +31,8 @@ bool mustWait(const InputEvent& event, const std::vector<InputEvent>& taken) {
   switch (event.kind) {
     case EventKind::move:
       return has(EventKind::button) || has(EventKind::scroll) || has(EventKind::key) || has(EventKind::character);
-    case EventKind::button: return has(EventKind::button) || has(EventKind::scroll);
+    case EventKind::button:
+      return has(EventKind::button) || has(EventKind::scroll) || (event.down && has(EventKind::move));
     case EventKind::scroll: return has(EventKind::button);
     case EventKind::character:
       return has(EventKind::button) || std::any_of(taken.begin(), taken.end(), editsBeforeCharacters);

@@ -40,10 +40,23 @@ TEST(InputQueue, CoalescesMovesButKeepsTheOneBeforeAClick) {
   queue.push(buttonEvent(true, 99));
   queue.push({Kind::move, 500, 0});
   const auto first = queue.takeFrame();
-  ASSERT_EQ(first.size(), 2U);
+  ASSERT_EQ(first.size(), 1U);
   EXPECT_EQ(first[0].x, 99);
-  EXPECT_EQ(first[1].kind, Kind::button);
+  EXPECT_EQ(queue.takeFrame().at(0).kind, Kind::button);
   EXPECT_EQ(queue.takeFrame().at(0).x, 500);
+}
+
+TEST(InputQueue, HoversWhatIsPressedInTheFrameBefore) {
+  InputQueue queue;
+  queue.push({Kind::move, 5, 0});
+  queue.push(buttonEvent(true, 5));
+  queue.push(buttonEvent(false, 5));
+  EXPECT_EQ(queue.takeFrame().at(0).kind, Kind::move);
+  EXPECT_TRUE(queue.takeFrame().at(0).down);
+  queue.push({Kind::move, 9, 0});
+  EXPECT_FALSE(queue.takeFrame().at(0).down);
+  queue.push(buttonEvent(false, 9));
+  EXPECT_EQ(queue.takeFrame().size(), 2U) << "where one lets go needs no frame of its own";
 }
 
 TEST(InputQueue, AKeyIsSeenWithTheModifierOfItsMoment) {
