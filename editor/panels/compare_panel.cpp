@@ -143,12 +143,12 @@ void drawAnswer(const Model& model, const CompareState& state, const CompareAnsw
   const auto a = nameOf(clouds, state.shown_a), b = nameOf(clouds, state.shown_b);
   auto rows = rowsOf(answer);
   const auto materials = materialRows(answer);
-  ImGui::SameLine();
-  if (ui::button(ICON_COPY "  Copy table###copy-compare", {}, {0, 0}, "Copy the figures as a table")) {
+  if (ui::iconButton(ICON_COPY "###copy-compare", "Copy the figures as a table")) {
     rows.insert(rows.end(), materials.begin(), materials.end());
     ImGui::SetClipboardText(tableText(rows, a, b).c_str());
     rows.resize(rows.size() - materials.size());
   }
+  ImGui::SameLine();
   ui::dimText(fmt::format("A  {}     B  {}", a, b));
   if (!ImGui::BeginChild("###compare-tables")) return ImGui::EndChild();
   drawTable(model, rows, "compare-figures");
