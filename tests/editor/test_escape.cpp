@@ -218,6 +218,7 @@ TEST_F(Escape, ClosesWhateverAnItemOfAPanelOpens) {
         }
         editor.dialogs = DialogStates();
         editor.quit = false;
+        for (const auto& task : editor.session.running()) task->progress().cancel();  // such as a scan of an hour
         gui.settle();
         editor.session.errors().clear();
         gui.key(kKeyEscape);
