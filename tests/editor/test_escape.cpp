@@ -184,10 +184,18 @@ TEST_F(Escape, ClosesWhateverAnItemOfAPanelOpens) {
     for (int w = 0; w < kWorkspaces; ++w) {
       const auto area = panel.area[static_cast<std::size_t>(w)];
       if (area == Area::none) continue;
+      const auto endTasks = [&] {  // also those that begin when others end, such as a scan of an hour
+        while (!editor.session.running().empty()) {
+          for (const auto& task : editor.session.running()) task->progress().cancel();
+          gui.frame();
+          editor.update();
+        }
+      };
       const auto show = [&] {
         editor.workspace = static_cast<Workspace>(w);
         editor.wanted_tab[static_cast<std::size_t>(area)] = panel.id;
         if (!editor.environment()) {
+          endTasks();
           editor.session.start("demo", nlohmann::json::object());
           gui.settle();
         }
@@ -199,7 +207,8 @@ TEST_F(Escape, ClosesWhateverAnItemOfAPanelOpens) {
       for (bool more = true; more;) {
         more = false;
         for (const auto& item : itemProbe().items)
-          if (!item.disabled && pressed.insert(item.id).second) {
+          // A scan at the finest settings takes minutes.
+          if (!item.disabled && !item.label.ends_with("###run-scan") && pressed.insert(item.id).second) {
             more = true;
             gui.activate(item.id);
             break;
@@ -218,7 +227,7 @@ TEST_F(Escape, ClosesWhateverAnItemOfAPanelOpens) {
         }
         editor.dialogs = DialogStates();
         editor.quit = false;
-        for (const auto& task : editor.session.running()) task->progress().cancel();  // such as a scan of an hour
+        endTasks();
         gui.settle();
         editor.session.errors().clear();
         gui.key(kKeyEscape);
