@@ -26,7 +26,7 @@ struct BookmarksState {
 
 void drawName(BookmarksState& state, Actions& actions, const Bookmark& bookmark) {
   ImGui::SetNextItemWidth(-2 * ImGui::GetFrameHeight());
-  if (!state.begun) ImGui::SetKeyboardFocusHere();
+  if (!state.begun) ui::focusNext();
   const bool changed = ui::textField("###bookmark-name", state.name);
   if (changed && state.name != bookmark.name)
     actions.start(BookmarkOptions{.rename = bookmark.name, .name = state.name}, "Rename bookmark " + bookmark.name);

@@ -194,7 +194,7 @@ void drawAssign(const Model& model, InspectorState& state, Actions& actions, con
   auto& filter = state.material_filter;
   if (ImGui::IsWindowAppearing()) {
     filter.clear();
-    ImGui::SetKeyboardFocusHere();
+    ui::focusNext();
   }
   ui::searchField("material-filter", "Brick, glass, steel …", filter);
   ImGui::BeginChild("materials", {model.px(300), model.px(260)});

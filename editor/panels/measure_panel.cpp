@@ -79,7 +79,7 @@ void drawName(const Model& model, MeasureState& state, Actions& actions, const M
   if (state.of != m.name) state = {m.name, m.name, {}, {}};
   ui::propertyLabel("Name");
   if (model.rename_wanted) {
-    ImGui::SetKeyboardFocusHere();
+    ui::focusNext();
     actions.renameBegun();
   }
   if (!ui::textField("###measurement-name", state.name) || state.name == m.name) return;

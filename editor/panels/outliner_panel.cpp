@@ -35,7 +35,7 @@ void choose(const Model& model, OutlinerState& state, Actions& actions, const st
   const auto& io = ImGui::GetIO();
   if (io.KeyShift && state.anchor < rows.size()) {
     std::vector<std::uint32_t> chosen;
-    const auto [low, high] = std::minmax(static_cast<int>(state.anchor), index);
+    const auto [low, high] = std::minmax({static_cast<int>(state.anchor), index});
     for (int i = low; i <= high; ++i) {
       const auto more = model.outliner.tree.productsBelow(rows[static_cast<std::size_t>(i)].node);
       chosen.insert(chosen.end(), more.begin(), more.end());
@@ -98,7 +98,6 @@ void drawRow(const Model& model, OutlinerState& state, Actions& actions, const s
   }
   const bool hovered = ImGui::IsItemHovered();
   productMenu(model, state, actions, rows, index, chosen);
-  ImGui::SetItemAllowOverlap();
   ImGui::SameLine(left + indent);
   if (row.expandable) ui::dimText(row.expanded ? ICON_ARROW_DOWN : ICON_CHEVRON_RIGHT);
   ImGui::SameLine(left + indent + model.px(17));

@@ -57,7 +57,7 @@ void start(Actions& actions, SurveyEdit& edit, const VerbOptions& options, std::
 bool nameRow(const Model& model, Actions& actions, SurveyEdit& edit) {
   ui::propertyLabel("Name");
   if (model.rename_wanted) {
-    ImGui::SetKeyboardFocusHere();
+    ui::focusNext();
     actions.renameBegun();
   }
   return ui::textField("###inspected-name", edit.name);

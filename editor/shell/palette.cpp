@@ -181,7 +181,7 @@ void drawPalette(Editor& editor) {
     state.open = false;  // by a click beside it
     return;
   }
-  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  if (ImGui::IsWindowAppearing()) ui::focusNext();
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (ImGui::InputTextWithHint("###query",
                                tr("Search commands; @ rooms and storeys, # stations, * bookmarks, / products").c_str(),

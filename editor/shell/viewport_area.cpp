@@ -26,6 +26,7 @@
 #include "editor/shell/tour_card.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keyboard.h"
+#include "editor/widgets/overlap.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 #include "project/survey/survey_verbs.h"
@@ -264,10 +265,11 @@ void drawViewport(Editor& editor) {
     return;
   }
   ImGui::SetCursorScreenPos(origin);
-  ImGui::InvisibleButton(
-      "###scene", whole,
-      ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
-  ImGui::SetItemAllowOverlap();
+  ui::overlappable([&] {
+    return ImGui::InvisibleButton(
+        "###scene", whole,
+        ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+  });
   if (!previewed) acceptMaterial(editor, origin);
   const bool hovered = ImGui::IsItemHovered() && !overOverlay(editor, origin, whole);
   const ImVec2 right(origin.x + size.x, origin.y);

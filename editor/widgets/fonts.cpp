@@ -71,8 +71,15 @@ FontFiles filesIn(Roots roots) {
                             "fonts-font-awesome/fonts/fontawesome-webfont.ttf"})};
 }
 
+// No font is that small, and Dear ImGui 1.90 ends the program when it is given one.
+bool tooSmall(const std::string& file) {
+  std::error_code unreadable;
+  return !file.empty() && (std::filesystem::file_size(file, unreadable) <= 100 || unreadable);
+}
+
 // False where a file holds no font.
 bool build(const FontFiles& files, float scale, Fonts& fonts) {
+  if (tooSmall(files.regular) || tooSmall(files.bold) || tooSmall(files.mono) || tooSmall(files.icons)) return false;
   auto& atlas = *ImGui::GetIO().Fonts;
   atlas.Clear();
   atlas.FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();

@@ -195,7 +195,7 @@ bool inputIn(const char* id, std::string& text, const Look& look, float unit) {
   const bool disabled = (ImGui::GetCurrentContext()->CurrentItemFlags & ImGuiItemFlags_Disabled) != 0;
   if (hovered && !disabled && ImGui::GetIO().MousePos.x > frame.Max.x - unit && ImGui::IsMouseClicked(0) &&
       !look.draggable)
-    ImGui::SetKeyboardFocusHere();  // a click on the unit is one into the field
+    focusNext();  // a click on the unit is one into the field
   ImGui::SetNextItemWidth(std::max(1.0F, look.width - unit));
   ImGui::PushStyleColor(ImGuiCol_FrameBg, 0);
   ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0);
@@ -286,7 +286,7 @@ bool numberSlider(const char* id, double& value, double low, double high, const 
     }
     ImGui::SameLine(0, between);
   }
-  if (typed) ImGui::SetKeyboardFocusHere();
+  if (typed) focusNext();
   ImGui::SetNextItemWidth(field);
   changed = numberField(id, value, format, help) || changed;
   ImGui::EndGroup();

@@ -112,6 +112,12 @@ void dimWrapped(const Text& text) {
   ImGui::PopStyleColor();
 }
 
+// Dear ImGui 1.90.1 gives an item the keyboard only where its window has it already.
+void focusNext() {
+  ImGui::SetWindowFocus();
+  ImGui::SetKeyboardFocusHere();
+}
+
 void gap(const Style& style, float points) { ImGui::Dummy({0, style.px(points)}); }
 
 void emptyState(const Style& style, const char* icon, const char* title, const char* text) {

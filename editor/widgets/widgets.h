@@ -65,6 +65,7 @@ void dimWrapped(const Text& text);
 // An empty panel: what would be here, and how to get it.
 void emptyState(const Style& style, const char* icon, const char* title, const char* text);
 void gap(const Style& style, float points = 4);
+void focusNext();  // the next item takes the keyboard
 
 // Rows of label and value with aligned columns. Values can be selected by a double click: it copies them.
 bool beginProperties(const char* id, float label_fraction = 0.40F);
