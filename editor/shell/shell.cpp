@@ -252,29 +252,40 @@ void drawToolbar(Editor& editor, const Box& box) {
   ImGui::End();
 }
 
-// Icons stay only where all titles have room beside them.
-bool roomForIcons(const Editor& editor, Area area) {
-  float width = 0;
+// What tabs show, by the room there is: all of it, no icons, or the title of the chosen one alone.
+enum class TabLabels { whole, titles, chosen_title };
+
+TabLabels tabLabels(const Editor& editor, Area area) {
+  float titles = 0, icons = 0;
   for (const auto& panel : panels())
-    if (panel.area[static_cast<std::size_t>(editor.workspace)] == area)
-      width += ImGui::CalcTextSize(tr(panel.title).c_str()).x + editor.px(26) + 2 * ImGui::GetStyle().FramePadding.x +
-               ImGui::GetStyle().ItemInnerSpacing.x;
-  return width <= ImGui::GetContentRegionAvail().x;
+    if (panel.area[static_cast<std::size_t>(editor.workspace)] == area) {
+      titles += ImGui::CalcTextSize(tr(panel.title).c_str()).x + 2 * ImGui::GetStyle().FramePadding.x +
+                ImGui::GetStyle().ItemInnerSpacing.x;
+      icons += editor.px(26);
+    }
+  const float room = ImGui::GetContentRegionAvail().x;
+  return titles + icons <= room ? TabLabels::whole : titles <= room ? TabLabels::titles : TabLabels::chosen_title;
+}
+
+std::string tabLabel(const Panel& panel, TabLabels labels) {
+  const std::string id = std::string("###") + panel.id, title = tr(panel.title);
+  const bool chosen = ImGui::GetCurrentContext()->CurrentTabBar->SelectedTabId == ImGui::GetID(id.c_str());
+  if (labels == TabLabels::whole) return std::string(panel.icon) + "  " + title + id;
+  return (labels == TabLabels::titles || chosen ? title : panel.icon) + id;
 }
 
 void drawPanelTabs(Editor& editor, Area area, const char* id) {
   auto& wanted = editor.wanted_tab[static_cast<std::size_t>(area)];
   const auto workspace = static_cast<std::size_t>(editor.workspace);
-  const bool icons = roomForIcons(editor, area);
+  const TabLabels labels = tabLabels(editor, area);
   ImGui::PushID(static_cast<int>(workspace));
   if (ImGui::BeginTabBar(id, ImGuiTabBarFlags_FittingPolicyResizeDown)) {
     for (const auto& panel : panels()) {
       if (panel.area[workspace] != area) continue;
       const auto flags = wanted == panel.id ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
-      if (!ImGui::BeginTabItem(
-              fmt::format("{}{}{}###{}", icons ? panel.icon : "", icons ? "  " : "", tr(panel.title), panel.id).c_str(),
-              nullptr, flags))
-        continue;
+      const bool open = ImGui::BeginTabItem(tabLabel(panel, labels).c_str(), nullptr, flags);
+      if (labels == TabLabels::chosen_title) ui::tooltip(panel.title);
+      if (!open) continue;
       ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(editor.px(10), editor.px(6)));
       ImGui::BeginChild(panel.id, {0, 0}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
       ImGui::PopStyleVar();
