@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "editor/words/words.h"
+
 namespace standpoint {
 
 namespace {
@@ -240,14 +242,14 @@ Classes classesOf(std::span<const CloudPoint> points, const CloudHeader& header,
     }
     case C::material: return classesBy(points, header.materials, [](const CloudPoint& p) { return p.material; });
     case C::station:
-      for (const auto& s : header.stations) names.push_back(s.name.empty() ? "unnamed" : s.name);
+      for (const auto& s : header.stations) names.push_back(s.name.empty() ? tr("unnamed") : s.name);
       return classesBy(points, std::move(names), [](const CloudPoint& p) { return p.station; });
     case C::return_number:
-      for (int i = 1; i <= 7; ++i) names.push_back(fmt::format("return {}", i));
+      for (int i = 1; i <= 7; ++i) names.push_back(trf("return {}", i));
       return classesBy(points, std::move(names), [](const CloudPoint& p) { return std::max(0, p.return_number - 1); });
     case C::flags: {
-      for (const auto& f : kFlags) names.emplace_back(f.name);
-      names.emplace_back("one surface, seen directly");
+      for (const auto& f : kFlags) names.push_back(tr(f.name));
+      names.push_back(tr("one surface, seen directly"));
       auto classes = classesBy(points, std::move(names), [](const CloudPoint& p) {
         return std::find_if(kFlags.begin(), kFlags.end(), [&](const FlagClass& f) { return (p.flags & f.flag) != 0; }) -
                kFlags.begin();

@@ -17,6 +17,8 @@ namespace standpoint {
 
 namespace {
 
+constexpr const char *kCompare = ICON_COMPRESS "  Compare###compare-clouds", *kClean = ICON_DROP "  Clean A…###clean-a";
+
 struct CompareState {
   std::filesystem::path a, b;
   std::filesystem::path shown_a, shown_b;  // of the answer that is shown
@@ -28,9 +30,9 @@ std::string nameOf(const std::vector<InspectedCloud>& clouds, const std::filesys
 }
 
 // One of the project's clouds, or any file.
-void chooseCloud(const Model& model, Actions& actions, const char* id, const std::vector<InspectedCloud>& clouds,
+void chooseCloud(float width, Actions& actions, const char* id, const std::vector<InspectedCloud>& clouds,
                  std::filesystem::path& file, PanelStates& states, bool is_a) {
-  ImGui::SetNextItemWidth(std::clamp((ImGui::GetWindowWidth() - model.px(290)) / 2, model.px(110), model.px(260)));
+  ImGui::SetNextItemWidth(width);
   if (!ImGui::BeginCombo(id, nameOf(clouds, file).c_str())) return;
   for (std::size_t i = 0; i < clouds.size(); ++i)
     if (ImGui::Selectable((clouds[i].label + "###" + id + std::to_string(i)).c_str(), file == clouds[i].file))
@@ -61,15 +63,15 @@ struct Row {
 std::vector<Row> rowsOf(const CompareAnswer& answer) {
   constexpr double kMm = 1000;
   const auto &a = answer.a, &b = answer.b;
-  return {{"Points", "million", static_cast<double>(a.points) / 1e6, static_cast<double>(b.points) / 1e6, 3},
-          {"Covered by the other", "%", answer.a_covered_by_b * 100, answer.b_covered_by_a * 100, 1},
-          {"Noise on planes, median", "mm", a.plane_noise_m.median * kMm, b.plane_noise_m.median * kMm, 3},
-          {"Noise on planes, 95 %", "mm", a.plane_noise_m.p95 * kMm, b.plane_noise_m.p95 * kMm, 3},
-          {"Roughness (r 0.05 m), median", "mm", a.roughness_m.median * kMm, b.roughness_m.median * kMm, 3},
-          {"Roughness (r 0.05 m), 95 %", "mm", a.roughness_m.p95 * kMm, b.roughness_m.p95 * kMm, 3},
-          {"Intensity, mean", "", a.intensity.mean, b.intensity.mean, 4},
-          {"Intensity, sigma", "", a.intensity.sigma, b.intensity.sigma, 4},
-          {"Cells of 5 cm with points", "thousand", static_cast<double>(a.occupied_cells) / 1e3,
+  return {{tr("Points"), tr("million"), static_cast<double>(a.points) / 1e6, static_cast<double>(b.points) / 1e6, 3},
+          {tr("Covered by the other"), "%", answer.a_covered_by_b * 100, answer.b_covered_by_a * 100, 1},
+          {tr("Noise on planes, median"), "mm", a.plane_noise_m.median * kMm, b.plane_noise_m.median * kMm, 3},
+          {tr("Noise on planes, 95 %"), "mm", a.plane_noise_m.p95 * kMm, b.plane_noise_m.p95 * kMm, 3},
+          {tr("Roughness (r 0.05 m), median"), "mm", a.roughness_m.median * kMm, b.roughness_m.median * kMm, 3},
+          {tr("Roughness (r 0.05 m), 95 %"), "mm", a.roughness_m.p95 * kMm, b.roughness_m.p95 * kMm, 3},
+          {tr("Intensity, mean"), "", a.intensity.mean, b.intensity.mean, 4},
+          {tr("Intensity, sigma"), "", a.intensity.sigma, b.intensity.sigma, 4},
+          {tr("Cells of 5 cm with points"), tr("thousand"), static_cast<double>(a.occupied_cells) / 1e3,
            static_cast<double>(b.occupied_cells) / 1e3, 1}};
 }
 
@@ -81,7 +83,7 @@ std::string changeText(const Row& row) {
 }
 
 std::string tableText(const std::vector<Row>& rows, const std::string& a, const std::string& b) {
-  std::string text = fmt::format("Figure\tUnit\tA: {}\tB: {}\tB against A\n", a, b);
+  std::string text = fmt::format("{}\t{}\tA: {}\tB: {}\t{}\n", tr("Figure"), tr("Unit"), a, b, tr("B against A"));
   for (const auto& row : rows)
     text += fmt::format("{}\t{}\t{}\t{}\t{}\n", row.name, row.unit, number(row.a, row.decimals),
                         number(row.b, row.decimals), changeText(row));
@@ -161,8 +163,7 @@ void drawAnswer(const Model& model, const CompareState& state, const CompareAnsw
 
 // Filters one cloud into a file beside it, to be compared with what it was.
 void drawClean(const Model& model, CompareState& state, Actions& actions) {
-  if (!ui::button(ICON_DROP "  Clean A…###clean-a",
-                  state.a.empty() ? "Choose cloud A first" : model.session.whyNot("clean"), {0, 0},
+  if (!ui::button(kClean, state.a.empty() ? "Choose cloud A first" : model.session.whyNot("clean"), {0, 0},
                   "Filter cloud A into a file beside it, which becomes cloud B: before and after"))
     return;
   const auto out = state.a.parent_path() / (state.a.stem().string() + "-cleaned" + state.a.extension().string());
@@ -176,16 +177,22 @@ void drawClean(const Model& model, CompareState& state, Actions& actions) {
 void drawComparison(const Model& model, PanelStates& states, Actions& actions) {
   auto& state = states.of<CompareState>();
   const auto clouds = inspectedClouds(model.session.document());
+  // Half of what the two letters, the two buttons and the gaps between them leave.
+  const auto& style = ImGui::GetStyle();
+  float taken = ImGui::CalcTextSize("AB").x + 5 * style.ItemSpacing.x;
+  for (const ui::Label& button : {ui::Label(kCompare), ui::Label(kClean)})
+    taken += ImGui::CalcTextSize(button, nullptr, true).x + 2 * style.FramePadding.x;
+  const float width = std::clamp((ImGui::GetContentRegionAvail().x - taken) / 2, model.px(80), model.px(260));
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("A");
   ImGui::SameLine();
-  chooseCloud(model, actions, "###compare-a", clouds, state.a, states, true);
+  chooseCloud(width, actions, "###compare-a", clouds, state.a, states, true);
   ImGui::SameLine();
   ImGui::TextUnformatted("B");
   ImGui::SameLine();
-  chooseCloud(model, actions, "###compare-b", clouds, state.b, states, false);
+  chooseCloud(width, actions, "###compare-b", clouds, state.b, states, false);
   ImGui::SameLine();
-  if (ui::primaryButton(ICON_COMPRESS "  Compare###compare-clouds", whyNotCompare(model, state)) &&
+  if (ui::primaryButton(kCompare, whyNotCompare(model, state)) &&
       actions.start(CompareOptions{state.a, state.b}, "Compare two clouds"))
     state.shown_a = state.a, state.shown_b = state.b;
   ImGui::SameLine();

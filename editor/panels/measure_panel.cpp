@@ -91,7 +91,7 @@ void drawName(const Model& model, MeasureState& state, Actions& actions, const M
 }
 
 void drawChosen(const Model& model, MeasureState& state, Actions& actions, const Measurement& m) {
-  ui::heading(model, ("Measurement " + m.name).c_str());
+  ui::heading(model, trf("Measurement {}", m.name).c_str());
   if (ui::beginProperties("measurement", 0.42F)) {
     drawName(model, state, actions, m);
     for (const auto& figure : figuresOf(m)) ui::property(figure.label, figureText(figure));

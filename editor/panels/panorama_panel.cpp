@@ -61,7 +61,7 @@ void chooseChannel(const Panorama& panorama, PanoramaState& state) {
     if (!there && state.channel == channel) state.channel = PanoramaChannel::range;
     ImGui::SameLine();
     ImGui::BeginDisabled(!there);
-    if (ImGui::RadioButton(name, state.channel == channel)) state.channel = channel;
+    if (ImGui::RadioButton(ui::Label(name), state.channel == channel)) state.channel = channel;
     ImGui::EndDisabled();
     if (!there)
       ui::tooltip(channel == PanoramaChannel::colour ? "The scan has no colours" : "The scan has no intensities");

@@ -192,7 +192,7 @@ void drawWall(const Model& model, Actions& actions) {
       ui::dimWrapped("Click a wall, a floor or a ceiling: on the model, or on the points of a scan.");
     return;
   }
-  ui::heading(model, ("Plane in " + wall->request.cloud).c_str());
+  ui::heading(model, trf("Plane in {}", wall->request.cloud).c_str());
   drawFigures(*wall);
   drawButtons(model, actions, *wall);
   ui::gap(model);

@@ -8,6 +8,7 @@
 #include "editor/camera/navigation_cube.h"
 #include "editor/shell/editor.h"
 #include "editor/widgets/theme.h"
+#include "editor/words/words.h"
 
 namespace standpoint {
 
@@ -80,9 +81,10 @@ void drawNavigationCube(Editor& editor, ImVec2 origin, ImVec2 size) {
   for (const auto& face : faces) {
     if (face.turned_here < kFaceNamed) continue;
     const auto p = onScreenOfCube(editor, centre, face.corners);
-    const ImVec2 text = ImGui::CalcTextSize(face.name);
+    const std::string name = tr(face.name);
+    const ImVec2 text = ImGui::CalcTextSize(name.c_str());
     list.AddText({(p[0].x + p[2].x - text.x) / 2, (p[0].y + p[2].y - text.y) / 2}, IM_COL32(20, 22, 26, 255),
-                 face.name);
+                 name.c_str());
   }
   if (pressed && part) turnToPart(editor, *part);
 }

@@ -40,7 +40,7 @@ std::string clampText(const PointLegend& legend) {
 void drawScale(const Editor& editor, const PointLegend& legend, ImVec2 origin, ImVec2 size) {
   auto& list = *ImGui::GetWindowDrawList();
   const float line = ImGui::GetTextLineHeight(), width = editor.px(320), bar = editor.px(10), peaks = editor.px(26);
-  const auto title = legend.unit.empty() ? legend.title : legend.title + ", " + legend.unit;
+  const auto title = tr(legend.title) + (legend.unit.empty() ? "" : ", " + legend.unit);
   const auto clamped = clampText(legend);
   const float wide = std::max({width, ImGui::CalcTextSize(title.c_str()).x, ImGui::CalcTextSize(clamped.c_str()).x});
   const float height = line + peaks + bar + editor.px(6) + 2 * line;
@@ -68,6 +68,14 @@ void drawScale(const Editor& editor, const PointLegend& legend, ImVec2 origin, I
   list.AddText({at.x, y + bar + editor.px(6) + line}, kFaintInk, clamped.c_str());
 }
 
+// Files name materials by their ids; who reads a legend knows them by their labels.
+std::string className(const Editor& editor, const std::string& name) {
+  if (editor.view.points_by != ColourBy::material) return name;
+  const auto& materials = editor.offeredMaterials();
+  const auto found = std::find_if(materials.begin(), materials.end(), [&](const auto& m) { return m.id == name; });
+  return found == materials.end() ? name : found->label;
+}
+
 void drawClasses(const Editor& editor, const PointLegend& legend, ImVec2 origin, ImVec2 size) {
   auto& list = *ImGui::GetWindowDrawList();
   std::uint64_t all = legend.no_data, others = 0;
@@ -78,19 +86,20 @@ void drawClasses(const Editor& editor, const PointLegend& legend, ImVec2 origin,
   std::vector<std::pair<Rgba8, std::string>> rows;
   for (std::size_t i = 0; i < std::min(kMostClasses, legend.classes.size()); ++i)
     rows.emplace_back(legend.classes[i].colour,
-                      legend.classes[i].name + "   " + shareText(legend.classes[i].points, all));
+                      className(editor, legend.classes[i].name) + "   " + shareText(legend.classes[i].points, all));
   if (others > 0)
     rows.emplace_back(kOtherColour,
                       trf("{} others   {}", legend.classes.size() - kMostClasses, shareText(others, all)));
-  if (legend.no_data > 0) rows.emplace_back(kNoDataColour, "none   " + shareText(legend.no_data, all));
+  if (legend.no_data > 0) rows.emplace_back(kNoDataColour, trf("none   {}", shareText(legend.no_data, all)));
   const float line = ImGui::GetTextLineHeight() + editor.px(3), swatch = editor.px(10);
-  float wide = ImGui::CalcTextSize(legend.title.c_str()).x;
+  const auto title = tr(legend.title);
+  float wide = ImGui::CalcTextSize(title.c_str()).x;
   for (const auto& [colour, text] : rows)
     wide = std::max(wide, swatch + editor.px(6) + ImGui::CalcTextSize(text.c_str()).x);
   const float height = line * static_cast<float>(rows.size() + 1);
   ImVec2 at(origin.x + editor.px(18), origin.y + size.y - height - editor.px(18));
   drawGround(editor, at, {wide, height});
-  list.AddText(at, kInk, legend.title.c_str());
+  list.AddText(at, kInk, title.c_str());
   for (const auto& [colour, text] : rows) {
     at.y += line;
     list.AddRectFilled({at.x, at.y + editor.px(2)}, {at.x + swatch, at.y + editor.px(2) + swatch}, packed(colour));

@@ -133,7 +133,7 @@ void drawKinds(ShotDialog& dialog) {
   for (const auto& row : shotKinds()) {
     if (&row != &shotKinds().front()) ImGui::SameLine();
     const bool chosen = row.kind == dialog.kind;
-    if (ImGui::RadioButton(fmt::format("{}###shot-{}", row.title, row.id).c_str(), chosen) && !chosen)
+    if (ImGui::RadioButton(fmt::format("{}###shot-{}", tr(row.title), row.id).c_str(), chosen) && !chosen)
       choose(dialog, row.kind);
     ui::tooltip(row.help);
   }
@@ -212,7 +212,7 @@ void drawMade(Editor& editor, ShotDialog& dialog) {
 void askForFileThenBegin(Editor& editor) {
   const auto& row = rowOf(editor.shots.kind);
   auto extensions = row.film ? std::vector<std::string>{".mp4"} : std::vector<std::string>{".png", ".jpg"};
-  askForFile(editor, FileDialogState::Purpose::saveFile, trf("Save {}", row.title), "Save", std::move(extensions),
+  askForFile(editor, FileDialogState::Purpose::saveFile, trf("Save {}", tr(row.title)), "Save", std::move(extensions),
              fmt::format("{}-{}{}", editor.session.name(), row.id, row.extension),
              [&editor](const std::filesystem::path& chosen) { begin(editor, chosen); });
 }
