@@ -14,14 +14,14 @@ std::string hintOf(const Measuring& measuring) {
   switch (measuring.kind) {
     case MeasurementKind::distance:
       return there == 0 ? "Click where the distance begins   Esc to leave"
-                        : "Click where the distance ends   Esc to begin anew";
+                        : "Click where the distance ends   Esc to start over";
     case MeasurementKind::height:
       return there == 0 ? "Click the first point   Esc to leave"
-                        : "Click the point whose height above it you want   Esc to begin anew";
+                        : "Click the point whose height above it you want   Esc to start over";
     case MeasurementKind::angle:
       return there == 0   ? "Click a point on the first leg   Esc to leave"
-             : there == 1 ? "Click the corner   Esc to begin anew"
-                          : "Click a point on the second leg   Esc to begin anew";
+             : there == 1 ? "Click the corner   Esc to start over"
+                          : "Click a point on the second leg   Esc to start over";
     case MeasurementKind::area: return "Click the corners one after the other   Esc to leave";
     case MeasurementKind::plane: return "Click three points or more on the plane   Esc to leave";
   }

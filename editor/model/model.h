@@ -136,7 +136,8 @@ struct ViewportState {
   int dragged_station = -1;         // by the pointer
   bool station_drag_begun = false;  // it has left the place where it was taken
   std::optional<RefusedPlace> refused_place;
-  std::optional<Eigen::Vector3d> row_from;  // where a row of stations begins, on the floor
+  std::optional<Eigen::Vector2d> placed_at;  // the pointer, until it leaves the place where it has just set a station
+  std::optional<Eigen::Vector3d> row_from;   // where a row of stations begins, on the floor
   RowSteps row{.count = 3, .spacing_m = {}};
   StationHandle handle = StationHandle::none, hovered_handle = StationHandle::none;
   std::optional<HandledStation> handled_station;    // the chosen one, as its handle was dragged

@@ -100,6 +100,13 @@ std::string storeyName(const Editor& editor, const StoreyLevel& level) {
   return node.name.empty() ? tr("Storey") : node.name;
 }
 
+// Who stands in the building, as after a walk, would see what is cut from within.
+void lookInFromOutside(Editor& editor, const Bounds& building) {
+  const Eigen::Vector3d eye = editor.view.camera.eye();
+  const bool in = (eye.array() >= building.min.array()).all() && (eye.array() <= building.max.array()).all();
+  if (in) invoke(editor, "view-corner");
+}
+
 void cutChip(Editor& editor) {
   auto& cut = editor.visibility.cut_height_m;
   const double shift = editor.shift_m().z();
@@ -109,6 +116,7 @@ void cutChip(Editor& editor) {
   ImGui::SetNextItemWidth(width);
   if (ImGui::BeginCombo("###cut", label.c_str(), ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton)) {
     if (ImGui::Selectable(ui::Label("No cut"), !cut)) cut.reset();
+    std::optional<double> wanted;
     const auto& storeys = editor.storeys();
     for (std::size_t i = storeys.size(); i-- > 0;) {
       const double height = storeys[i].elevation_m + kCutAboveFloor_m;
@@ -116,7 +124,12 @@ void cutChip(Editor& editor) {
                                         storeys[i].elevation_m + shift, i)
                                 .c_str(),
                             cut && std::abs(*cut - height) < 1e-6))
-        cut = height;
+        wanted = height;
+    }
+    if (wanted) {
+      const Bounds building = editor.buildingBounds();  // as yet uncut, or by the cut before
+      cut = wanted;
+      lookInFromOutside(editor, building);
     }
     if (storeys.empty()) {
       const Bounds all = editor.visibleBounds();

@@ -176,7 +176,7 @@ std::string chosenStation(const Editor& editor, const std::string& title) {
 std::optional<HeldStation> heldStation(const Editor& editor) {
   const auto& view = editor.view;
   const auto& job = editor.session.document().job;
-  if (!job || !view.hover || view.dragging) return std::nullopt;
+  if (!job || !view.hover || view.dragging || view.placed_at) return std::nullopt;
   if (view.tool == Tool::placeStation || (view.tool == Tool::placeRow && !view.row_from))
     return HeldStation{"", kUsualHeight_m, Eigen::Quaterniond::Identity()};
   if (view.dragged_station < 0 || view.dragged_station >= static_cast<int>(job->stations.size()) ||
@@ -226,6 +226,11 @@ void drawHeldStation(const Editor& editor, const ViewPen& pen, const HeldStation
 
 void drawPlaceGhost(Editor& editor, ImVec2 origin, ImVec2 size) {
   const ViewPen pen(editor, origin);
+  constexpr float kLeft = 6;  // pt, from where the pointer has left what it has placed
+  const auto& placed = editor.view.placed_at;
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  if (placed && std::hypot(mouse.x - placed->x(), mouse.y - placed->y()) > editor.px(kLeft))
+    editor.view.placed_at.reset();
   const auto held = heldStation(editor);
   if (!held) {
     editor.place_figures.drop();

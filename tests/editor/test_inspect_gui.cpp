@@ -193,7 +193,9 @@ TEST_F(Inspect, ScansAreShownTogetherAndWhereRegistrationBelievesThemToBe) {
 TEST_F(Inspect, AWallIsPickedOnlyWhereThereIsACloudAndElseSaysWhy) {
   const auto* action = findAction("pick-wall");
   const auto why = whyNot(*action, editor);
-  if (inspectedClouds(editor.session.document()).empty()) EXPECT_FALSE(why.empty());
+  if (inspectedClouds(editor.session.document()).empty()) {
+    EXPECT_FALSE(why.empty());
+  }
 }
 
 }  // namespace

@@ -66,6 +66,35 @@ TEST_F(Placing, ShiftTHoldsANewStationUnderThePointerWithItsVerdict) {
   EXPECT_THAT(verdict().brief, testing::MatchesRegex("1[456] cm from wall")) << "by the pixel";
 }
 
+TEST_F(Placing, AStationThatHasJustBeenAddedIsNotJudgedAgainUntilThePointerLeavesIt) {
+  invoke(editor, "add-station");
+  gui.moveTo(screenOf({1.5, 6, 0}));
+  gui.press();
+  gui.settle();
+  ASSERT_EQ(job().stations.size(), 3U);
+  EXPECT_FALSE(heldStation(editor)) << "it would say: 0 cm from S3";
+  gui.moveTo(screenOf({2.5, 6, 0}));
+  EXPECT_TRUE(heldStation(editor));
+}
+
+TEST_F(Placing, ACutThatIsChosenInsideTheBuildingIsSeenFromOutside) {
+  editor.visibility.cut_height_m.reset();
+  editor.view.camera = {.target = {3, 4, 1.6}, .distance_m = 1, .azimuth_rad = 0, .elevation_rad = 0};
+  gui.frames(2);
+  ASSERT_TRUE(gui.click("###cut"));
+  gui.frames(2);
+  ASSERT_TRUE(gui.click("###storey0"));
+  gui.frames(2);
+  ASSERT_TRUE(editor.visibility.cut_height_m);
+  EXPECT_GT(editor.view.camera.eye().z(), 3);
+  const auto outside = editor.view.camera;
+  ASSERT_TRUE(gui.click("###cut"));
+  gui.frames(2);
+  ASSERT_TRUE(gui.click("###storey0"));
+  gui.frames(2);
+  EXPECT_EQ(editor.view.camera.eye(), outside.eye()) << "who looks from outside stays there";
+}
+
 TEST_F(Placing, AClickOnARefusedPlaceAddsNothingAndOpensNothing) {
   invoke(editor, "add-station");
   gui.moveTo(screenOf({0.45, 2, 0}));
