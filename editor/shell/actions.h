@@ -28,6 +28,7 @@ std::span<const Action> actions();
 const Action* findAction(const char* id);
 std::string whyNot(const Action& action, const Editor& editor);
 bool invoke(Editor& editor, const char* id);
+std::string whyNoModel(const Editor& editor);
 std::string shortcutText(const Shortcut& shortcut);  // "Ctrl+Shift+S"
 
 // Runs what a pressed key stands for; not while a text is being typed or a dialog is open.
@@ -43,9 +44,9 @@ void chooseLanguage(Editor& editor, const char* code);
 void openVerbForm(Editor& editor, const char* verb);
 // Asks about unsaved changes first, when there are any.
 void whenSaved(Editor& editor, std::function<void()> then);
-// A file or folder by what it is: a project is opened, a model previewed, a cloud laid under the model.
 // One that comes with the program, without a preview.
 void openSample(Editor& editor, const std::string& file);
+// A file or folder by what it is: a project is opened, a model previewed, a cloud laid under the model.
 void openPath(Editor& editor, const std::string& path);
 
 }  // namespace standpoint

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/shell/view_actions.h"
+
+#include <array>
+
+#include "editor/desktop/interface_scale.h"
+#include "editor/model/bookmark_steps.h"
+#include "editor/model/floor_plan.h"
+#include "editor/shell/editor.h"
+#include "editor/shell/moving.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/keyboard.h"
+#include "project/model/treatments.h"
+
+namespace standpoint {
+
+namespace {
+
+std::string whyNoSelection(const Editor& e) { return e.selection.empty() ? "Select something first" : ""; }
+std::string whyNoCollision(const Editor& e) {
+  return e.session.document().collision ? "" : "Compute collision shapes first (Collision panel)";
+}
+std::string whyNotOptimised(const Editor& e) {
+  return e.session.document().simplified ? "" : "Optimise the model first (Optimise panel)";
+}
+std::string whyNotLarger(const Editor& e) {
+  return e.view.point_size_px < kMostPointSize_px ? "" : "A point covers 8 pixels each way already";
+}
+std::string whyNotSmaller(const Editor& e) { return e.view.point_size_px > 1 ? "" : "A point is one pixel already"; }
+void walk(Editor& e) {
+  if (e.view.tool == Tool::walk) return;  // its key is the one to go ahead
+  startWalking(e);
+}
+std::string whyWalkNot(const Editor& e) {
+  if (auto why = whyNoModel(e); !why.empty()) return why;
+  const auto& collision = e.session.document().collision;
+  return collision && collision->walkable.triangles.empty() ? "There is no walkable surface" : "";
+}
+void lookFrom(Editor& e, StandardView view) {
+  stopFlying(e);
+  stopWalking(e);
+  look(e.view.camera, view);
+  e.view.camera.orthographic = view != StandardView::corner;
+  frame(e.view.camera, e.buildingBounds(), e.view.size.x() / std::max(e.view.size.y(), 1.0));
+}
+// What is said of the selection, each product by what it keeps through an update of the model.
+void treat(Editor& e, TreatmentKind as, const char* title) {
+  std::vector<std::string> selectors;
+  for (const auto p : e.selection.products()) {
+    const auto& product = e.environment()->products[p];
+    selectors.push_back(product.global_id.empty() ? product.id : product.global_id);
+  }
+  e.session.start(TreatOptions{.products = std::move(selectors), .as = as}, title);
+}
+std::string whyTreatNot(const Editor& e) {
+  if (auto why = whyNoSelection(e); !why.empty()) return why;
+  return e.session.whyNot("treat");
+}
+std::string whyNoLarger(const Editor& e) {
+  return e.settings.user_scale >= kUserScales.back() ? "Already at maximum size" : "";
+}
+std::string whyNoSmaller(const Editor& e) {
+  return e.settings.user_scale <= kUserScales.front() ? "Already at minimum size" : "";
+}
+template <GraphicsChoice choice>
+void chooseGraphics(Editor& e) {
+  e.settings.graphics = choice;
+}
+template <Theme theme>
+void chooseTheme(Editor& e) {
+  e.settings.theme = theme;
+}
+
+const std::array kView = {
+    Action{"frame", "Frame selection", ICON_EXPAND, {'F'}, [](Editor& e) { e.frameSelection(); }, whyNoModel},
+    Action{"view-front", "Front view", "", {'1'}, [](Editor& e) { lookFrom(e, StandardView::front); }, whyNoModel},
+    Action{"view-back", "Back view", "", {'1', true}, [](Editor& e) { lookFrom(e, StandardView::back); }, whyNoModel},
+    Action{"view-right", "Right view", "", {'3'}, [](Editor& e) { lookFrom(e, StandardView::right); }, whyNoModel},
+    Action{"view-left", "Left view", "", {'3', true}, [](Editor& e) { lookFrom(e, StandardView::left); }, whyNoModel},
+    Action{"view-top", "Top view", "", {'7'}, [](Editor& e) { lookFrom(e, StandardView::top); }, whyNoModel},
+    Action{"view-plan",
+           "Floor plan (again: next storey)",
+           ICON_MAP,
+           {'9'},
+           [](Editor& e) { lookAtNextPlan(e); },
+           whyNoModel},
+    Action{"view-corner",
+           "Isometric view",
+           ICON_HOME,
+           {'0'},
+           [](Editor& e) { lookFrom(e, StandardView::corner); },
+           whyNoModel},
+    Action{"view-parallel",
+           "Parallel projection",
+           "",
+           {'5'},
+           [](Editor& e) { e.view.camera.orthographic = !e.view.camera.orthographic; },
+           nullptr},
+    Action{"hide",
+           "Hide selection",
+           ICON_EYE_OFF,
+           {'H'},
+           [](Editor& e) {
+             e.visibility.show(e.selection.products(), false);
+             e.selection.clear();
+           },
+           whyNoSelection},
+    Action{"isolate",
+           "Isolate selection",
+           ICON_CROSSHAIRS,
+           {'H', false, true},
+           [](Editor& e) { e.visibility.isolate(e.selection.products()); },
+           whyNoSelection},
+    Action{"show-all",
+           "Show all",
+           ICON_EYE,
+           {'H', true},
+           [](Editor& e) {
+             e.visibility.showAll();
+             e.visibility.cut_height_m.reset();
+           },
+           whyNoModel},
+    Action{"exclude",
+           "Exclude from the scene",
+           ICON_BAN,
+           {'X'},
+           [](Editor& e) { treat(e, TreatmentKind::excluded, "Exclude from the scene"); },
+           whyTreatNot},
+    Action{"keep",
+           "Never simplify",
+           ICON_CHECK_CIRCLE,
+           {'K'},
+           [](Editor& e) { treat(e, TreatmentKind::kept, "Never simplify"); },
+           whyTreatNot},
+    Action{"by-rules",
+           "Reset to rules",
+           ICON_UNDO,
+           {'X', false, true},
+           [](Editor& e) { treat(e, TreatmentKind::as_rules, "Reset to rules"); },
+           whyTreatNot},
+    Action{"edges", "Edges", "", {'L'}, [](Editor& e) { e.view.edges = !e.view.edges; }, nullptr},
+    Action{"grid", "Ground grid", "", {'G'}, [](Editor& e) { e.view.grid = !e.view.grid; }, nullptr},
+    Action{"shaded-points",
+           "Shade points by depth",
+           "",
+           {},
+           [](Editor& e) { e.view.shaded_points = !e.view.shaded_points; },
+           nullptr},
+    Action{"points-larger",
+           "Larger points",
+           "",
+           {kKeyPlus, false, false, true},
+           [](Editor& e) { ++e.view.point_size_px; },
+           whyNotLarger},
+    Action{"points-smaller",
+           "Smaller points",
+           "",
+           {kKeyMinus, false, false, true},
+           [](Editor& e) { --e.view.point_size_px; },
+           whyNotSmaller},
+    Action{"labels", "Labels", "", {}, [](Editor& e) { e.view.labels = !e.view.labels; }, nullptr},
+    Action{"room-names", "Room names", "", {}, [](Editor& e) { e.view.room_names = !e.view.room_names; }, nullptr},
+    Action{"labels-through-walls",
+           "Labels through walls",
+           "",
+           {},
+           [](Editor& e) { e.view.labels_through_walls = !e.view.labels_through_walls; },
+           nullptr},
+    Action{"walkable",
+           "Walkable area",
+           ICON_WALK,
+           {},
+           [](Editor& e) { e.view.walkable = !e.view.walkable; },
+           whyNoCollision},
+    Action{"walk", "Walk mode (W A S D)", ICON_WALK, {'W'}, walk, whyWalkNot},
+    Action{"fly",
+           "Fly mode (again: walk)",
+           ICON_PLANE,
+           {'U'},
+           [](Editor& e) { e.view.tool == Tool::fly ? startWalking(e) : startFlying(e); },
+           whyNoModel},
+    Action{"door",
+           "Open or close the door ahead (E)",
+           "",
+           {},
+           [](Editor& e) { e.walk.toggleDoor(e.view.camera); },
+           [](const Editor& e) {
+             return e.walk.doorInReach(e.view.camera) ? std::string() : std::string("Walk up to a door first");
+           }},
+    Action{"teleport",
+           "Teleport: click where to stand (hold T)",
+           ICON_CROSSHAIRS,
+           {},
+           [](Editor& e) { e.view.teleport.by_click = true; },
+           whyWalkNot},
+    Action{"view-before",
+           "Previous view",
+           "",
+           {kKeyLeft, false, false, true},
+           [](Editor& e) { goBackInViews(e); },
+           [](const Editor& e) { return e.views.empty() ? std::string("No previous view") : std::string(); }},
+    Action{"add-bookmark",
+           "Add bookmark of this view",
+           ICON_BOOKMARK,
+           {'B', true},
+           [](Editor& e) { addBookmark(e); },
+           [](const Editor& e) { return e.environment() ? e.session.whyNot("bookmark") : whyNoModel(e); }},
+    Action{"shapes",
+           "Collision shapes",
+           ICON_CUBES,
+           {},
+           [](Editor& e) { e.view.shapes = !e.view.shapes; },
+           whyNoCollision},
+    Action{"colour-model", "Model colours", "", {}, [](Editor& e) { e.view.colour = ColourMode::model; }, nullptr},
+    Action{"colour-material",
+           "Physical material colours",
+           "",
+           {},
+           [](Editor& e) { e.view.colour = ColourMode::material; },
+           whyNoModel},
+    Action{"colour-reflectance",
+           "Reflectance at a wavelength",
+           "",
+           {},
+           [](Editor& e) { e.view.colour = ColourMode::reflectance; },
+           whyNoModel},
+    Action{"colour-confidence",
+           "Assignment confidence",
+           "",
+           {},
+           [](Editor& e) { e.view.colour = ColourMode::confidence; },
+           whyNoModel},
+    Action{"colour-intensity",
+           "Expected intensity from a station",
+           "",
+           {},
+           [](Editor& e) { e.view.colour = ColourMode::expected_intensity; },
+           whyNoModel},
+    Action{"colour-noise",
+           "Expected range noise from a station",
+           "",
+           {},
+           [](Editor& e) { e.view.colour = ColourMode::expected_noise; },
+           whyNoModel},
+    Action{"colour-fate",
+           "Expected detections from a station",
+           "",
+           {},
+           [](Editor& e) { e.view.colour = ColourMode::expected_fate; },
+           whyNoModel},
+    Action{"colour-coverage",
+           "Coverage: number of stations",
+           "",
+           {},
+           [](Editor& e) { e.view.colour = ColourMode::coverage; },
+           whyNoModel},
+    Action{"colour-spacing",
+           "Coverage: point spacing",
+           "",
+           {},
+           [](Editor& e) { e.view.colour = ColourMode::coverage_spacing; },
+           whyNoModel},
+    Action{"colour-incidence",
+           "Coverage: incidence",
+           "",
+           {},
+           [](Editor& e) { e.view.colour = ColourMode::coverage_incidence; },
+           whyNoModel},
+    Action{"colour-deviation",
+           "Deviation from the original",
+           "",
+           {},
+           [](Editor& e) { e.view.colour = ColourMode::deviation; },
+           whyNotOptimised},
+    Action{"both-models",
+           "Original and simplified model side by side",
+           ICON_COMPRESS,
+           {'B'},
+           [](Editor& e) { e.view.side = e.view.side == ModelSide::both ? ModelSide::lighter : ModelSide::both; },
+           whyNotOptimised},
+    Action{"interface-larger",
+           "Increase interface size",
+           "",
+           {kKeyPlus, true},
+           [](Editor& e) { e.settings.user_scale = neighbourScale(e.settings.user_scale, 1); },
+           whyNoLarger},
+    Action{"interface-smaller",
+           "Decrease interface size",
+           "",
+           {kKeyMinus, true},
+           [](Editor& e) { e.settings.user_scale = neighbourScale(e.settings.user_scale, -1); },
+           whyNoSmaller},
+    Action{"interface-usual",
+           "Reset interface size",
+           "",
+           {'0', true},
+           [](Editor& e) { e.settings.user_scale = 1; },
+           nullptr},
+    Action{"graphics-automatic", "Graphics: Automatic", "", {}, chooseGraphics<GraphicsChoice::automatic>, nullptr},
+    Action{"graphics-low", "Graphics: Low", "", {}, chooseGraphics<GraphicsChoice::low>, nullptr},
+    Action{"graphics-medium", "Graphics: Medium", "", {}, chooseGraphics<GraphicsChoice::medium>, nullptr},
+    Action{"graphics-high", "Graphics: High", "", {}, chooseGraphics<GraphicsChoice::high>, nullptr},
+    Action{"theme-dark", "Dark theme", "", {}, chooseTheme<Theme::dark>, nullptr},
+    Action{"theme-light", "Light theme", "", {}, chooseTheme<Theme::light>, nullptr},
+    Action{"language-system", "Language: as the system", "", {}, [](Editor& e) { chooseLanguage(e, ""); }, nullptr},
+    Action{"language-en", "Language: English", "", {}, [](Editor& e) { chooseLanguage(e, "en"); }, nullptr},
+    Action{"language-de", "Language: Deutsch", "", {}, [](Editor& e) { chooseLanguage(e, "de"); }, nullptr},
+    Action{"language-uk", "Language: Українська", "", {}, [](Editor& e) { chooseLanguage(e, "uk"); }, nullptr},
+};
+
+}  // namespace
+
+std::span<const Action> viewActions() { return kView; }
+
+}  // namespace standpoint
