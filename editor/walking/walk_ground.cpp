@@ -2,6 +2,7 @@
 #include "editor/walking/walk_ground.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "core/ceiling.h"
+#include "optimizer/walk/avatar.h"
 
 namespace standpoint {
 
@@ -49,6 +51,18 @@ bool isOpenToTheSky(const Obstacles& obstacles, const Eigen::Vector3d& feet) {
   return !obstacles.ray(feet + Eigen::Vector3d(0, 0, 0.02), feet + Eigen::Vector3d(0, 0, kNothingAbove_m));
 }
 
+// What nobody walks on by itself, in crouching neither: tables, railings, tops of walls.
+bool isNoFloor(const Product& product) {
+  static constexpr std::array kClasses = {"IfcFurni", "IfcRailing", "IfcWall", "IfcWindow", "IfcDoor", "IfcSanitary"};
+  return std::any_of(kClasses.begin(), kClasses.end(), [&](const char* c) { return product.ifc_class.starts_with(c); });
+}
+
+// With so much room above that the walkable surface, which counts height in cells, would have it.
+bool standsUpright(const Obstacles& obstacles, const Body& body, const Eigen::Vector3d& feet) {
+  constexpr double kSkin_m = 0.02, kCells_m = 0.1;
+  return Avatar(obstacles, {body.radius_m, body.height_m + kCells_m}).stand(feet, kSkin_m);
+}
+
 }  // namespace
 
 Landing landingOn(const WalkedGround& ground, const Body& body, const Eigen::Vector3d& point,
@@ -57,7 +71,9 @@ Landing landingOn(const WalkedGround& ground, const Body& body, const Eigen::Vec
   if (!landing.why_not.empty()) return landing;
   if (isRoofOrCeiling(*ground.environment, landing.product))
     landing.why_not = "roof";
-  else if (!isNear(ground.map, landing.feet) && isOpenToTheSky(ground.obstacles, landing.feet))
+  else if (!isNear(ground.map, landing.feet) &&
+           (isNoFloor(ground.environment->products[landing.product]) ||
+            isOpenToTheSky(ground.obstacles, landing.feet) || standsUpright(ground.obstacles, body, landing.feet)))
     landing.why_not = "not walkable";
   return landing;
 }

@@ -25,8 +25,8 @@ struct WalkedGround {
   double lowest_m = 0;
 };
 
-// landingAt(), but neither on a roof nor, under the open sky, where the walkable surface has no place: on top of a
-// wall. Under a ceiling one may crouch, of which that surface knows nothing.
+// landingAt(), but neither on a roof nor, where the walkable surface has no place, under the open sky, upright, or on
+// what is no floor: on top of a wall, a table, a railing. Where one must crouch that surface knows nothing.
 Landing landingOn(const WalkedGround& ground, const Body& body, const Eigen::Vector3d& point,
                   const Eigen::Vector3d& normal);
 

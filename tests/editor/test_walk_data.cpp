@@ -169,10 +169,15 @@ struct Teleports {
 };
 
 Teleports teleportAnywhere(const WalkedGround& ground, int count) {
-  Progress progress;
-  const auto low = collide(*ground.environment,
-                           {.agent_radius_m = kVisitor.radius_m, .agent_height_m = Walker::kCrouched_m}, progress);
-  const WalkableMap map(low->walkable);
+  // The surface counts height in cells, too: whoever is allowed may be lower by them, whoever is refused has all of it.
+  constexpr double kCells_m = 0.1;
+  const auto mapFor = [&](double height_m) {
+    Progress progress;
+    return WalkableMap(
+        collide(*ground.environment, {.agent_radius_m = kVisitor.radius_m, .agent_height_m = height_m}, progress)
+            ->walkable);
+  };
+  const WalkableMap map = mapFor(Walker::kCrouched_m), lower = mapFor(Walker::kCrouched_m - kCells_m);
   std::mt19937 random(7);
   const auto between = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
   Teleports result;
@@ -180,15 +185,16 @@ Teleports teleportAnywhere(const WalkedGround& ground, int count) {
   for (std::uint32_t i = 0; i < map.size(); ++i) box.extend(map.box(i));
   if (box.empty()) return result;
   for (int i = 0; i < 50 * count && result.tried < count; ++i) {
-    const Vector3d eye(between(box.min.x() - 1, box.max.x() + 1), between(box.min.y() - 1, box.max.y() + 1),
-                       between(box.min.z(), box.max.z() + 2));
+    const double x = between(box.min.x() - 1, box.max.x() + 1);  // in an order that no compiler chooses
+    const double y = between(box.min.y() - 1, box.max.y() + 1);
+    const Vector3d eye(x, y, between(box.min.z(), box.max.z() + 2));
     const auto hit = ground.obstacles.ray(eye, eye - Vector3d(0, 0, 4));
     if (!hit) continue;
     ++result.tried;
     const auto landing = landingOn(ground, kVisitor, hit->point, hit->normal);
     const bool allowed = landing.why_not.empty();
     result.allowed += allowed ? 1 : 0;
-    const auto surface = onSurface(map, allowed ? landing.feet : hit->point);
+    const auto surface = onSurface(allowed ? lower : map, allowed ? landing.feet : hit->point);
     if (surface != (allowed ? OnSurface::no : OnSurface::yes)) continue;
     ++result.wrong;
     const auto& p = allowed ? landing.feet : hit->point;
