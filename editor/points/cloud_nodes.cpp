@@ -163,8 +163,12 @@ void CloudNodes::work() {
     reading_ = true;
     lock.unlock();
     Result<std::vector<CloudPoint>> points = octree_->read(index);
-    Node made =
-        points ? std::make_shared<const PackedPoints>(packedNode(node, *std::move(points), paint_, move_)) : nullptr;
+    Node made;
+    std::string trouble;
+    if (points)
+      made = std::make_shared<const PackedPoints>(packedNode(node, *std::move(points), paint_, move_));
+    else
+      trouble = describe(points.error());
     lock.lock();
     reading_ = false;
     if (made) {
@@ -172,7 +176,7 @@ void CloudNodes::work() {
       kept_[index] = {std::move(made), calls_};
       ++came_count_;
     } else {
-      trouble_ = describe(points.error());
+      trouble_ = std::move(trouble);
       wanted_.clear();
     }
     came_.notify_all();

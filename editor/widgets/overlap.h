@@ -5,8 +5,8 @@
 
 namespace standpoint::ui {
 
-// Draws an item on which later ones may lie and take the mouse from it; returns what `item` does. Dear ImGui wants to know it
-// before the item from 1.89.7 on (Debian 13), and after it up to 1.86 (Debian 12).
+// Draws an item on which later ones may lie and take the mouse from it; returns what `item` does. Dear ImGui wants to
+// know it before the item from 1.89.7 on (Debian 13), and after it up to 1.86 (Debian 12).
 template <typename Item>
 auto overlappable(Item&& item) {
 #if IMGUI_VERSION_NUM >= 18970
