@@ -21,8 +21,10 @@ class Squares {
     return [this, wish](Progress& progress) -> Result<int> {
       ++begun_;
       while (!released) {
-        if (progress.cancelled()) ++cancelled;
-        TRY(progress.check());
+        if (auto asked = progress.check(); !asked) {
+          ++cancelled;
+          return failure(std::move(asked).error());
+        }
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
       }
       return wish * wish;
