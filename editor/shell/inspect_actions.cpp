@@ -14,9 +14,7 @@ namespace standpoint {
 
 namespace {
 
-std::string whyNothingShown(const Editor& e) {
-  return e.environment() || e.cloud() ? "" : "Import a model first (Ctrl+I)";
-}
+std::string whyNothingShown(const Editor& e) { return e.cloud() ? "" : whyNoModel(e); }
 std::string whyMeasureNot(const Editor& e) {
   if (auto why = whyNothingShown(e); !why.empty()) return why;
   return e.session.whyNot("measure");
@@ -37,7 +35,7 @@ void measureKind(Editor& e) {
 template <ColourBy by>
 std::string whyColourNot(const Editor& e) {
   if (!e.cloud()) return "Show the points of a scan first";
-  if (by == ColourBy::deviation && !e.environment()) return "Import a model first (Ctrl+I)";
+  if (by == ColourBy::deviation && !e.environment()) return whyNoModel(e);
   return whyNotColoured(by, e.cloud()->header);
 }
 
@@ -63,7 +61,6 @@ void pickWall(Editor& e) {
   e.wanted_tab[1] = "wall";
 }
 
-std::string whyNoEnvironment(const Editor& e) { return e.environment() ? "" : "Import a model first (Ctrl+I)"; }
 std::string whyNoClip(const Editor& e) { return e.view.clip.box ? "" : "Nothing is clipped"; }
 
 // Through the middle of what is looked at.
@@ -197,7 +194,7 @@ const std::array kInspectActions = {
            ICON_CUT,
            {'C', false, false, true},
            [](Editor& e) { e.clipAroundSelection(); },
-           whyNoEnvironment},
+           whyNoModel},
     Action{"clip-none",
            "Clear clip box and section",
            ICON_CLOSE,
@@ -209,10 +206,10 @@ const std::array kInspectActions = {
            ICON_CUT,
            {'X', false, false, true},
            [](Editor& e) { e.view.tool = Tool::pickSection; },
-           whyNoEnvironment},
-    Action{"section-x", "Section across X", ICON_CUT, {}, sectionAcross<0>, whyNoEnvironment},
-    Action{"section-y", "Section across Y", ICON_CUT, {}, sectionAcross<1>, whyNoEnvironment},
-    Action{"section-z", "Level section", ICON_CUT, {}, sectionAcross<2>, whyNoEnvironment},
+           whyNoModel},
+    Action{"section-x", "Section across X", ICON_CUT, {}, sectionAcross<0>, whyNoModel},
+    Action{"section-y", "Section across Y", ICON_CUT, {}, sectionAcross<1>, whyNoModel},
+    Action{"section-z", "Level section", ICON_CUT, {}, sectionAcross<2>, whyNoModel},
     Action{"clip-look",
            "Look along the section",
            ICON_EYE,

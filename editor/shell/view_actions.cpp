@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/shell/view_actions.h"
 
+#include <algorithm>
 #include <array>
 
 #include "editor/desktop/interface_scale.h"
