@@ -43,6 +43,18 @@ void Building::storey(const std::string& name, double elevation) {
   storey_ = ifc_.add(fmt::format("IFCBUILDINGSTOREY('{}',#{},'{}',$,$,#{},$,$,.ELEMENT.,{})", ifc_.guid(), ifc_.owner(),
                                  name, storey_placement_, IfcText::real(elevation)));
   storeys_.push_back(storey_);
+  storey_placements_.push_back(storey_placement_);
+}
+
+void Building::rooms(int storey, double height, const std::vector<Room>& rooms) {
+  std::vector<int> spaces;
+  for (const auto& room : rooms) {
+    const int placement = ifc_.placement(storey_placements_[storey], {0, 0, 0});
+    const int shape = ifc_.body({ifc_.unpaintedPrism(room.outline, {}, ifc_.axes({0, 0, 0}), height)});
+    spaces.push_back(ifc_.add(fmt::format("IFCSPACE('{}',#{},'{}',$,$,#{},#{},'{}',.ELEMENT.,.INTERNAL.,0.)",
+                                          ifc_.guid(), ifc_.owner(), room.number, placement, shape, room.name)));
+  }
+  ifc_.aggregate(storeys_[storey], spaces);
 }
 
 void Building::close() { ifc_.aggregate(building_, storeys_); }

@@ -49,6 +49,11 @@ struct Wall {
   std::vector<Hole> holes;
 };
 
+struct Room {
+  const char *number, *name;
+  std::vector<P2> outline;  // between the finished faces of its walls
+};
+
 constexpr double kExternal_m = 0.35, kInternal_m = 0.115;
 
 double volumeOf(const Wall& wall);  // less its openings
@@ -61,7 +66,9 @@ class Building {
 
   int id() const { return building_; }
   void storey(const std::string& name, double elevation);  // what follows stands in it, z from its elevation
-  void close();                                            // after the last storey
+  // IfcSpaces of a storey that has been begun, from its finished floor upward; once for each storey.
+  void rooms(int storey, double height, const std::vector<Room>& rooms);
+  void close();  // after the last storey
 
   void wall(const Wall& wall);
   // A plate with vertical sides: outline in plan, from z upward.
@@ -88,7 +95,7 @@ class Building {
   IfcText& ifc_;
   int placement_ = 0, building_ = 0, storey_ = 0, storey_placement_ = 0;
   double elevation_ = 0;
-  std::vector<int> storeys_;
+  std::vector<int> storeys_, storey_placements_;
   int external_usage_ = 0, internal_usage_ = 0, window_materials_ = 0, door_materials_ = 0;
 };
 

@@ -143,6 +143,20 @@ void upperFloor(Building& house, const FurnitureTypes& types) {
   furnishUpperFloor(house, types);
 }
 
+// The hall and the gallery share the air of the stair well, which ends with the ceiling of the hall.
+void rooms(Building& house) {
+  house.rooms(0, kCeiling_m,
+              {{"001", "Hall", plan(6.115, 0.35, 9.65, 5.75)},
+               {"002", "Living room", plan(0.35, 0.35, 6.0, 4.4)},
+               {"003", "Kitchen", plan(0.35, 4.515, 6.0, 7.65)},
+               {"004", "Utility room", plan(6.115, 5.865, 9.65, 7.65)}});
+  house.rooms(1, kCeiling_m,
+              {{"101", "Gallery", plan(6.115, 1.815, 9.65, 7.65)},
+               {"102", "South bedroom", plan(0.35, 0.35, 6.0, 4.4)},
+               {"103", "North bedroom", plan(0.35, 4.515, 6.0, 7.65)},
+               {"104", "Bathroom", plan(6.115, 0.35, 9.65, 1.7)}});
+}
+
 }  // namespace
 
 void gableRoof(Building& house, double length, double depth, double wall_top) {
@@ -192,6 +206,7 @@ int furnishedHouse(IfcText& ifc, int site_placement, P3 origin, P2 x) {
   house.plate("IFCSLAB", ".FLOOR.", "Attic slab", plan(0.35, 0.35, 9.65, 7.65), kSlabBottom_m, kAtticSlab_m,
               paint::kConcrete);
   gableRoof(house, 10, 8, kSlabBottom_m + kAtticSlab_m);
+  rooms(house);
   house.close();
   return house.id();
 }

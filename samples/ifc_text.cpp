@@ -108,8 +108,8 @@ int IfcText::unpaintedBox(P3 corner, P3 size) {
 
 int IfcText::box(P3 corner, P3 size, const Paint& paint) { return painted(unpaintedBox(corner, size), paint); }
 
-int IfcText::prism(const std::vector<P2>& outline, const std::vector<std::vector<P2>>& holes, int frame, double depth,
-                   const Paint& paint) {
+int IfcText::unpaintedPrism(const std::vector<P2>& outline, const std::vector<std::vector<P2>>& holes, int frame,
+                            double depth) {
   const auto closed = [this](const std::vector<P2>& corners) {
     std::vector<int> points;
     for (const auto& c : corners)
@@ -124,7 +124,12 @@ int IfcText::prism(const std::vector<P2>& outline, const std::vector<std::vector
                           ? add(fmt::format("IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$,#{})", outer))
                           : add(fmt::format("IFCARBITRARYPROFILEDEFWITHVOIDS(.AREA.,$,#{},{})", outer, list(inner)));
   const int up = direction({0, 0, 1});
-  return painted(add(fmt::format("IFCEXTRUDEDAREASOLID(#{},#{},#{},{})", profile, frame, up, real(depth))), paint);
+  return add(fmt::format("IFCEXTRUDEDAREASOLID(#{},#{},#{},{})", profile, frame, up, real(depth)));
+}
+
+int IfcText::prism(const std::vector<P2>& outline, const std::vector<std::vector<P2>>& holes, int frame, double depth,
+                   const Paint& paint) {
+  return painted(unpaintedPrism(outline, holes, frame, depth), paint);
 }
 
 int IfcText::cylinder(P3 foot, double radius, double height, const Paint& paint) {

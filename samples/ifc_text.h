@@ -45,8 +45,10 @@ class IfcText {
   int rod(const std::vector<P3>& path, double radius, const Paint& paint);
   int faces(const std::vector<P3>& vertices, const std::vector<std::array<int, 3>>& triangles, bool closed,
             const Paint& paint);
-  // The inside of an opening has no paint.
+  // Openings and rooms have no paint.
   int unpaintedBox(P3 corner, P3 size);
+  int unpaintedPrism(const std::vector<P2>& outline, const std::vector<std::vector<P2>>& holes, int frame,
+                     double depth);
 
   int body(const std::vector<int>& items, const char* kind = "SweptSolid");    // IfcProductDefinitionShape
   int shared(const std::vector<int>& items, const char* kind = "SweptSolid");  // IfcRepresentationMap

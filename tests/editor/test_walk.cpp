@@ -343,7 +343,7 @@ TEST(WalkingInTheSampleHouse, BeginsBehindTheFrontDoorAndLeadsUpstairs) {
   walkTowards(editor, gui, {9.2, 1.2});
   walkTowards(editor, gui, {9.2, 6.3});
   EXPECT_NEAR((editor.walk.feet() - Eigen::Vector3d(9.2, 6.3, 2.8)).norm(), 0, 0.2) << editor.walk.feet().transpose();
-  EXPECT_EQ(walkPlaceName(editor), "Upper floor");
+  EXPECT_EQ(walkPlaceName(editor), "101 Gallery · Upper floor");
   walkTowards(editor, gui, {9.2, 1.2});
   EXPECT_NEAR((editor.walk.feet() - Eigen::Vector3d(9.2, 1.2, 0)).norm(), 0, 0.2) << editor.walk.feet().transpose();
 }
