@@ -28,6 +28,15 @@ bool finite(const std::array<double, 3>& v) {
 
 Eigen::Vector3d vectorOf(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
+// Whether a point lies in its node, and is of a scan, a product and a material that there are.
+bool belongs(const CloudPoint& point, const CloudHeader& header, double size_m) {
+  const auto listed = [](std::uint16_t label, std::size_t count) { return label == kNoLabel || label < count; };
+  return point.station < header.stations.size() && listed(point.product, header.products.size()) &&
+         listed(point.material, header.materials.size()) &&
+         std::all_of(point.position_m.begin(), point.position_m.end(),
+                     [&](float x) { return x >= 0 && static_cast<double>(x) <= size_m; });
+}
+
 Result<void> readAll(const InputFile& file, std::uint64_t at, std::span<std::uint8_t> bytes, const std::string& place) {
   TRY_ASSIGN(const auto got, file.read(at, bytes));
   if (got != bytes.size()) return failure(ErrorKind::unusable, "the octree file ends early", file.name() + " " + place);
@@ -145,6 +154,10 @@ Result<std::vector<CloudPoint>> OctreeFile::read(std::size_t node) const {
   TRY(readAll(file_, nodes_[node].offset, bytesOf(points.data(), points.size()), place));
   if (crc32c(bytesOf(points.data(), points.size())) != nodes_[node].checksum)
     return failure(ErrorKind::unusable, "the points are damaged", file_.name() + " " + place);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!belongs(points[i], header_, nodes_[node].size_m))
+      return failure(ErrorKind::unusable, "has a point that is not its own",
+                     file_.name() + " " + place + " point " + std::to_string(i));
   return points;
 }
 

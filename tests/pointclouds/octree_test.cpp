@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <cstddef>
+#include <cstring>
 #include <fstream>
 #include <random>
 #include <set>
@@ -10,9 +12,11 @@
 
 #include <gtest/gtest.h>
 
+#include "pointclouds/e57/crc32c.h"
 #include "pointclouds/octree/octree_builder.h"
 #include "pointclouds/octree/octree_file.h"
 #include "pointclouds/octree/octree_grid.h"
+#include "pointclouds/octree/octree_layout.h"
 #include "tests/temporary_folder.h"
 
 namespace standpoint {
@@ -198,6 +202,38 @@ TEST_F(OctreeTest, IsRefusedWhereverAByteIsAnother) {
     write(other);
     EXPECT_FALSE(readAll()) << "byte " << i;
   }
+}
+
+// As a file of somebody else may be: every checksum holds.
+TEST_F(OctreeTest, IsRefusedWhenAPointIsOfAScanThatThereIsNot) {
+  ASSERT_TRUE(build(room(1000)));
+  auto other = bytes();
+  const auto nodes_at = [&] {
+    octree::Head head;
+    std::memcpy(&head, other.data(), sizeof head);
+    return head.nodes_at;
+  }();
+  octree::TableNode node;
+  std::memcpy(&node, other.data() + nodes_at, sizeof node);
+  CloudPoint point;
+  std::memcpy(&point, other.data() + node.offset, sizeof point);
+  point.station = 7;
+  std::memcpy(other.data() + node.offset, &point, sizeof point);
+  const auto sum = [&](std::size_t at, std::size_t count) {
+    return crc32c({reinterpret_cast<const std::uint8_t*>(other.data()) + at, count});
+  };
+  node.checksum = sum(node.offset, node.points * sizeof(CloudPoint));
+  std::memcpy(other.data() + nodes_at, &node, sizeof node);
+  octree::Head head;
+  std::memcpy(&head, other.data(), sizeof head);
+  head.nodes_checksum = sum(nodes_at, head.nodes * sizeof(octree::TableNode));
+  std::memcpy(other.data(), &head, sizeof head);
+  head.checksum = sum(0, offsetof(octree::Head, checksum));
+  std::memcpy(other.data(), &head, sizeof head);
+  write(other);
+  const auto ok = readAll();
+  ASSERT_FALSE(ok);
+  EXPECT_NE(ok.error().source.find("node 0 point 0"), std::string::npos) << describe(ok.error());
 }
 
 TEST_F(OctreeTest, LeavesNothingWhenItIsCancelled) {
