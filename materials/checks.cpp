@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include <fmt/format.h>
 
@@ -16,6 +17,11 @@ constexpr double kThickestGlass = 0.06;  // m; a triple glazing is thinner
 constexpr double kThicknessTolerance =
     0.5;                               // share of the build-up's thickness; models draw panes as thick as they like
 constexpr double kBeyondData_nm = 25;  // a figure still holds so far from where it was measured
+
+std::string withId(std::string text, const PhysicalMaterial& material) {
+  const auto at = text.find(material.label);
+  return at == std::string::npos ? text : text.replace(at, material.label.size(), material.id);
+}
 
 bool isWindow(const std::string& ifc_class) { return ifc_class.starts_with("IfcWindow"); }
 
@@ -66,6 +72,7 @@ void AssignmentChecks::tell(const char* kind, bool warning, const SurfaceOfProdu
     cause.warning = warning;
     cause.subject = selectorOf(pair) + " / " + surfaceText(pair) + " / " + (about == nullptr ? "" : about->id);
     describe(cause);
+    if (about != nullptr && std::strcmp(kind, "gap") != 0) cause.then_by_id = withId(cause.then, *about);
     extent = &findings_.of(std::move(cause));
   }
   FindingCollector::add(*extent, pair.product, pair.area_m2);
@@ -103,7 +110,7 @@ void AssignmentChecks::byRule(const SurfaceOfProduct& pair, const PhysicalMateri
   tell("weak-rule", false, pair, &material, [&](FindingCollector::Cause& c) {
     c.what = (decision.text.empty() ? "only class and colour matched: " : "low-confidence rule matched: ") +
              surfaceText(pair) + " of";
-    c.then = ": " + material.id + ", " + reason;
+    c.then = ": " + material.label + ", " + reason;
     c.why = fmt::format("Rule confidence {:.2g}: the material is typical for such products, but not confirmed.",
                         decision.confidence);
     c.remedies = {{"Keep " + material.label, selectorOf(pair), material.id},
@@ -129,7 +136,7 @@ void AssignmentChecks::transparency(const SurfaceOfProduct& pair, const Physical
   if (isTransparent(surface) && !transmits(material)) {
     tell("opaque-glass", true, pair, &material, [&](FindingCollector::Cause& c) {
       c.what = "transparent " + surfaceText(pair) + " of";
-      c.then = " has the opaque material " + material.id;
+      c.then = " has the opaque material " + material.label;
       c.why = "Transparent in the model, but beams would stop at it.";
       c.remedies = {
           {"Assign glass", selectorOf(pair), isWindow(ifc_class) ? "glass_double_clear_4mm" : "glass_float_clear_6mm"},
@@ -139,7 +146,7 @@ void AssignmentChecks::transparency(const SurfaceOfProduct& pair, const Physical
   if (!isTransparent(surface) && surface.colour != Colour{} && transmits(material)) {
     tell("clear-solid", true, pair, &material, [&](FindingCollector::Cause& c) {
       c.what = "opaque " + surfaceText(pair) + " of";
-      c.then = " has the transparent material " + material.id;
+      c.then = " has the transparent material " + material.label;
       c.why = "Opaque in the model, but beams would pass through it.";
       c.remedies = {{"Assign an opaque material", selectorOf(pair), ""}};
     });
@@ -160,7 +167,7 @@ void AssignmentChecks::implausible(const SurfaceOfProduct& pair, const PhysicalM
   const auto& found = implausible_[static_cast<std::size_t>(place->second)];
   tell("implausible", true, pair, &material, [&](FindingCollector::Cause& c) {
     c.what = surfaceText(pair) + " of";
-    c.then = " has the material " + material.id;
+    c.then = " has the material " + material.label;
     c.why = found.why;
     c.remedies = {{"Assign another material", selectorOf(pair), ""}};
   });
@@ -195,7 +202,7 @@ void AssignmentChecks::thickness(const SurfaceOfProduct& pair, const PhysicalMat
   if (modelled > kThickestGlass) {
     tell("thick-glass", true, pair, &material, [&](FindingCollector::Cause& c) {
       c.what = surfaceText(pair) + " of";
-      c.then = fmt::format(" is a solid {:.0f} mm thick and has the material {}", modelled * 1000, material.id);
+      c.then = fmt::format(" is a solid {:.0f} mm thick and has the material {}", modelled * 1000, material.label);
       c.why = fmt::format(
           "Glass in the library is {:.0f} mm thick in total. Check whether frame and pane are modelled as one body.",
           wanted * 1000);
@@ -205,14 +212,14 @@ void AssignmentChecks::thickness(const SurfaceOfProduct& pair, const PhysicalMat
     tell("flat-glass", false, pair, &material, [&](FindingCollector::Cause& c) {
       c.what = surfaceText(pair) + " of";
       c.then =
-          fmt::format(" is not a closed solid; beams pass {} of {:.0f} mm at each face", material.id, wanted * 1000);
+          fmt::format(" is not a closed solid; beams pass {} of {:.0f} mm at each face", material.label, wanted * 1000);
       c.why = "A surface without thickness counts as one pane; two parallel surfaces count as two.";
     });
   } else if (std::abs(modelled - wanted) > kThicknessTolerance * std::max(wanted, modelled)) {
     tell("pane-thickness", false, pair, &material, [&](FindingCollector::Cause& c) {
       c.what = surfaceText(pair) + " of";
       c.then =
-          fmt::format(" is modelled {:.0f} mm thick, {} is {:.0f} mm", modelled * 1000, material.id, wanted * 1000);
+          fmt::format(" is modelled {:.0f} mm thick, {} is {:.0f} mm", modelled * 1000, material.label, wanted * 1000);
       c.why =
           "Transmission follows the library's build-up, not the modelled thickness. Check that the material is "
           "correct.";
@@ -242,9 +249,12 @@ void AssignmentChecks::closeProduct() {
 
 void AssignmentChecks::namesAssignedTwoWays() {
   std::map<std::string, std::map<std::string, std::vector<const Use*>>> by_name;  // the surface's, then the material's
-  for (const auto& [key, use] : uses_)
+  std::map<std::string, std::string> labels;
+  for (const auto& [key, use] : uses_) {
+    labels[key.second->id] = key.second->label;
     if (const auto& name = environment_.surfaces[key.first].name; !name.empty())
       by_name[name][key.second->id].push_back(&use);
+  }
   for (const auto& [name, materials] : by_name) {
     if (materials.size() < 2) continue;
     std::vector<std::pair<double, std::string>> order;
@@ -256,12 +266,16 @@ void AssignmentChecks::namesAssignedTwoWays() {
     FindingCollector::Cause c;
     c.kind = "two-ways";
     c.subject = name;
-    c.what = "surface '" + name + "' is";
+    c.what = "surface '" + name + "' has several materials:";
+    c.what_by_id = "surface '" + name + "' is";
     for (const auto& [area, id] : order) {
-      c.what += fmt::format("{} {}", c.what.ends_with("is") ? "" : ",", id);
-      c.remedies.push_back({"All of them " + id, "material:" + literalPattern(name), id});
+      const auto& label = labels.at(id);
+      c.what += fmt::format("{} {}", c.what.ends_with(':') ? "" : ";", label);
+      c.what_by_id += fmt::format("{} {}", c.what_by_id.ends_with("is") ? "" : ",", id);
+      c.remedies.push_back({fmt::format("Use {} for all", label), "material:" + literalPattern(name), id});
     }
-    c.what += " of";
+    c.what += " in";
+    c.what_by_id += " of";
     c.why = "The same name has several materials because rules for classes, colours or products differ.";
     auto& extent = findings_.of(std::move(c));
     for (const auto& [id, uses] : materials)
@@ -287,7 +301,8 @@ void AssignmentChecks::withoutData(const std::vector<double>& wavelengths_nm) {
       c.kind = "no-data";
       c.warning = true;
       c.subject = fmt::format("{} / {:.0f}", material.id, wavelength);
-      c.what = fmt::format("{} has no data at {:.0f} nm:", material.id, wavelength);
+      c.what = fmt::format("{} has no data at {:.0f} nm:", material.label, wavelength);
+      c.what_by_id = withId(c.what, material);
       c.then = fmt::format(", its table covers {:.0f} to {:.0f} nm", material.reflectance.front().first,
                            material.reflectance.back().first);
       c.why = "Scans will use the nearest value, which may be inaccurate.";

@@ -25,7 +25,8 @@ std::uint32_t fingerprint(const std::vector<std::string>& texts) {
 
 std::string causeOf(const FindingCollector::Cause& cause, const std::vector<std::uint32_t>& products,
                     const Environment& environment) {
-  std::vector<std::string> texts{cause.what, cause.then};
+  const auto stable = [](const std::string& by_id, const std::string& shown) { return by_id.empty() ? shown : by_id; };
+  std::vector<std::string> texts{stable(cause.what_by_id, cause.what), stable(cause.then_by_id, cause.then)};
   std::vector<std::string> names;
   for (const auto p : products) {
     const auto& product = environment.products[p];

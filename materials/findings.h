@@ -22,6 +22,8 @@ class FindingCollector {
     bool warning = false;
     std::string subject;  // tells findings of one kind apart, in every run alike
     std::string what, then;
+    // The same with ids for the labels of materials: what an acceptance is kept by. Empty: as `what` and `then`.
+    std::string what_by_id, then_by_id;
     std::string why;
     std::vector<Remedy> remedies;
   };

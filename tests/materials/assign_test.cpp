@@ -128,7 +128,7 @@ TEST(Findings, NoteWhatOnlyClassOrColourDecided) {
   ASSERT_EQ(result.report.findings.size(), 1U);
   EXPECT_THAT(result.report.findings[0],
               finding("note", "#100", "only class and colour matched: surface 'Style 17' of IfcWall 'W'"));
-  EXPECT_THAT(result.report.findings[0].message, HasSubstr("plaster_render"));
+  EXPECT_THAT(result.report.findings[0].message, HasSubstr("Render, cement and lime"));
 }
 
 TEST(Findings, NameContradictionsOfTransparency) {
