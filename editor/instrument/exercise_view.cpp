@@ -143,8 +143,8 @@ void questions(InstrumentDesk& desk, const std::string& language) {
     ui::wrapped(q.text.in(language));
     const auto answer = desk.rehearsal->fact("answer." + q.id)->text;
     for (std::size_t i = 0; i < q.choices.size(); ++i)
-      if (ImGui::RadioButton((q.choice_texts[i].in(language) + "###" + q.id + q.choices[i]).c_str(),
-                             answer == q.choices[i]))
+      if (ui::radioButton((q.choice_texts[i].in(language) + "###" + q.id + q.choices[i]).c_str(),
+                          answer == q.choices[i]))
         act(desk, {Kind::answer, q.id, q.choices[i], 0, {}});
   }
   ImGui::EndDisabled();

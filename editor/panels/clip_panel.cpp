@@ -88,7 +88,7 @@ void drawClip(const Model& model, Actions& actions) {
   ImGui::SameLine();
   actions.button("clip-turn", "Turn by 90°", half);
   bool handles = model.view.clip.handles;
-  if (ImGui::Checkbox(ui::Label("Handles in view"), &handles)) actions.run("clip-handles");
+  if (ui::checkbox(ui::Label("Handles in view"), &handles)) actions.run("clip-handles");
 }
 
 }  // namespace

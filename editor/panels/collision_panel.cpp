@@ -65,7 +65,7 @@ void drawDoors(const Model& model, CollisionState& state, Actions& actions, cons
     beginRow(static_cast<int>(i));
     if (state.doors == DoorState::as_set) {
       bool closed = state.closed.contains(id);
-      if (ImGui::Checkbox("###closed", &closed)) closed ? void(state.closed.insert(id)) : void(state.closed.erase(id));
+      if (ui::checkbox("###closed", &closed)) closed ? void(state.closed.insert(id)) : void(state.closed.erase(id));
       ui::tooltip("Treat as closed when collision shapes are next computed");
       ImGui::SameLine();
     }
@@ -176,8 +176,8 @@ void draw(const Model& model, CollisionState& state, Actions& actions) {
     ui::endProperties();
   }
   bool walkable = model.view.walkable, shapes = model.view.shapes;
-  if (ImGui::Checkbox(ui::Label("Show the walkable area"), &walkable)) actions.showWalkable(walkable);
-  if (ImGui::Checkbox(ui::Label("Show the shapes instead of the model"), &shapes)) actions.showShapes(shapes);
+  if (ui::checkbox(ui::Label("Show the walkable area"), &walkable)) actions.showWalkable(walkable);
+  if (ui::checkbox(ui::Label("Show the shapes instead of the model"), &shapes)) actions.showShapes(shapes);
   drawDoors(model, state, actions, result);
   drawRooms(model, actions, result);
 }

@@ -72,7 +72,7 @@ void drawPlace(const Model& model, Actions& actions) {
           georeference.shift_m.x(), georeference.shift_m.y(), georeference.shift_m.z()));
   if (preview.hasIfc()) {
     ui::propertyLabel("Types");
-    changed |= ImGui::Checkbox(ui::Label("Import as products###preview-types"), &chosen.types);
+    changed |= ui::checkbox(ui::Label("Import as products###preview-types"), &chosen.types);
     ui::tooltip("Types that no product uses are imported with their shapes as products at the origin");
   }
   ui::propertyLabel("CRS");

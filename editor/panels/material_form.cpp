@@ -75,12 +75,12 @@ void drawFields(MaterialEdit& edit) {
   number("Roughness σ", "###roughness", edit.roughness_deg, 60, "°", 1);
   number("Gloss slope", "###gloss", edit.gloss_slope, 1, "", 3);
   ui::propertyLabel("Metal");
-  ImGui::Checkbox("###metal", &edit.metal);
+  ui::checkbox("###metal", &edit.metal);
   ui::tooltip("Use n and k by wavelength instead of a single index of refraction");
   if (!edit.metal) {
     number("Index n", "###index", edit.index_of_refraction, 3, "", 3);
     ui::propertyLabel("Transparent");
-    ImGui::Checkbox("###pane", &edit.pane);
+    ui::checkbox("###pane", &edit.pane);
   }
   if (edit.pane && !edit.metal) {
     spectrum("Transmittance", "transmittance", edit.transmittance_percent);

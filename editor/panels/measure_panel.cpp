@@ -129,7 +129,7 @@ void draw(const Model& model, MeasureState& state, Actions& actions) {
   drawList(model, actions, measurements);
   if (measurements.empty()) return;
   bool shown = model.view.measurements;
-  if (ImGui::Checkbox(ui::Label("Show in view"), &shown)) actions.showMeasurements(shown);
+  if (ui::checkbox(ui::Label("Show in view"), &shown)) actions.showMeasurements(shown);
   ImGui::SameLine();
   if (ui::button(ICON_COPY "  Copy all###copy-measurements", {}, {-FLT_MIN, 0}, "Copy all measurements as text")) {
     std::string text;

@@ -174,7 +174,7 @@ void draw(const Model& model, OptimiseState& state, Actions& actions) {
   const auto before = sceneTriangleCount(*document.imported);
   ui::dimText(trf("The imported model has {} triangles.", groupedDigits(before)));
   ui::gap(model, 2);
-  ImGui::Checkbox(ui::Label("Lossless only"), &state.only_lossless);
+  ui::checkbox(ui::Label("Lossless only"), &state.only_lossless);
   ui::tooltip("Merges planar regions without moving any surface");
   const auto budget = static_cast<std::uint64_t>(std::llround(state.budget_fraction * static_cast<double>(before)));
   ImGui::BeginDisabled(state.only_lossless);
@@ -193,11 +193,11 @@ void draw(const Model& model, OptimiseState& state, Actions& actions) {
     ui::endProperties();
   }
   ImGui::BeginDisabled(!document.collision);
-  ImGui::Checkbox(ui::Label("Prioritise visible surfaces"), &state.by_view);
+  ui::checkbox(ui::Label("Prioritise visible surfaces"), &state.by_view);
   ImGui::EndDisabled();
   ui::tooltip(document.collision ? "Weights errors by visibility from the walkable surface"
                                  : "Compute collision shapes first (Collision panel)");
-  ImGui::Checkbox(ui::Label("Live preview"), &state.live);
+  ui::checkbox(ui::Label("Live preview"), &state.live);
   ui::tooltip("The view follows the sliders. Choose Optimise to measure and keep the result.");
   if (state.live) drawPreview(model, state, actions, budget);
   ImGui::EndDisabled();

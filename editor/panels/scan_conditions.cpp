@@ -28,7 +28,7 @@ bool folded(const char* title, const std::string& summary, const char* id) {
 void drawEffects(const Model& model, ScanChoice& asked) {
   if (!folded("Effects", effectsSummary(asked.effects), "effects")) return;
   bool ideal = asked.effects == Effects::none();
-  if (ImGui::Checkbox(ui::Label("Ideal (no effects)###ideal"), &ideal))
+  if (ui::checkbox(ui::Label("Ideal (no effects)###ideal"), &ideal))
     asked.effects = ideal ? Effects::none() : Effects();
   ui::tooltip("Each pulse returns the exact first surface on its axis: reference data without errors");
   if (!ImGui::BeginTable("effects", 2, ImGuiTableFlags_RowBg)) return;
@@ -38,7 +38,7 @@ void drawEffects(const Model& model, ScanChoice& asked) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     bool on = asked.effects.has(effect.effect);
-    if (ImGui::Checkbox(fmt::format("{}###effect-{}", tr(readableEffect(effect)), effect.name).c_str(), &on))
+    if (ui::checkbox(fmt::format("{}###effect-{}", tr(readableEffect(effect)), effect.name).c_str(), &on))
       asked.effects = on ? asked.effects.with(effect.effect) : asked.effects.without(effect.effect);
     ImGui::TableNextColumn();
     ImGui::AlignTextToFramePadding();
@@ -95,7 +95,7 @@ std::string sizeText(std::uint32_t columns) { return fmt::format("{} × {}", col
 void drawPanorama(ScanChoice& asked, const Instrument& instrument, const ScanSettings& settings) {
   ui::propertyLabel("Panorama");
   ImGui::BeginDisabled(!settings.imaging && !asked.panorama);
-  ImGui::Checkbox("###panorama", &asked.panorama);
+  ui::checkbox("###panorama", &asked.panorama);
   ImGui::EndDisabled();
   ui::tooltip(settings.imaging
                   ? "Takes a panorama at each station and colours the points from it. Delays the first point."
@@ -131,19 +131,19 @@ void drawExtras(ScanState& state, ScanChoice& asked, const Instrument& instrumen
   if (!folded("Extra output", extrasSummary(asked, state.resume), "extras")) return;
   if (!ui::beginProperties("extras", 0.36F)) return;
   ui::propertyLabel("Truth");
-  ImGui::Checkbox("###truth", &asked.truth);
+  ui::checkbox("###truth", &asked.truth);
   ui::tooltip(
       "Stores ground truth per point: time, return number, true position, range, incidence, power and cause. Files are "
       "about three times larger.");
   drawPanorama(asked, instrument, settings);
   ui::propertyLabel("Compensator");
   ImGui::BeginDisabled(!instrument.compensator);
-  ImGui::Checkbox("###compensator", &asked.compensator);
+  ui::checkbox("###compensator", &asked.compensator);
   ImGui::EndDisabled();
   ui::tooltip(instrument.compensator ? "Off: points of a tilted station stay tilted"
                                      : "This instrument has no compensator: points of a tilted station stay tilted");
   ui::propertyLabel("Resume");
-  ImGui::Checkbox("###resume", &state.resume);
+  ui::checkbox("###resume", &state.resume);
   ui::tooltip(
       "Keeps stations finished by a cancelled or crashed run. Off: scans all stations; remove the files of the earlier "
       "run first.");

@@ -41,7 +41,7 @@ void drawRegister(const Model& model, TargetsState& state, Actions& actions, con
     actions.start(options, "Register stations");
   }
   ImGui::SameLine();
-  ImGui::Checkbox(ui::Label("Write registered copies of the scans###copies"), &copies);
+  ui::checkbox(ui::Label("Write registered copies of the scans###copies"), &copies);
   ui::tooltip("Writes copies with solved poses to the folder \"registered\" next to the scans");
   if (model.target_list.busy()) {
     ImGui::SameLine();

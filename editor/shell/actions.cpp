@@ -325,6 +325,7 @@ std::string shortcutText(const Shortcut& s) {
   if (s.key == kKeyEscape) return text + "Esc";
   if (s.key == kKeyDelete) return text + tr("Del");
   if (s.key == kKeyLeft) return text + tr("Left");
+  if (s.key == kKeyHome) return text + tr("Home");
   if (s.key == kKeyF1) return text + "F1";
   if (s.key == kKeyF2) return text + "F2";
   if (s.key == kKeyPlus) return text + "+";
@@ -355,10 +356,7 @@ void actionMenuItem(Editor& editor, const char* id) {
     title = trf("Undo: {}", trSentence(editor.session.history().undoDescription()));
   if (std::strcmp(id, "redo") == 0 && why.empty())
     title = trf("Redo: {}", trSentence(editor.session.history().redoDescription()));
-  const std::string icon = *action.icon != 0 ? std::string(action.icon) + "  " : "      ";
-  if (ImGui::MenuItem((icon + title + "###" + id).c_str(), shortcutText(action.shortcut).c_str(), false, why.empty()))
-    action.run(editor);
-  ui::tooltip(tr(why));
+  if (ui::menuItem(action.icon, title + "###" + id, shortcutText(action.shortcut).c_str(), why)) action.run(editor);
 }
 
 void actionToolButton(Editor& editor, const char* id) {

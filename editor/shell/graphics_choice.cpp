@@ -5,6 +5,7 @@
 #include <imgui.h>
 
 #include "editor/shell/editor.h"
+#include "editor/widgets/widgets.h"
 #include "editor/words/words.h"
 
 namespace standpoint {
@@ -12,8 +13,8 @@ namespace standpoint {
 void drawGraphicsChoices(Editor& editor, float width_pt) {
   editor.costs_wanted = editor.shown() && editor.graphics.notMeasured();
   for (const auto choice : kGraphicsChoices) {
-    if (ImGui::RadioButton(fmt::format("{}###graphics-{}", tr(graphicsName(choice)), graphicsKey(choice)).c_str(),
-                           editor.settings.graphics == choice))
+    if (ui::radioButton(fmt::format("{}###graphics-{}", tr(graphicsName(choice)), graphicsKey(choice)).c_str(),
+                        editor.settings.graphics == choice))
       editor.settings.graphics = choice;
     const float inset = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x;
     ImGui::Indent(inset);

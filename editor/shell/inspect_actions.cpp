@@ -187,7 +187,8 @@ const std::array kInspectActions = {
            {},
            colourBy<ColourBy::station>,
            whyColourNot<ColourBy::station>},
-    Action{"panorama", "Panorama of the chosen scan", ICON_GLOBE, {'O', false, true}, showChosenPanorama, whyWallNot},
+    Action{
+        "show-panorama", "Panorama of the chosen scan", ICON_GLOBE, {'O', false, true}, showChosenPanorama, whyWallNot},
     Action{"compare-clouds", "Compare two clouds", ICON_COMPRESS, {}, openComparison, nullptr},
     Action{"clip-box",
            "Clip box around selection or model",

@@ -220,15 +220,15 @@ void drawPreferences(Editor& editor) {
     }
     ui::propertyLabel("Theme");
     for (const auto& [theme, name] : {std::pair{Theme::dark, "Dark"}, {Theme::light, "Light"}}) {
-      if (ImGui::RadioButton(fmt::format("{}###theme-{}", tr(name), themeKey(theme)).c_str(),
-                             editor.settings.theme == theme))
+      if (ui::radioButton(fmt::format("{}###theme-{}", tr(name), themeKey(theme)).c_str(),
+                          editor.settings.theme == theme))
         editor.settings.theme = theme;
       ImGui::SameLine(0, editor.px(16));
     }
     ui::propertyLabel("Language");
     drawLanguages(editor);
     ui::propertyLabel("Recovery copy after every change");
-    ImGui::Checkbox("###recovery", &editor.settings.recovery);
+    ui::checkbox("###recovery", &editor.settings.recovery);
     ui::endProperties();
   }
   ui::heading(editor, "Graphics");

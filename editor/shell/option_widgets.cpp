@@ -60,7 +60,7 @@ void drawValue(Editor& editor, OptionField& field) {
     case ParameterKind::text: ImGui::InputText("###value", &field.text); break;
     case ParameterKind::number:
     case ParameterKind::integer: drawNumber(field); break;
-    case ParameterKind::flag: ImGui::Checkbox("###value", &field.flag); break;
+    case ParameterKind::flag: ui::checkbox("###value", &field.flag); break;
     case ParameterKind::choice: drawChoice(field); break;
     case ParameterKind::path: drawPath(editor, field); break;
     case ParameterKind::triple:
@@ -88,7 +88,7 @@ void drawOptionForm(Editor& editor, OptionForm& form) {
     ui::propertyLabel(readableOption(p.name).c_str());
     const bool optional = !p.required && p.default_value.is_null() && p.kind != ParameterKind::flag;
     if (optional) {
-      ImGui::Checkbox("###given", &field.given);
+      ui::checkbox("###given", &field.given);
       ui::tooltip("Unticked: set automatically");
       ImGui::SameLine();
       ImGui::SetNextItemWidth(-FLT_MIN);

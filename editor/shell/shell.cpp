@@ -73,7 +73,7 @@ void items(Editor& editor, std::initializer_list<const char*> ids) {
 }
 
 void recentMenu(Editor& editor) {
-  if (!ImGui::BeginMenu(ui::Label(ICON_HISTORY "  Open recent###recent"), !editor.settings.recent.empty())) return;
+  if (!ui::beginMenu(ICON_HISTORY, "Open recent###recent", !editor.settings.recent.empty())) return;
   const auto recent = editor.settings.recent;
   for (const auto& path : recent) {
     const auto shown = std::filesystem::path(path).filename().string();
@@ -90,21 +90,20 @@ void runMenu(Editor& editor) {
     const std::string_view name = verb.name;
     if (name.ends_with("-project") || name.ends_with("-recovery")) continue;
     const auto why = editor.session.whyNot(verb.name);
-    if (ImGui::MenuItem(fmt::format("      {}…###run-{}", tr(readableOption(verb.name)), verb.name).c_str(), nullptr,
-                        false, why.empty()))
+    if (ui::menuItem("", fmt::format("{}…###run-{}", tr(readableOption(verb.name)), verb.name), nullptr, why))
       openVerbForm(editor, verb.name);
-    ui::tooltip(tr(why.empty() ? verb.summary : why));
+    if (why.empty()) ui::tooltip(tr(verb.summary));
   }
 }
 
-void submenu(Editor& editor, const char* title, std::initializer_list<const char*> ids) {
-  if (!ImGui::BeginMenu(ui::Label(title))) return;
+void submenu(Editor& editor, const char* icon, const char* title, std::initializer_list<const char*> ids) {
+  if (!ui::beginMenu(icon, title)) return;
   items(editor, ids);
   ImGui::EndMenu();
 }
 
 void graphicsMenu(Editor& editor) {
-  if (!ImGui::BeginMenu(ui::Label("      Graphics###menu-graphics"))) return;
+  if (!ui::beginMenu("", "Graphics###menu-graphics")) return;
   drawGraphicsChoices(editor, 380);
   ImGui::EndMenu();
 }
@@ -112,25 +111,25 @@ void graphicsMenu(Editor& editor) {
 // With submenus, so that all of it has room in a window of 800 pixels.
 void viewMenu(Editor& editor) {
   items(editor, {"frame", "view-corner"});
-  submenu(editor, "      Look from###menu-look",
-          {"view-front", "view-back", "view-right", "view-left", "view-top", "view-before"});
+  submenu(editor, "", "Look from###menu-look",
+          {"frame-all", "view-front", "view-back", "view-right", "view-left", "view-top", "view-before"});
   items(editor, {"view-plan", "view-parallel", "", "hide", "isolate", "show-all", "", "edges", "grid", "walkable",
                  "shapes", "labels"});
-  submenu(editor, "      Points###menu-points", {"points-larger", "points-smaller", "shaded-points"});
-  submenu(editor, "      More labels###menu-labels", {"room-names", "labels-through-walls"});
+  submenu(editor, "", "Points###menu-points", {"points-larger", "points-smaller", "shaded-points"});
+  submenu(editor, "", "More labels###menu-labels", {"room-names", "labels-through-walls"});
   items(editor, {"", "walk", "teleport", "look-from-station"});
-  submenu(editor, "      More moves###menu-moves", {"fly", "door", "add-bookmark"});
+  submenu(editor, "", "More moves###menu-moves", {"fly", "door", "add-bookmark"});
   ImGui::Separator();
-  submenu(editor, ICON_PAINT "  Colour by###menu-colour",
+  submenu(editor, ICON_PAINT, "Colour by###menu-colour",
           {"colour-model", "colour-material", "colour-reflectance", "colour-confidence", "colour-intensity",
            "colour-noise", "colour-fate", "colour-coverage", "colour-spacing", "colour-incidence"});
-  submenu(editor, "      Workspace###menu-workspace",
+  submenu(editor, "", "Workspace###menu-workspace",
           {"workspace-environment", "workspace-optimise", "workspace-materials", "workspace-georeference",
            "workspace-survey", "workspace-instrument", "workspace-inspect"});
   ImGui::Separator();
   graphicsMenu(editor);
   items(editor, {editor.settings.theme == Theme::light ? "theme-dark" : "theme-light"});
-  submenu(editor, "      Interface size###menu-size", {"interface-larger", "interface-smaller", "interface-usual"});
+  submenu(editor, "", "Interface size###menu-size", {"interface-larger", "interface-smaller", "interface-usual"});
 }
 
 void drawMenuBar(Editor& editor) {
@@ -142,7 +141,7 @@ void drawMenuBar(Editor& editor) {
     items(editor, {"new", "open", "sample"});
     recentMenu(editor);
     items(editor, {"import", "update", "", "save", "save-as", "recover", "export"});
-    submenu(editor, "      Pictures and films###menu-shots", {"picture", "panorama", "turntable", "walk-through"});
+    submenu(editor, "", "Pictures and films###menu-shots", {"picture", "panorama", "turntable", "walk-through"});
     items(editor, {"", "preferences", "quit"});
     ImGui::EndMenu();
   }
@@ -150,15 +149,15 @@ void drawMenuBar(Editor& editor) {
     items(editor, {"undo", "redo", "", "select-all", "select-none", "", "rename", "duplicate-station", "remove", "",
                    "take-material", "paint-material"});
     submenu(
-        editor, "      Measure###menu-measure",
+        editor, "", "Measure###menu-measure",
         {"measure", "measure-height", "measure-angle", "measure-area", "measure-plane", "pick-wall", "measurements"});
-    submenu(editor, "      Colour points###menu-points",
+    submenu(editor, "", "Colour points###menu-points",
             {"points-by-natural", "points-by-rgb", "points-by-intensity", "points-by-range", "points-by-height",
              "points-by-incidence", "points-by-product", "points-by-material", "points-by-return-number",
              "points-by-flags", "points-by-residual", "points-by-deviation", "points-by-time", "points-by-station",
              "points-larger", "points-smaller"});
-    items(editor, {"panorama", "compare-clouds"});
-    submenu(editor, "      Clip###menu-clip",
+    items(editor, {"show-panorama", "compare-clouds"});
+    submenu(editor, "", "Clip###menu-clip",
             {"clip-box", "clip-none", "section-wall", "section-x", "section-y", "section-z", "clip-look", "clip-turn",
              "clip-handles"});
     ImGui::EndMenu();

@@ -133,7 +133,7 @@ void drawKinds(ShotDialog& dialog) {
   for (const auto& row : shotKinds()) {
     if (&row != &shotKinds().front()) ImGui::SameLine();
     const bool chosen = row.kind == dialog.kind;
-    if (ImGui::RadioButton(fmt::format("{}###shot-{}", tr(row.title), row.id).c_str(), chosen) && !chosen)
+    if (ui::radioButton(fmt::format("{}###shot-{}", tr(row.title), row.id).c_str(), chosen) && !chosen)
       choose(dialog, row.kind);
     ui::tooltip(row.help);
   }
@@ -170,9 +170,9 @@ void drawFields(const Editor& editor, ShotDialog& dialog) {
   if (dialog.kind == ShotKind::picture || dialog.kind == ShotKind::panorama) drawFrom(editor, dialog);
   if (dialog.kind == ShotKind::walk_through) {
     ui::propertyLabel("Through");
-    if (ImGui::RadioButton(ui::Label("Stations###through-stations"), !dialog.stops.rooms)) dialog.stops.rooms = false;
+    if (ui::radioButton(ui::Label("Stations###through-stations"), !dialog.stops.rooms)) dialog.stops.rooms = false;
     ImGui::SameLine();
-    if (ImGui::RadioButton(ui::Label("Rooms###through-rooms"), dialog.stops.rooms)) dialog.stops.rooms = true;
+    if (ui::radioButton(ui::Label("Rooms###through-rooms"), dialog.stops.rooms)) dialog.stops.rooms = true;
   }
   if (rowOf(dialog.kind).film) {
     ui::propertyLabel("Pictures per second");

@@ -44,6 +44,11 @@ void lookFrom(Editor& e, StandardView view) {
   e.view.camera.orthographic = view != StandardView::corner;
   frame(e.view.camera, e.buildingBounds(), e.view.size.x() / std::max(e.view.size.y(), 1.0));
 }
+void frameAll(Editor& e) {
+  stopFlying(e);
+  stopWalking(e);
+  e.bringIntoView(e.buildingBounds());
+}
 // What is said of the selection, each product by what it keeps through an update of the model.
 void treat(Editor& e, TreatmentKind as, const char* title) {
   std::vector<std::string> selectors;
@@ -74,6 +79,7 @@ void chooseTheme(Editor& e) {
 
 const std::array kView = {
     Action{"frame", "Frame selection", ICON_EXPAND, {'F'}, [](Editor& e) { e.frameSelection(); }, whyNoModel},
+    Action{"frame-all", "Frame whole model", "", {kKeyHome}, frameAll, whyNoModel},
     Action{"view-front", "Front view", "", {'1'}, [](Editor& e) { lookFrom(e, StandardView::front); }, whyNoModel},
     Action{"view-back", "Back view", "", {'1', true}, [](Editor& e) { lookFrom(e, StandardView::back); }, whyNoModel},
     Action{"view-right", "Right view", "", {'3'}, [](Editor& e) { lookFrom(e, StandardView::right); }, whyNoModel},

@@ -29,7 +29,7 @@ constexpr struct {
                 {ImGuiKey_DownArrow, kKeyDown},
                 {ImGuiKey_PageUp, 266},
                 {ImGuiKey_PageDown, 267},
-                {ImGuiKey_Home, 268},
+                {ImGuiKey_Home, kKeyHome},
                 {ImGuiKey_End, 269},
                 {ImGuiKey_Insert, 260},
                 {ImGuiKey_Delete, kKeyDelete},

@@ -27,6 +27,7 @@ constexpr Tone kBad{IM_COL32(234, 99, 92, 255), IM_COL32(190, 38, 32, 255)};
 constexpr Tone kDim{IM_COL32(132, 141, 156, 255), IM_COL32(90, 98, 112, 255)};
 constexpr Tone kText{IM_COL32(222, 226, 233, 255), IM_COL32(32, 37, 45, 255)};
 constexpr Tone kUnassigned{IM_COL32(237, 66, 153, 255), IM_COL32(196, 24, 112, 255)};
+constexpr Tone kEdge{IM_COL32(110, 118, 134, 255), IM_COL32(128, 136, 150, 255)};  // of an empty box, 3 to 1
 constexpr Tone kLine{IM_COL32(54, 60, 70, 255), IM_COL32(200, 205, 213, 255)};
 constexpr Tone kOverlay{IM_COL32(24, 27, 32, 205), IM_COL32(250, 251, 253, 225)};
 constexpr Tone kStation{IM_COL32(255, 176, 32, 255), IM_COL32(196, 110, 0, 255)};

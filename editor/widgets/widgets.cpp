@@ -33,9 +33,66 @@ void filterButton(const Style& style, const char* list, const char* icon, const 
 }
 
 void listEach(const char* list, bool& each) {
-  ImGui::Checkbox(fmt::format("{}###{}-each", tr("List all"), list).c_str(), &each);
+  checkbox(fmt::format("{}###{}-each", tr("List all"), list).c_str(), &each);
   ui::tooltip("List every issue, including similar ones");
   ImGui::SameLine(0, ImGui::GetStyle().ItemSpacing.x);
+}
+
+namespace {
+
+template <class Draw>
+bool withEdge(const Draw& draw) {
+  ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 1);
+  ImGui::PushStyleColor(ImGuiCol_Border, colour(tone::kEdge));
+  const bool pressed = draw();
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar();
+  return pressed;
+}
+
+// Icons are not all of one width, so that they are drawn in the middle of a room of their own.
+class MenuIcon {
+ public:
+  MenuIcon(const char* icon, bool enabled)
+      : icon_(icon), enabled_(enabled), list_(ImGui::GetWindowDrawList()), at_(ImGui::GetCursorScreenPos()) {}
+  static constexpr const char* kRoom = "       ";
+  void draw() const {  // after the entry, whose ground may be lit
+    if (*icon_ == 0) return;
+    const float room = ImGui::CalcTextSize(kRoom).x - ImGui::CalcTextSize("  ").x;
+    const float left = at_.x + std::max(0.0F, (room - ImGui::CalcTextSize(icon_).x) / 2);
+    list_->AddText({left, at_.y}, ImGui::GetColorU32(enabled_ ? ImGuiCol_Text : ImGuiCol_TextDisabled), icon_);
+  }
+
+ private:
+  const char* icon_;
+  bool enabled_;
+  ImDrawList* list_;
+  ImVec2 at_;
+};
+
+}  // namespace
+
+bool menuItem(const char* icon, const std::string& label, const char* keys, const std::string& why) {
+  const MenuIcon drawn(icon, why.empty());
+  const bool chosen = ImGui::MenuItem((MenuIcon::kRoom + label).c_str(), keys, false, why.empty());
+  drawn.draw();
+  tooltip(tr(why));
+  return chosen;
+}
+
+bool beginMenu(const char* icon, const char* label, bool enabled) {
+  const MenuIcon drawn(icon, enabled);
+  const bool open = ImGui::BeginMenu((MenuIcon::kRoom + std::string(Label(label))).c_str(), enabled);
+  drawn.draw();
+  return open;
+}
+
+bool checkbox(const char* label, bool* on) {
+  return withEdge([&] { return ImGui::Checkbox(label, on); });
+}
+
+bool radioButton(const char* label, bool chosen) {
+  return withEdge([&] { return ImGui::RadioButton(label, chosen); });
 }
 
 void tooltip(const Text& text) {
@@ -135,10 +192,12 @@ void emptyState(const Style& style, const char* icon, const char* title, const c
   const Text said(title);
   centred(said.c_str());
   ImGui::TextUnformatted(said.c_str());
-  const float inset = std::min(width * 0.08F, style.px(40));
-  ImGui::SetCursorPosX(left + inset);
-  ImGui::PushTextWrapPos(left + width - inset);
-  ImGui::TextDisabled("%s", tr(text).c_str());
+  const std::string lines = tr(text);
+  const float room = std::min(width - 2 * std::min(width * 0.08F, style.px(40)), style.px(420));
+  const float indent = (width - ImGui::CalcTextSize(lines.c_str(), nullptr, false, room).x) / 2;
+  ImGui::SetCursorPosX(left + indent);
+  ImGui::PushTextWrapPos(left + indent + room);
+  ImGui::TextDisabled("%s", lines.c_str());
   ImGui::PopTextWrapPos();
   gap(style, 6);
 }

@@ -49,6 +49,12 @@ bool button(const char* label, const std::string& why = {}, ImVec2 size = {0, 0}
 bool primaryButton(const char* label, const std::string& why = {}, ImVec2 size = {0, 0});
 // As wide as there is room, with all of its text, in as many lines as that takes.
 bool wideButton(const char* id, const Text& text, const std::string& why = {}, const char* tooltip = nullptr);
+// With an edge, so that an empty one is seen.
+bool checkbox(const char* label, bool* on);
+bool radioButton(const char* label, bool chosen);
+// A menu's entry with its icon, or the room for one, before the text; `label` may have an id.
+bool menuItem(const char* icon, const std::string& label, const char* keys, const std::string& why);
+bool beginMenu(const char* icon, const char* label, bool enabled = true);
 // An icon without a frame, for rows and bars.
 bool iconButton(const char* label, const char* tooltip, const std::string& why = {}, bool lit = false);
 // Shows or hides rows of one kind, and says how many there are. `list` tells apart those of several lists.

@@ -186,6 +186,14 @@ TEST_F(Gui, EditsTheRowsOfAMetalAndUndoTakesItOutAgain) {
   EXPECT_TRUE(editor.session.document().materials->own.empty());
 }
 
+TEST(Actions, HaveAnIdAndKeysOfTheirOwn) {
+  std::set<std::string> ids, keys;
+  for (const auto& action : actions()) {
+    EXPECT_TRUE(ids.insert(action.id).second) << action.id;
+    if (const auto text = shortcutText(action.shortcut); !text.empty()) EXPECT_TRUE(keys.insert(text).second) << text;
+  }
+}
+
 TEST_F(Gui, FindsAnActionInThePaletteByWords) {
   open();
   gui.key('P', true);
