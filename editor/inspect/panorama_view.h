@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/survey.h"
@@ -16,7 +17,7 @@ namespace standpoint {
 struct PanoramaRequest {
   std::string cloud;  // its label
   std::filesystem::path file;
-  std::string scan;  // of the file; empty: the first that has a station
+  std::optional<std::size_t> scan;  // its place in the file; nothing: the first that has a station
   Pose local_from_cloud;
 };
 

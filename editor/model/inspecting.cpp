@@ -96,8 +96,8 @@ const PointLegend* Model::pointLegend() const {
   return painted == nullptr ? nullptr : &painted->legend;
 }
 
-void Model::showPanorama(const InspectedCloud& cloud) {
-  panorama.start({cloud.label, cloud.file, {}, cloud.local_from_cloud}, wake);
+void Model::showPanorama(const InspectedCloud& cloud, std::optional<std::size_t> scan) {
+  panorama.start({cloud.label, cloud.file, scan, cloud.local_from_cloud}, wake);
 }
 
 void Model::jumpTo(const Eigen::Vector3d& place, const Eigen::Vector3d& from) {

@@ -279,7 +279,7 @@ struct Model : Style {
   std::optional<Eigen::Vector3d> measurableAt(const ViewRay& ray, double reach_px) const;
   // The cloud in which a wall is measured; null with the reason in `why_not`.
   std::optional<InspectedCloud> wallCloud(std::string* why_not = nullptr) const;
-  void showPanorama(const InspectedCloud& cloud);
+  void showPanorama(const InspectedCloud& cloud, std::optional<std::size_t> scan = {});
   // How to read the colours of the scan that is shown; null while they are made, or where they are its own.
   const PointLegend* pointLegend() const;
   // From nearby, out of the direction in which `from` lies; local frame.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,7 +69,8 @@ class Actions {
   virtual void clip(const ClipBox& box) = 0;
   virtual void colourPointsBy(ColourBy colour) = 0;
   virtual void pointSize(int pixels) = 0;
-  virtual void showPanorama(const InspectedCloud& cloud) = 0;
+  // Of the scan at that place in the file; of the first that has a station where nothing is said.
+  virtual void showPanorama(const InspectedCloud& cloud, std::optional<std::size_t> scan) = 0;
   virtual void jumpTo(const Eigen::Vector3d& place, const Eigen::Vector3d& from) = 0;  // local frame
   // For Dear ImGui's AddImage, with v from 0 to 1; 0 where nothing can be drawn.
   virtual std::uint64_t texture(const std::shared_ptr<const PixelPicture>& picture) = 0;

@@ -37,7 +37,7 @@ void paint(PanoramaState& state, const std::shared_ptr<const PanoramaRead>& read
       read->panorama.width, read->panorama.height, paintPanorama(read->panorama, state.channel, state.shades)});
 }
 
-void chooseScan(const Model& model, Actions& actions) {
+void chooseCloud(const Model& model, Actions& actions) {
   const auto clouds = inspectedClouds(model.session.document());
   const auto& read = model.panorama.result();
   ImGui::SetNextItemWidth(std::min(model.px(260), 0.36F * ImGui::GetWindowWidth()));
@@ -45,7 +45,27 @@ void chooseScan(const Model& model, Actions& actions) {
   for (std::size_t i = 0; i < clouds.size(); ++i)
     if (ImGui::Selectable((clouds[i].label + "###panorama" + std::to_string(i)).c_str(),
                           read && read->request.file == clouds[i].file))
-      actions.showPanorama(clouds[i]);
+      actions.showPanorama(clouds[i], {});
+  ImGui::EndCombo();
+}
+
+std::string nameOf(const Panorama& panorama, std::size_t scan) {
+  return panorama.scans[scan].empty() ? trf("Scan {}", scan + 1) : panorama.scans[scan];
+}
+
+// Of a file that has several.
+void chooseScanOfFile(const Model& model, Actions& actions, const PanoramaRead& read) {
+  const auto& panorama = read.panorama;
+  if (panorama.scans.size() < 2) return;
+  const auto clouds = inspectedClouds(model.session.document());
+  const auto* const cloud = cloudOf(clouds, read.request.file);
+  if (cloud == nullptr) return;
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(std::min(model.px(160), 0.2F * ImGui::GetWindowWidth()));
+  if (!ImGui::BeginCombo("###panorama-scan-of-file", nameOf(panorama, panorama.scan).c_str())) return;
+  for (std::size_t i = 0; i < panorama.scans.size(); ++i)
+    if (ImGui::Selectable((nameOf(panorama, i) + "###scan-of-file" + std::to_string(i)).c_str(), i == panorama.scan))
+      actions.showPanorama(*cloud, i);
   ImGui::EndCombo();
 }
 
@@ -61,7 +81,7 @@ void chooseChannel(const Panorama& panorama, PanoramaState& state) {
     if (!there && state.channel == channel) state.channel = PanoramaChannel::range;
     ImGui::SameLine();
     ImGui::BeginDisabled(!there);
-    if (ImGui::RadioButton(ui::Label(name), state.channel == channel)) state.channel = channel;
+    if (ui::radioButton(ui::Label(name), state.channel == channel)) state.channel = channel;
     ImGui::EndDisabled();
     if (!there)
       ui::tooltip(channel == PanoramaChannel::colour ? "The scan has no colours" : "The scan has no intensities");
@@ -129,7 +149,7 @@ void draw(const Model& model, PanoramaState& state, Actions& actions) {
     ui::emptyState(model, ICON_EYE, "No panorama", "Scan from a station, or add a point cloud with its station.");
     return;
   }
-  chooseScan(model, actions);
+  chooseCloud(model, actions);
   const auto read = model.panorama.result();
   if (model.panorama.busy()) {
     ImGui::SameLine();
@@ -142,6 +162,7 @@ void draw(const Model& model, PanoramaState& state, Actions& actions) {
     ImGui::PopStyleColor();
   }
   if (!read) return;
+  chooseScanOfFile(model, actions, *read);
   chooseChannel(read->panorama, state);
   paint(state, read);
   if (state.channel != PanoramaChannel::colour) {

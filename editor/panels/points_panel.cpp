@@ -57,7 +57,7 @@ void drawCloud(const Model& model, Actions& actions, const InspectedCloud& cloud
     ImGui::SameLine();
   }
   if (ui::iconButton(ICON_GLOBE "###show-panorama", "Panorama: what its station saw", gone)) {
-    actions.showPanorama(cloud);
+    actions.showPanorama(cloud, {});
     actions.open(Workspace::inspect, "panorama");
   }
   ImGui::SameLine();
@@ -100,7 +100,7 @@ void drawPoses(const Model& model, Actions& actions) {
   const bool believed = model.view.poses == ScanPoses::solved;
   bool wanted = believed;
   ImGui::BeginDisabled(!registered);
-  if (ImGui::Checkbox(ui::Label("Solved poses"), &wanted))
+  if (ui::checkbox(ui::Label("Solved poses"), &wanted))
     actions.drawScansAt(wanted ? ScanPoses::solved : ScanPoses::truth);
   ImGui::EndDisabled();
   ui::tooltip(registered ? "Draws each scan where registration has its station, instead of where it was made"
@@ -129,7 +129,7 @@ void drawPoints(const Model& model, Actions& actions) {
   }
   drawPoses(model, actions);
   bool shaded = model.view.shaded_points;
-  if (ImGui::Checkbox(ui::Label("Shade by depth"), &shaded)) actions.run("shaded-points");
+  if (ui::checkbox(ui::Label("Shade by depth"), &shaded)) actions.run("shaded-points");
   ui::tooltip("Eye-dome lighting: edges of what lies in front are darkened while the view is at rest");
   ui::heading(model, trf("Clouds  {}", clouds.size()).c_str());
   drawTogether(model, actions, clouds);

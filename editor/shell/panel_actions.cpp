@@ -75,7 +75,9 @@ void PanelActions::showMeasurements(bool shown) { editor_.view.measurements = sh
 void PanelActions::clip(const ClipBox& box) { editor_.view.clip.box = box; }
 void PanelActions::colourPointsBy(ColourBy colour) { editor_.view.points_by = colour; }
 void PanelActions::pointSize(int pixels) { editor_.view.point_size_px = pixels; }
-void PanelActions::showPanorama(const InspectedCloud& cloud) { editor_.showPanorama(cloud); }
+void PanelActions::showPanorama(const InspectedCloud& cloud, std::optional<std::size_t> scan) {
+  editor_.showPanorama(cloud, scan);
+}
 void PanelActions::jumpTo(const Eigen::Vector3d& place, const Eigen::Vector3d& from) { editor_.jumpTo(place, from); }
 std::uint64_t PanelActions::texture(const std::shared_ptr<const PixelPicture>& picture) {
   return editor_.scene == nullptr ? 0 : editor_.scene->texture(picture);

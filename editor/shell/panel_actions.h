@@ -52,7 +52,7 @@ class PanelActions final : public Actions {
   void clip(const ClipBox& box) override;
   void colourPointsBy(ColourBy colour) override;
   void pointSize(int pixels) override;
-  void showPanorama(const InspectedCloud& cloud) override;
+  void showPanorama(const InspectedCloud& cloud, std::optional<std::size_t> scan) override;
   void jumpTo(const Eigen::Vector3d& place, const Eigen::Vector3d& from) override;
   std::uint64_t texture(const std::shared_ptr<const PixelPicture>& picture) override;
   void openFolderOf(const std::filesystem::path& file) override;

@@ -18,13 +18,15 @@ constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
 class PanoramaSink final : public PointSink {
  public:
-  PanoramaSink(Panorama& panorama, std::string wanted) : panorama_(panorama), wanted_(std::move(wanted)) {}
+  PanoramaSink(Panorama& panorama, std::optional<std::size_t> wanted) : panorama_(panorama), wanted_(wanted) {}
   Result<void> begin(const ScanHeader& header) override {
-    taking_ = !found_ && (wanted_.empty() ? stationOf(header).has_value() : header.name == wanted_);
+    const bool stands = stationOf(header).has_value();
+    panorama_.scans.push_back(header.name);
+    taking_ = !found_ && (wanted_ ? panorama_.scans.size() == *wanted_ + 1 : stands);
     if (!taking_) return {};
     found_ = true;
-    stands_ = stationOf(header).has_value();
-    panorama_.scan = header.name;
+    stands_ = stands;
+    panorama_.scan = panorama_.scans.size() - 1;
     panorama_.file_from_scanner = header.file_from_scanner;
     panorama_.has_intensity = header.intensity_max > header.intensity_min;
     const auto pixels = static_cast<std::size_t>(panorama_.width) * static_cast<std::size_t>(panorama_.height);
@@ -60,16 +62,17 @@ class PanoramaSink final : public PointSink {
 
  private:
   Panorama& panorama_;
-  std::string wanted_;
+  std::optional<std::size_t> wanted_;
   bool taking_ = false, found_ = false, stands_ = false;
 };
 
 // The pixels are somewhat fewer than the points, so that few stay empty.
-Result<int> fittingWidth(const CloudFormat& format, const std::filesystem::path& file, const std::string& scan) {
+Result<int> fittingWidth(const CloudFormat& format, const std::filesystem::path& file,
+                         std::optional<std::size_t> scan) {
   TRY_ASSIGN(const auto info, format.info(file));
   std::uint64_t points = 0;
-  for (const auto& s : info.scans)
-    if (scan.empty() || s.header.name == scan) points = std::max(points, s.points);
+  for (std::size_t i = 0; i < info.scans.size(); ++i)
+    if (!scan || i == *scan) points = std::max(points, info.scans[i].points);
   return std::clamp(static_cast<int>(0.8 * std::sqrt(2 * static_cast<double>(points))) / 2 * 2, 256, 3072);
 }
 
@@ -104,8 +107,8 @@ Result<Panorama> readPanorama(const std::filesystem::path& file, const PanoramaO
   panorama.height = panorama.width / 2;
   PanoramaSink sink(panorama, options.scan);
   TRY_ASSIGN(panorama.report, format->read(file, sink, progress));
-  if (!sink.found() && !options.scan.empty())
-    return failure(ErrorKind::unusable, "there is no scan '" + options.scan + "' in the file", file.string());
+  if (!sink.found() && options.scan)
+    return failure(ErrorKind::unusable, "the file has no scan " + std::to_string(*options.scan + 1), file.string());
   if (!sink.found() || !sink.stands())
     return failure(ErrorKind::unusable, "the file does not say where the scanner stood, so there is no panorama",
                    file.string());

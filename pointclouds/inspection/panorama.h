@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -21,8 +22,9 @@ namespace standpoint {
 // one turns to the right), the rows elevations from the zenith to the nadir. Of several points in a pixel the nearest
 // is kept.
 struct Panorama {
-  std::string scan;        // its name in the file
-  Pose file_from_scanner;  // frame of the cloud's file
+  std::size_t scan = 0;            // its place among the scans of the file
+  std::vector<std::string> scans;  // the names of all of them; "" where one has none
+  Pose file_from_scanner;          // frame of the cloud's file
   int width = 0, height = 0;
   std::vector<float> range_m;                       // by pixel; 0 where nothing came back
   std::vector<float> intensity;                     // 0..1 of what nearly all have; NaN: none
@@ -43,8 +45,8 @@ struct Panorama {
 };
 
 struct PanoramaOptions {
-  std::string scan;  // name; empty: the first that has a station
-  int width = 0;     // pixels, the height is half of it; 0: as fine as the points are, if they fill the sphere
+  std::optional<std::size_t> scan;  // its place in the file; nothing: the first that has a station
+  int width = 0;  // pixels, the height is half of it; 0: as fine as the points are, if they fill the sphere
 };
 
 // Reads the file once. Errors: no such scan, a cloud without a station (a LAS, a merged cloud), no points.

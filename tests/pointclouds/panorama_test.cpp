@@ -14,11 +14,7 @@ namespace {
 constexpr std::uint32_t kColumns = 128, kRows = 64;
 
 // A ball of 4 m around the station, farther where the azimuth is near 90°, in grey and colour by its height.
-void writeBall(const std::filesystem::path& file, const std::string& name, const Pose& pose) {
-  auto writer = e57::createWriter(file);
-  ASSERT_OK(writer);
-  auto header = testing::madeUpHeader({kRows, kColumns, true, false, name});
-  header.file_from_scanner = pose;
+PointBlock ball() {
   PointBlock block;
   for (std::uint32_t column = 0; column < kColumns; ++column)
     for (std::uint32_t row = 0; row < kRows; ++row) {
@@ -32,9 +28,20 @@ void writeBall(const std::filesystem::path& file, const std::string& name, const
       block.row.push_back(row), block.column.push_back(column);
       block.red.push_back(static_cast<std::uint8_t>(row)), block.green.push_back(7), block.blue.push_back(9);
     }
-  ASSERT_OK((*writer)->begin(header));
-  ASSERT_OK((*writer)->write(block));
-  ASSERT_OK((*writer)->end());
+  return block;
+}
+
+// A scan of it from each of the poses: S1, S2, …
+void writeBalls(const std::filesystem::path& file, const std::vector<Pose>& poses) {
+  auto writer = e57::createWriter(file);
+  ASSERT_OK(writer);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    auto header = testing::madeUpHeader({kRows, kColumns, true, false, "S" + std::to_string(i + 1)});
+    header.file_from_scanner = poses[i];
+    ASSERT_OK((*writer)->begin(header));
+    ASSERT_OK((*writer)->write(ball()));
+    ASSERT_OK((*writer)->end());
+  }
   ASSERT_OK((*writer)->close());
 }
 
@@ -62,11 +69,11 @@ TEST(Panorama, ShowsWhatLiesAheadInTheMiddleAndWhatLiesToTheLeftOnTheLeft) {
 
 TEST(Panorama, KeepsRangeIntensityAndColourAndLeadsBackToThePoint) {
   const TemporaryFolder folder;
-  writeBall(folder / "ball.e57", "S1", turned());
+  writeBalls(folder / "ball.e57", {turned()});
   Progress progress;
   const auto panorama = readPanorama(folder / "ball.e57", {.scan = {}, .width = 128}, progress);
   ASSERT_OK(panorama);
-  EXPECT_EQ(panorama->scan, "S1");
+  EXPECT_EQ(panorama->scans, std::vector<std::string>{"S1"});
   EXPECT_EQ(panorama->points, kColumns * kRows);
   const auto left = panorama->pixel({0, 1, 0}), ahead = panorama->pixel({1, 0.01, 0.01});
   EXPECT_NEAR(panorama->range_m[panorama->at(left.x(), left.y())], 7, 0.01);
@@ -80,7 +87,7 @@ TEST(Panorama, KeepsRangeIntensityAndColourAndLeadsBackToThePoint) {
 
 TEST(Panorama, IsAsFineAsThePointsAllow) {
   const TemporaryFolder folder;
-  writeBall(folder / "ball.e57", "S1", turned());
+  writeBalls(folder / "ball.e57", {turned()});
   Progress progress;
   const auto panorama = readPanorama(folder / "ball.e57", {}, progress);
   ASSERT_OK(panorama);
@@ -89,7 +96,7 @@ TEST(Panorama, IsAsFineAsThePointsAllow) {
 
 TEST(Panorama, ShadesFromWhatNearlyAllHaveAtLeastToWhatNearlyAllHaveAtMost) {
   const TemporaryFolder folder;
-  writeBall(folder / "ball.e57", "S1", turned());
+  writeBalls(folder / "ball.e57", {turned()});
   Progress progress;
   const auto panorama = readPanorama(folder / "ball.e57", {.scan = {}, .width = 128}, progress);
   ASSERT_OK(panorama);
@@ -103,11 +110,29 @@ TEST(Panorama, ShadesFromWhatNearlyAllHaveAtLeastToWhatNearlyAllHaveAtMost) {
   EXPECT_LT(intensity.shade[panorama->at(low.x(), low.y())], intensity.shade[panorama->at(high.x(), high.y())]);
 }
 
+TEST(Panorama, IsOfAnyScanOfAFile) {
+  const TemporaryFolder folder;
+  Pose other;
+  other.translation = {3, 2, 1};
+  writeBalls(folder / "balls.e57", {turned(), other});
+  Progress progress;
+  const auto first = readPanorama(folder / "balls.e57", {.scan = {}, .width = 128}, progress);
+  ASSERT_OK(first);
+  EXPECT_EQ(first->scan, 0U);
+  EXPECT_EQ(first->scans, (std::vector<std::string>{"S1", "S2"}));
+  EXPECT_EQ(first->file_from_scanner.translation, turned().translation);
+  const auto second = readPanorama(folder / "balls.e57", {.scan = 1, .width = 128}, progress);
+  ASSERT_OK(second);
+  EXPECT_EQ(second->scan, 1U);
+  EXPECT_EQ(second->points, kColumns * kRows);
+  EXPECT_EQ(second->file_from_scanner.translation, other.translation);
+}
+
 TEST(Panorama, RefusesAScanThatIsNotThereAndAFileThatIsNone) {
   const TemporaryFolder folder;
-  writeBall(folder / "ball.e57", "S1", turned());
+  writeBalls(folder / "ball.e57", {turned()});
   Progress progress;
-  EXPECT_FALSE(readPanorama(folder / "ball.e57", {.scan = "S9", .width = 128}, progress));
+  EXPECT_FALSE(readPanorama(folder / "ball.e57", {.scan = 1, .width = 128}, progress));
   EXPECT_FALSE(readPanorama(folder / "gone.e57", {}, progress));
   EXPECT_FALSE(readPanorama(folder / "ball.txt", {}, progress));
 }
