@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/environment.h"
 #include "editor/desktop/file_list.h"
 #include "editor/model/option_form.h"
 #include "editor/recovery/left_work.h"
@@ -44,6 +47,12 @@ struct PaletteState {
   bool shown = false;  // it has been drawn
   std::string query;
   int chosen = 0;
+  // The products that were found last: of which model, by which words.
+  struct {
+    std::shared_ptr<const Environment> environment;
+    std::string words;
+    std::vector<std::uint32_t> products;
+  } found;
 };
 
 struct DialogStates {

@@ -67,16 +67,17 @@ void drawSetting(ScanChoice& asked, const InstrumentSetting& setting) {
   const auto value =
       std::find_if(asked.settings.begin(), asked.settings.end(), [&](const auto& s) { return s.first == setting.key; });
   if (value == asked.settings.end()) return;
-  ui::propertyLabel(setting.label);  // the device's own word
+  ui::propertyLabel(tr(setting.label));  // the device's own word
   const auto current = std::find_if(setting.choices.begin(), setting.choices.end(),
                                     [&](const SettingChoice& c) { return c.value == value->second; });
-  const std::string shown = current == setting.choices.end() ? value->second : current->label;
+  const std::string shown = current == setting.choices.end() ? value->second : tr(current->label);
   ImGui::PushID(setting.key.c_str());
   if (setting.choices.empty()) {
     drawNumber(setting, value->second);
   } else if (ImGui::BeginCombo("###value", shown.c_str())) {
     for (const auto& choice : setting.choices)
-      if (ImGui::Selectable(fmt::format("{}###{}", choice.label, choice.value).c_str(), choice.value == value->second))
+      if (ImGui::Selectable(fmt::format("{}###{}", tr(choice.label), choice.value).c_str(),
+                            choice.value == value->second))
         value->second = choice.value;
     ImGui::EndCombo();
   }

@@ -29,8 +29,8 @@ struct Entry {
   std::function<void()> run;
 };
 
-bool matches(const Entry& entry, const std::string& query) {
-  const std::string all = withoutCase(entry.title + " " + entry.detail);
+bool matches(const std::string& text, const std::string& query) {
+  const std::string all = withoutCase(text);
   std::istringstream words(withoutCase(query));
   for (std::string word; words >> word;)
     if (all.find(word) == std::string::npos) return false;
@@ -107,38 +107,51 @@ std::vector<Entry> bookmarks(Editor& editor) {
   return all;
 }
 
-// Of a building with ten thousand, as many as anybody reads; asked in every frame, so that no others are made.
-std::vector<Entry> products(Editor& editor, const std::string& query) {
+// Of a building with ten thousand, as many as anybody reads; looked for when the words change, not in every frame.
+const std::vector<std::uint32_t>& foundProducts(Editor& editor, const std::string& words) {
   constexpr std::size_t kMost = 200;
-  std::vector<Entry> all;
+  auto& found = editor.dialogs.palette.found;
   const auto& environment = editor.environment();
-  if (!environment) return all;
-  for (std::uint32_t p = 0; p < environment->products.size() && all.size() < kMost; ++p) {
+  if (found.environment == environment && found.words == words) return found.products;
+  found = {environment, words, {}};
+  for (std::uint32_t p = 0; environment && p < environment->products.size() && found.products.size() < kMost; ++p) {
     const auto& product = environment->products[p];
-    if (!product.inScene()) continue;
-    Entry entry{fmt::format("product-{}", p), ICON_CUBE, productLabel(product), product.storey, "", [&editor, p] {
-                  rememberView(editor);
-                  stopFlying(editor);
-                  stopWalking(editor);
-                  editor.select(p, true);
-                  editor.frameSelection();
-                }};
-    if (matches(entry, query)) all.push_back(std::move(entry));
+    if (product.inScene() && matches(productLabel(product) + " " + product.storey, words)) found.products.push_back(p);
+  }
+  return found.products;
+}
+
+std::vector<Entry> products(Editor& editor, const std::string& words) {
+  std::vector<Entry> all;
+  for (const auto p : foundProducts(editor, words)) {
+    const auto& product = editor.environment()->products[p];
+    all.push_back({fmt::format("product-{}", p), ICON_CUBE, productLabel(product), product.storey, "", [&editor, p] {
+                     rememberView(editor);
+                     stopFlying(editor);
+                     stopWalking(editor);
+                     editor.select(p, true);
+                     editor.frameSelection();
+                   }});
   }
   return all;
 }
 
-// "@" jumps to rooms and storeys, "#" to stations, "*" to bookmarks, "/" to products.
+// Commands first, then the places and things of the project. "@" asks for rooms and storeys alone, "#" for stations,
+// "*" for bookmarks, "/" for products; without a word there are commands alone.
 std::vector<Entry> matching(Editor& editor, const std::string& query) {
-  const bool jumps = !query.empty() && std::string_view("@#*/").find(query[0]) != std::string_view::npos;
-  const std::string words = jumps ? query.substr(1) : query;
-  if (jumps && query[0] == '/') return products(editor, words);
+  const char kind = query.empty() || std::string_view("@#*/").find(query[0]) == std::string_view::npos ? 0 : query[0];
+  const std::string words = kind == 0 ? query : query.substr(1);
   std::vector<Entry> shown;
-  for (auto& entry : !jumps            ? entries(editor)
-                     : query[0] == '@' ? roomsAndStoreys(editor)
-                     : query[0] == '#' ? stations(editor)
-                                       : bookmarks(editor))
-    if (matches(entry, words)) shown.push_back(std::move(entry));
+  const auto add = [&](std::vector<Entry> found) {
+    for (auto& entry : found)
+      if (matches(entry.title + " " + entry.detail, words)) shown.push_back(std::move(entry));
+  };
+  const auto wanted = [&](char own) { return kind == own || (kind == 0 && !words.empty()); };
+  if (kind == 0) add(entries(editor));
+  if (wanted('@')) add(roomsAndStoreys(editor));
+  if (wanted('#')) add(stations(editor));
+  if (wanted('*')) add(bookmarks(editor));
+  if (wanted('/')) add(products(editor, words));
   return shown;
 }
 
@@ -167,7 +180,7 @@ void drawEntry(Editor& editor, const Entry& entry, bool chosen, bool& done) {
 
 }  // namespace
 
-void openPalette(Editor& editor) { editor.dialogs.palette = {true, false, "", 0}; }
+void openPalette(Editor& editor) { editor.dialogs.palette = {.open = true}; }
 
 void drawPalette(Editor& editor) {
   auto& state = editor.dialogs.palette;
@@ -184,7 +197,7 @@ void drawPalette(Editor& editor) {
   if (ImGui::IsWindowAppearing()) ui::focusNext();
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (ImGui::InputTextWithHint("###query",
-                               tr("Search commands; @ rooms and storeys, # stations, * bookmarks, / products").c_str(),
+                               tr("Search; only @ rooms and storeys, # stations, * bookmarks, / products").c_str(),
                                &state.query))
     state.chosen = 0;
   const bool enter = keyboard::pressed(kKeyEnter);

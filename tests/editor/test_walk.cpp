@@ -199,6 +199,8 @@ TEST_F(Walking, JumpsToARoomAndToAStationByName) {
   choose("#S2");
   EXPECT_NEAR((editor.walk.feet() - Eigen::Vector3d(7.5, 5, 0)).norm(), 0, 0.05) << editor.walk.feet().transpose();
   EXPECT_EQ(walkPlaceName(editor), "Ground floor");
+  choose("living room");  // as anybody asks who does not know the signs
+  EXPECT_EQ(walkPlaceName(editor), "Living room · Ground floor");
 }
 
 TEST_F(Walking, OpensTheDoorAheadAndClosesItBehindWithoutChangingTheDocument) {
