@@ -31,6 +31,7 @@ struct FileDialogState {
   FileListing listing;
   bool stale = true;  // the folder must be read again
   bool confirm_overwrite = false;
+  bool focus_name = false;  // the name takes the keyboard in the next frame
   std::function<void(const std::filesystem::path&)> done;
   std::function<void()> cancelled;
 };

@@ -356,7 +356,8 @@ void actionMenuItem(Editor& editor, const char* id) {
     title = trf("Undo: {}", trSentence(editor.session.history().undoDescription()));
   if (std::strcmp(id, "redo") == 0 && why.empty())
     title = trf("Redo: {}", trSentence(editor.session.history().redoDescription()));
-  if (ui::menuItem(action.icon, title + "###" + id, shortcutText(action.shortcut).c_str(), why)) action.run(editor);
+  const char* const icon = action.on != nullptr && action.on(editor) ? ICON_CHECK : action.icon;
+  if (ui::menuItem(icon, title + "###" + id, shortcutText(action.shortcut).c_str(), why)) action.run(editor);
 }
 
 void actionToolButton(Editor& editor, const char* id) {

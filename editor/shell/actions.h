@@ -22,6 +22,7 @@ struct Action {
   Shortcut shortcut;
   void (*run)(Editor&);
   std::string (*why_not)(const Editor&);  // null = always possible; else "" or the reason
+  bool (*on)(const Editor&) = nullptr;    // of a switch, or a choice of several: it is ticked
 };
 
 std::span<const Action> actions();

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <ctime>
+#include <utility>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -13,6 +14,7 @@
 #include "editor/shell/editor.h"
 #include "editor/shell/import_preview.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/keyboard.h"
 #include "editor/widgets/modal.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
@@ -37,8 +39,15 @@ void enter(FileDialogState& state, const std::filesystem::path& folder) {
 
 bool forWriting(const FileDialogState& s) { return s.purpose == Purpose::saveFile || s.purpose == Purpose::saveFolder; }
 
+std::filesystem::path homeFolder() {
+  const char* home = std::getenv("HOME");
+  return home != nullptr && *home != 0 ? home : "/";
+}
+
+// A name may also be a path, from the folder, from / or from the home folder.
 std::filesystem::path chosenPath(const FileDialogState& state) {
   if (state.name.empty()) return state.folder;
+  if (state.name.starts_with("~/")) return homeFolder() / state.name.substr(2);
   return state.folder / state.name;
 }
 
@@ -53,7 +62,8 @@ std::string whyNotAccept(const FileDialogState& state) {
     case Purpose::saveFile:
     case Purpose::saveFolder:
       if (state.name.empty()) return "Enter a name";
-      return state.name.find('/') == std::string::npos ? "" : "A name cannot contain '/'";
+      if (!path.has_filename()) return "Enter a name after the '/'";
+      return std::filesystem::is_directory(path.parent_path(), ignored) ? "" : "Folder not found";
   }
   return {};
 }
@@ -76,15 +86,10 @@ void accept(Editor& editor) {
     return;
   }
   const auto path = chosenPath(state);
-  editor.settings.last_folder = state.folder.string();
+  editor.settings.last_folder = (forWriting(state) ? path.parent_path() : state.folder).string();
   state.open = false;
   ImGui::CloseCurrentPopup();
   if (state.done) state.done(path);
-}
-
-std::filesystem::path homeFolder() {
-  const char* home = std::getenv("HOME");
-  return home != nullptr && *home != 0 ? home : "/";
 }
 
 void drawPathLine(FileDialogState& state) {
@@ -178,15 +183,21 @@ void drawFooter(Editor& editor) {
   ui::dimText("Name");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 2 * (button + ImGui::GetStyle().ItemSpacing.x));
-  const bool entered = ImGui::InputText("###name", &state.name, ImGuiInputTextFlags_EnterReturnsTrue);
+  if (std::exchange(state.focus_name, false)) ui::focusNext();
+  const bool untouched = state.name == state.offered;
+  const bool entered = ImGui::InputText("###name", &state.name,
+                                        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   if (ImGui::IsItemEdited()) state.confirm_overwrite = false;
+  // The field has the keyboard from the start: Esc leaves it, and the dialog, too, as long as nothing was typed.
+  const bool left = untouched && ImGui::IsItemDeactivated() && keyboard::pressed(kKeyEscape);
   ImGui::SameLine();
   const std::string label = state.confirm_overwrite ? "Replace" : state.accept;
   const auto why = whyNotAccept(state);
   if (ui::primaryButton((label + "###accept").c_str(), why, {button, 0}) || (entered && why.empty())) accept(editor);
+  if (entered && state.open) state.focus_name = true;  // refused, or asked once more
   ImGui::SameLine();
   const bool typed = forWriting(state) && state.name != state.offered;
-  if ((ui::button("Cancel", {}, {button, 0}) || ui::modalCancelled(typed)) && state.open) {
+  if ((ui::button("Cancel", {}, {button, 0}) || left || ui::modalCancelled(typed)) && state.open) {
     state.open = false;
     ImGui::CloseCurrentPopup();
     if (const auto cancelled = state.cancelled) cancelled();
@@ -233,6 +244,7 @@ void askForFile(Editor& editor, Purpose purpose, std::string title, std::string 
   if (start.empty() || !std::filesystem::is_directory(start, ignored)) start = std::filesystem::current_path(ignored);
   enter(state, start);
   state.name = state.offered = std::move(name);
+  state.focus_name = forWriting(state);
 }
 
 void askForProject(Editor& editor) {

@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 #include "editor/desktop/clipboard_picture.h"
+#include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
 #include "editor/widgets/icons.h"
@@ -211,9 +212,10 @@ void drawMade(Editor& editor, ShotDialog& dialog) {
 
 void askForFileThenBegin(Editor& editor) {
   const auto& row = rowOf(editor.shots.kind);
+  const std::string title = tr(findAction(row.id)->title);  // "Save turntable film…"
   auto extensions = row.film ? std::vector<std::string>{".mp4"} : std::vector<std::string>{".png", ".jpg"};
-  askForFile(editor, FileDialogState::Purpose::saveFile, trf("Save {}", tr(row.title)), "Save", std::move(extensions),
-             fmt::format("{}-{}{}", editor.session.name(), row.id, row.extension),
+  askForFile(editor, FileDialogState::Purpose::saveFile, title.substr(0, title.find("…")), "Save",
+             std::move(extensions), fmt::format("{}-{}{}", editor.session.name(), row.id, row.extension),
              [&editor](const std::filesystem::path& chosen) { begin(editor, chosen); });
 }
 

@@ -257,7 +257,7 @@ Result<Answered<ImportAnswer>> importModels(const Document& document, const std:
                     georeference,
                     {}};
   outcome.description = fmt::format("Imported {}: {} products, {} triangles", files.front().filename().string(),
-                                    environment.products.size(), triangleCount(environment));
+                                    environment.products.size(), sceneTriangleCount(environment));
   outcome.document.imported = std::make_shared<const Environment>(std::move(environment));
   outcome.document.georeference = std::make_shared<const Georeference>(std::move(georeference));
   outcome.document.import_report = std::make_shared<const Report>(outcome.report);

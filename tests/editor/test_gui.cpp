@@ -14,9 +14,11 @@
 #include "editor/panels/outliner_panel.h"
 #include "editor/panels/panels.h"
 #include "editor/shell/actions.h"
+#include "editor/shell/dialogs.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "item_probe.h"
+#include "tests/temporary_folder.h"
 
 namespace standpoint {
 namespace {
@@ -194,6 +196,22 @@ TEST(Actions, HaveAnIdAndKeysOfTheirOwn) {
   }
 }
 
+TEST_F(Gui, TicksSwitchesThatAreOnAndTheChoiceThatHolds) {
+  open();
+  int ticked = 0;
+  for (const auto& action : actions()) {
+    if (action.on == nullptr || !whyNot(action, editor).empty()) continue;
+    ++ticked;
+    const bool before = action.on(editor);
+    action.run(editor);
+    const bool once = action.on(editor);
+    action.run(editor);
+    const bool twice = action.on(editor);
+    EXPECT_TRUE((once && twice) || (once != before && twice == before)) << action.id;
+  }
+  EXPECT_GT(ticked, 15);
+}
+
 TEST_F(Gui, FindsAnActionInThePaletteByWords) {
   open();
   gui.key('P', true);
@@ -203,6 +221,24 @@ TEST_F(Gui, FindsAnActionInThePaletteByWords) {
   gui.key(kEnter);
   EXPECT_FALSE(editor.dialogs.palette.open);
   EXPECT_TRUE(editor.view.camera.forward().isApprox(-Eigen::Vector3d::UnitZ(), 1e-9));
+}
+
+TEST_F(Gui, SavesWhereATypedPathSaysWithoutAClick) {
+  open();
+  const TemporaryFolder folder;
+  std::filesystem::path chosen;
+  askForFile(editor, FileDialogState::Purpose::saveFile, "Save", "Save", {".png"}, "house.png",
+             [&](const auto& path) { chosen = path; });
+  gui.frames(3);
+  gui.type((folder.path() / "gone" / "a.png").string());
+  gui.key(kEnter);
+  EXPECT_TRUE(editor.dialogs.file.open) << "there is no such folder";
+  gui.key('A', true);
+  gui.type((folder.path() / "a.png").string());
+  gui.key(kEnter);
+  EXPECT_FALSE(editor.dialogs.file.open);
+  EXPECT_EQ(chosen, folder.path() / "a.png");
+  EXPECT_EQ(editor.settings.last_folder, folder.path().string());
 }
 
 TEST_F(Gui, AsksBeforeUnsavedChangesAreLost) {
