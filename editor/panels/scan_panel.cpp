@@ -177,7 +177,7 @@ void drawForecast(const Model& model, const ScanState& state, const ScanChoice& 
   ui::property("Pulses per station", trf("{:.1f} million,  {} × {}",
                                          static_cast<double>(settings.columns) * settings.rows * settings.passes / 1e6,
                                          settings.columns, settings.rows));
-  ui::property("Range", fmt::format("{:.1f} – {:.0f} m", instrument.min_range_m, settings.max_range_m));
+  ui::property("Working range", fmt::format("{:.1f} – {:.0f} m", instrument.min_range_m, settings.max_range_m));
   ui::property("Wavelength", fmt::format("{:.0f} nm", instrument.wavelength_nm));
   ui::endProperties();
 }

@@ -23,7 +23,9 @@ namespace standpoint {
 struct Layer {
   vtkNew<vtkPolyDataMapper> mapper;
   vtkNew<vtkActor> actor;
-  bool filled = false;  // there is something to be drawn
+  bool filled = false;    // there is something to be drawn
+  bool revealed = false;  // and it is to be drawn
+  bool spared = false;    // but not in this picture
   std::vector<ClipPlane> cut_by;
 
   // How it is drawn, to be said once. Flat surfaces in the colours of their triangles; what has a smaller `offset` lies
@@ -37,11 +39,18 @@ struct Layer {
   void set(vtkPolyData* data, bool empty);
   // The same triangles in other colours: their places stay where the graphics card has them.
   void paint(const std::vector<Rgba>& colours);
-  void hide() { actor->SetVisibility(0); }
   // What of it lies beyond one of at most six planes is not drawn. Each change of a mapper's planes makes its buffers
   // anew.
   void cut(const std::vector<ClipPlane>& kept);
-  void reveal(bool shown) { actor->SetVisibility(shown && filled ? 1 : 0); }
+  void reveal(bool shown) {
+    revealed = shown;
+    actor->SetVisibility(revealed && filled && !spared ? 1 : 0);
+  }
+  void hide() { reveal(false); }
+  void spare(bool in_this_picture) {
+    spared = in_this_picture;
+    reveal(revealed);
+  }
 };
 
 // Squares of 1 m and, where the model is large, of 10 m; they fade towards the rim.

@@ -166,6 +166,10 @@ void ModelPieces::setLineWidth(float pixels) {
   for (const auto& piece : pieces_) piece->edges.actor->GetProperty()->SetLineWidth(pixels);
 }
 
+void ModelPieces::spareEdges(bool spared) {
+  for (const auto& piece : pieces_) piece->edges.spare(spared);
+}
+
 void ModelPieces::forEachLayer(const std::function<void(Layer&)>& act) {
   for (const auto& piece : pieces_) {
     for (Layer* layer :

@@ -33,6 +33,7 @@ class ModelPieces {
   void addTransparent() const;
   void addEdges() const;
   void setLineWidth(float pixels);
+  void spareEdges(bool spared);
   void forEachLayer(const std::function<void(Layer&)>& act);
 
  private:

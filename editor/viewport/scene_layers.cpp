@@ -95,6 +95,11 @@ void SceneLayers::setPixels(int factor) {
   outline_.actor->GetProperty()->SetLineWidth(static_cast<float>(2 * factor));
 }
 
+void SceneLayers::spareLines(bool spared) {
+  model_.spareEdges(spared);
+  for (Layer* layer : {&grid_, &door_edges_}) layer->spare(spared);
+}
+
 void SceneLayers::updateDoors(const ViewState& state) {
   for (Layer* layer : {&doors_, &door_glass_, &door_edges_}) layer->hide();
   if (!state.doors || state.shapes || state.cloud) return;

@@ -247,6 +247,7 @@ class VtkSceneView : public SceneView {
     layers_.setPixels(factor_);
     const ViewState* last = drawn_ ? &*drawn_ : nullptr;
     layers_.update(state, last);
+    layers_.spareLines(!fine && sparesLines(state));
     if (last == nullptr || last->cloud != state.cloud || last->cloud_paint != state.cloud_paint ||
         last->underlays != state.underlays)
       points_.update(state);
@@ -260,6 +261,12 @@ class VtkSceneView : public SceneView {
     }
     window_->Render();
     drawn_ = state;
+  }
+
+  // A processor takes longer over thousands of lines than over the surfaces between them.
+  bool sparesLines(const ViewState& state) const {
+    return state.graphics.level == GraphicsLevel::low && drawn_ && !(drawn_->camera == state.camera) &&
+           drawnByProcessor();
   }
 
   PointLens pointLens(const Camera& camera) {

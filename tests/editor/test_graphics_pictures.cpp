@@ -230,6 +230,26 @@ TEST_F(Levels, SmoothTheEdgesInMotionFromMediumOn) {
   EXPECT_GT(greys(draw(false)), stepped + 100);
 }
 
+TEST_F(Levels, SpareTheLinesInMotionAtTheLowestWhereAProcessorDraws) {
+  if (!view().means().by_processor) GTEST_SKIP() << "a graphics card draws here";
+  state.graphics.level = GraphicsLevel::low;
+  const auto drawnInMotion = [&](bool lines) {
+    state.edges = state.grid = lines;
+    state.camera.azimuth_rad = 0.3;
+    draw(false);
+    state.camera.azimuth_rad = 0;
+    return draw(false).rgba;
+  };
+  const auto drawnAtRest = [&](bool lines) {
+    drawnInMotion(lines);
+    return draw(true).rgba;
+  };
+  EXPECT_EQ(drawnInMotion(true), drawnInMotion(false));
+  EXPECT_NE(drawnAtRest(true), drawnAtRest(false));
+  state.graphics.level = GraphicsLevel::medium;
+  EXPECT_NE(drawnInMotion(true), drawnInMotion(false));
+}
+
 TEST_F(Levels, DropWhatIsRefinedAtOnceWhenTheCameraMoves) {
   state.graphics.level = GraphicsLevel::high;
   draw(false);
