@@ -24,7 +24,7 @@ class SceneLayers {
   bool building() const { return model_.building(); }  // more comes with another update to the same state
   // On the terrain of the model; an empty one takes it away.
   void cast(const ViewState& state, const GroundShadow& shadow);
-  void setPixels(int factor);  // of the picture that is drawn, for each of the picture that is seen
+  void setPixels(int factor);    // of the picture that is drawn, for each of the picture that is seen
   void spareLines(bool spared);  // edges of the model and the grid, in pictures to come
   const Bounds& bounds() const { return bounds_; }  // of the environment
 
