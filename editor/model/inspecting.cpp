@@ -88,7 +88,7 @@ void Model::followPointColours() {
     view.points_by = ColourBy::natural;
     return;
   }
-  point_painter.follow({cloud_, cloud_->points, &cloud_->header, view.points_by, environment(), shift_m()}, wake);
+  point_painter.follow({cloud_, cloud_->points, &cloud_->header, view.points_by, environment(), cloud_->shift_m}, wake);
 }
 
 const PointLegend* Model::pointLegend() const {

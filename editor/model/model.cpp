@@ -58,19 +58,38 @@ void Model::showClouds(const std::vector<std::filesystem::path>& files) {
   show(nullptr);
   live_.reset();
   cloud_loader_.drop();
-  if (!files.empty()) cloud_loader_.start(files, shift_m(), wake);
+  if (files.empty()) return;
+  const auto underlay = files.size() == 1 ? underlayOf(files.front()) : nullptr;
+  cloud_loader_.start(files, underlay ? shiftOf(*underlay) : shift_m(), wake);
+}
+
+std::shared_ptr<const Underlay> Model::underlayOf(const std::filesystem::path& file) const {
+  const auto& underlays_of = session.document().underlays;
+  const auto at =
+      std::find_if(underlays_of.begin(), underlays_of.end(), [&](const auto& u) { return u->file == file; });
+  return at == underlays_of.end() ? nullptr : *at;
+}
+
+// Read so, an underlay is about where it stands, and turned about the local origin it is just there: what is far away
+// in its file is not far away in a float.
+Eigen::Vector3d Model::shiftOf(const Underlay& underlay) const {
+  const Eigen::Vector3d local_origin = shift_m() - underlay.file_from_cloud.translation;
+  return underlay.file_from_cloud.rotation.conjugate() * local_origin;
 }
 
 void Model::show(std::shared_ptr<const Cloud> cloud) {
   read_ = cloud_ = std::move(cloud);
   solved_by_.reset();
+  placed_as_.reset();
 }
 
 void Model::followPoses() {
   const auto& job = session.document().job;
   const auto wanted = view.poses == ScanPoses::solved && job && hasSolvedPose(*job) ? job : nullptr;
   if (!wanted) view.poses = ScanPoses::truth;
-  if (!read_ || live_ || solved_by_ == wanted) return;
+  if (!read_ || live_) return;
+  if (const auto underlay = underlayOf(read_->file)) return place(underlay);
+  if (solved_by_ == wanted) return;
   solved_by_ = wanted;
   if (!wanted) {
     cloud_ = read_;
@@ -78,6 +97,18 @@ void Model::followPoses() {
   }
   const auto files = read_->files.empty() ? std::span(&read_->file, 1) : std::span(read_->files);
   cloud_ = std::make_shared<const Cloud>(moved(*read_, solvedMoves(*wanted, read_->header, shift_m(), files)));
+}
+
+// One that has been moved since it was read is read again.
+void Model::place(const std::shared_ptr<const Underlay>& underlay) {
+  constexpr double kSame_m = 1e-6;
+  if (placed_as_ == underlay) return;
+  if ((read_->shift_m - shiftOf(*underlay)).norm() > kSame_m) return showClouds({underlay->file});
+  placed_as_ = underlay;
+  const Pose turn{underlay->file_from_cloud.rotation, {0, 0, 0}};
+  const bool turned = turn.rotation.angularDistance(Eigen::Quaterniond::Identity()) > 0;
+  cloud_ = turned ? std::make_shared<const Cloud>(moved(*read_, std::vector<Pose>(read_->header.stations.size(), turn)))
+                  : read_;
 }
 
 bool Model::startScan(const ScanVerbOptions& options, std::string title) {

@@ -263,8 +263,9 @@ struct Model : Style {
   ViewState originalState() const;  // of the model as it was imported
   // What the probe's instrument gets from the model and its materials; null until picking is ready.
   std::shared_ptr<const Expectation> expectation();
-  // Shows a scan's points instead of the model, once they are read; an empty path goes back to the model.
-  void showClouds(const std::vector<std::filesystem::path>& files);  // one, several together, or none
+  // Shows the points of a scan, of several together or of an underlay instead of the model, once they are read; none
+  // goes back to the model.
+  void showClouds(const std::vector<std::filesystem::path>& files);
   const std::shared_ptr<const Cloud>& cloud() const { return cloud_; }
   // Starts the verb `scan`; its points are shown instead of the model as they come.
   bool startScan(const ScanVerbOptions& options, std::string title);
@@ -312,6 +313,9 @@ struct Model : Style {
   void followCloud();
   void show(std::shared_ptr<const Cloud> cloud);  // null: the model
   void followPoses();
+  void place(const std::shared_ptr<const Underlay>& underlay);
+  std::shared_ptr<const Underlay> underlayOf(const std::filesystem::path& file) const;  // null: it is none
+  Eigen::Vector3d shiftOf(const Underlay& underlay) const;                              // that it is read with
   void lookForClouds();
   bool followModel(const Environment& before, const Environment& after);  // false when they have no product in common
   Bounds boundsOfVisible(bool with_terrain) const;                        // of the model
@@ -321,6 +325,7 @@ struct Model : Style {
   CloudLoader cloud_loader_;
   std::shared_ptr<const Cloud> read_, cloud_;  // as its file has it, and as it is shown
   std::shared_ptr<const Job> solved_by_;       // that cloud_ is moved by; null: it is not
+  std::shared_ptr<const Underlay> placed_as_;  // that cloud_ is; null: none, or it is not turned yet
   std::vector<std::filesystem::path> missing_clouds_;
   std::chrono::steady_clock::time_point looked_for_clouds_;
   std::filesystem::path live_file_;              // that the scan is written to

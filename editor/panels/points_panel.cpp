@@ -50,12 +50,10 @@ void drawCloud(const Model& model, Actions& actions, const InspectedCloud& cloud
   const std::string gone = there ? std::string() : trf("The file is missing: {}", cloud.file.string());
   const bool shown = model.cloud() && model.cloud()->file == cloud.file;
   ui::fitted(cloud.label, ImGui::GetContentRegionAvail().x);
-  if (cloud.station >= 0) {
-    if (ui::iconButton(shown ? ICON_EYE_OFF "###show-points" : ICON_EYE "###show-points",
-                       shown ? "Return to the model" : "Show its points instead of the model", gone, shown))
-      actions.showScans(shown ? Files() : Files{cloud.file});
-    ImGui::SameLine();
-  }
+  if (ui::iconButton(shown ? ICON_EYE_OFF "###show-points" : ICON_EYE "###show-points",
+                     shown ? "Return to the model" : "Show its points instead of the model", gone, shown))
+    actions.showScans(shown ? Files() : Files{cloud.file});
+  ImGui::SameLine();
   if (ui::iconButton(ICON_GLOBE "###show-panorama", "Panorama: what its station saw", gone)) {
     actions.showPanorama(cloud, {});
     actions.open(Workspace::inspect, "panorama");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -188,6 +189,41 @@ TEST_F(Inspect, ScansAreShownTogetherAndWhereRegistrationBelievesThemToBe) {
   ASSERT_TRUE(gui.click("###show-together"));
   gui.settle();
   EXPECT_FALSE(editor.cloud()) << "back to the model";
+}
+
+Eigen::Vector3d placeOf(const Cloud& cloud, std::size_t point) {
+  const auto& p = cloud.points.at(point).position_m;
+  return cloud.header.origin_m - cloud.shift_m + Eigen::Vector3d(p[0], p[1], p[2]);
+}
+
+TEST_F(Inspect, AnUnderlayIsShownInsteadOfTheModelWhereItStandsHoweverFarItsFileLies) {
+  const TemporaryFolder folder;
+  const Eigen::Vector3d scanner(4500000.25, 5300000.5, 112.75), wanted(2, 3, 1);
+  Underlay underlay{.name = "Old scan", .file = folder.write("old.ptx", ptxAt(scanner)).string(), .points = 2};
+  Document document = editor.session.document();
+  document.job = nullptr;
+  const auto placeAt = [&](const Eigen::Vector3d& local, double yaw_rad) {
+    underlay.file_from_cloud.rotation = Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ());
+    underlay.file_from_cloud.translation = local + editor.shift_m() - underlay.file_from_cloud.rotation * scanner;
+    document.underlays = {std::make_shared<const Underlay>(underlay)};
+    return editor.session.adopt({document, {}, {}, "placed"});
+  };
+  ASSERT_TRUE(placeAt(wanted, std::numbers::pi / 2));
+  editor.wanted_tab[0] = "points";
+  gui.frames(3);
+  ASSERT_TRUE(gui.click("###show-points"));
+  gui.settle();
+  ASSERT_TRUE(editor.cloud());
+  ASSERT_EQ(editor.cloud()->points.size(), 2u);
+  // The scanner's X is the model's Y now.
+  EXPECT_LT((placeOf(*editor.cloud(), 0) - wanted - Eigen::Vector3d(0, 1, 0)).norm(), 1e-5);
+  EXPECT_LT((placeOf(*editor.cloud(), 1) - wanted + Eigen::Vector3d(1, 0, 0)).norm(), 1e-5);
+
+  ASSERT_TRUE(placeAt(wanted + Eigen::Vector3d(0, 0, 4), 0));
+  gui.frames(2);
+  gui.settle();
+  ASSERT_TRUE(editor.cloud()) << "it is shown still";
+  EXPECT_LT((placeOf(*editor.cloud(), 0) - wanted - Eigen::Vector3d(1, 0, 4)).norm(), 1e-5);
 }
 
 TEST_F(Inspect, AWallIsPickedOnlyWhereThereIsACloudAndElseSaysWhy) {
