@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -44,12 +45,18 @@ Eigen::Vector2d pointer(ImVec2 origin) {
 }
 
 // The point that a drag turns around: what is under the pointer, else the camera's target.
-void startDrag(Editor& editor) {
+void startDrag(Editor& editor, ImVec2 origin) {
   auto& view = editor.view;
   view.dragging = true;
   view.camera_before_drag = view.camera;
   view.dragged = false;
-  view.pivot = view.hover ? view.hover->position : view.camera.target;
+  constexpr double kReach_px = 6;
+  std::optional<Eigen::Vector3d> under;
+  if (view.hover)
+    under = view.hover->position;
+  else if (editor.cloud())
+    under = editor.measurableAt(rayThrough(view.camera, pointer(origin), view.size), kReach_px);
+  view.pivot = under.value_or(view.camera.target);
   view.pivot_depth_m = std::max(0.1, (view.pivot - view.camera.eye()).dot(view.camera.forward()));
 }
 
@@ -176,14 +183,15 @@ void handleMouse(Editor& editor, ImVec2 origin, bool hovered) {
   const auto& io = ImGui::GetIO();
   if (!view.dragging && !ImGui::IsPopupOpen("###viewport-menu")) {
     view.hover.reset();
-    if (hovered && !editor.preview.isOpen())
+    const bool hidden = editor.cloud() && view.tool == Tool::select;  // what is not seen is not chosen
+    if (hovered && !hidden && !editor.preview.isOpen())
       view.hover = editor.picker.pick(rayThrough(view.camera, pointer(origin), view.size), editor.viewState());
   }
   followInspectTools(editor, origin, hovered && !editor.preview.isOpen());
   if (!view.dragging && aimTeleport(editor, hovered)) return;
   if (hovered && ImGui::IsMouseClicked(0)) view.refused_place.reset();
   if (hovered && !view.dragging && (ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2)))
-    startDrag(editor);
+    startDrag(editor, origin);
   if (view.dragging) continueDrag(editor);
   const bool previewed = editor.preview.isOpen();  // it can be turned and nothing else
   if (view.dragging && !view.dragged && ImGui::IsMouseReleased(0) && !previewed) click(editor);

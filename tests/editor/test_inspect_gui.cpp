@@ -219,6 +219,9 @@ TEST_F(Inspect, AnUnderlayIsShownInsteadOfTheModelWhereItStandsHoweverFarItsFile
   EXPECT_LT((placeOf(*editor.cloud(), 0) - wanted - Eigen::Vector3d(0, 1, 0)).norm(), 1e-5);
   EXPECT_LT((placeOf(*editor.cloud(), 1) - wanted + Eigen::Vector3d(1, 0, 0)).norm(), 1e-5);
 
+  gui.moveTo(screenOf({1.5, 5, 0}));
+  EXPECT_FALSE(editor.view.hover) << "the floor is not seen";
+
   ASSERT_TRUE(placeAt(wanted + Eigen::Vector3d(0, 0, 4), 0));
   gui.frames(2);
   gui.settle();
