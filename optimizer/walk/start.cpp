@@ -30,6 +30,7 @@ constexpr double kBehindEntrance = 0.8;  // m
 constexpr double kRoomStep = 0.25;       // m between the places that are compared in a room
 constexpr double kWideEnough = 2;        // m of clearance; more is no better
 constexpr double kLongView = 50;         // m
+constexpr double kEdgeStep = 0.1;        // m, how finely the edge of a room is looked for
 
 Vector3d up(double height_m) { return {0, 0, height_m}; }
 
@@ -167,7 +168,27 @@ double clearance(const Obstacles& obstacles, const Vector3d& feet) {
   return gap;
 }
 
-Vector2d longestView(const Obstacles& obstacles, const Vector3d& feet) {
+// From there to where the room ends, at most `farthest`.
+double toEdge(const SpaceBody& room, const Vector3d& from, const Vector3d& way, double farthest) {
+  for (double away = kEdgeStep; away < farthest; away += kEdgeStep)
+    if (!room.contains(from + away * way)) return away;
+  return farthest;
+}
+
+// As clearance(), but a door does not lead out of the room. Once it is known to be no more than `enough`, no closer.
+double clearanceInRoom(const SpaceBody& room, const Obstacles& obstacles, const Vector3d& feet, double enough) {
+  constexpr int kDirections = 16;
+  double gap = clearance(obstacles, feet);
+  for (int i = 0; i < kDirections && gap > enough; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kDirections;
+    const Vector3d way(std::cos(angle), std::sin(angle), 0), middle = feet + up(kHead);
+    if (!room.contains(middle + gap * way)) gap = toEdge(room, middle, way, gap);
+  }
+  return gap;
+}
+
+// Doors stand open for obstacles, but may be closed for the eye: in a room it ends where that does.
+Vector2d longestView(const Obstacles& obstacles, const Vector3d& feet, const SpaceBody* room) {
   constexpr int kDirections = 32;
   Vector2d best(0, 1);
   double farthest = -1;
@@ -175,7 +196,9 @@ Vector2d longestView(const Obstacles& obstacles, const Vector3d& feet) {
     const double angle = 2 * std::numbers::pi * i / kDirections;
     const Vector3d way(std::cos(angle), std::sin(angle), 0), eye = feet + up(1.5);
     const auto hit = obstacles.ray(eye, eye + kLongView * way);
-    const double free = hit ? hit->fraction : 1;
+    double free = hit ? kLongView * hit->fraction : kLongView;
+    if (free <= farthest) continue;
+    if (room != nullptr) free = toEdge(*room, feet + up(kHead), way, free);
     if (free <= farthest) continue;
     farthest = free;
     best = way.head<2>();
@@ -198,7 +221,7 @@ std::optional<StartPlace> placeOnLevel(const Environment& environment, const Col
                                        const Obstacles& obstacles, const Body& body, double lowest_m,
                                        double highest_m) {
   auto place = Places(environment, collision, obstacles, body).largestIsland(lowest_m, highest_m);
-  if (place) place->facing = longestView(obstacles, place->feet);
+  if (place) place->facing = longestView(obstacles, place->feet, nullptr);
   return place;
 }
 
@@ -212,7 +235,7 @@ std::optional<StartPlace> placeInRoom(const Environment& environment, std::uint3
   double widest = -1;
   const auto look = [&](const Vector3d& p) {
     if (!space->contains(p + up(kHead)) || !avatar.stand(p, kStepHeight)) return;
-    const double wide = clearance(obstacles, avatar.feet());
+    const double wide = clearanceInRoom(*space, obstacles, avatar.feet(), widest);
     if (wide <= widest) return;
     widest = wide;
     best = avatar.feet();
@@ -231,7 +254,7 @@ std::optional<StartPlace> placeInRoom(const Environment& environment, std::uint3
               low.y() + (row + 0.5) * (high.y() - low.y()) / rows, box.min.z()});
   }
   if (!best) return std::nullopt;
-  return StartPlace{*best, longestView(obstacles, *best)};
+  return StartPlace{*best, longestView(obstacles, *best, &*space)};
 }
 
 }  // namespace standpoint

@@ -103,5 +103,18 @@ TEST(PlaceInRoom, IsWhereMostIsFree) {
   EXPECT_GT(std::abs(place->facing->x()), 0.7) << "along the room";
 }
 
+TEST(PlaceInRoom, KeepsToItsRoomWhereItIsOpenToTheNext) {
+  Hut hut;
+  auto& e = hut.environment;
+  models::add(e, models::box({7.6, 1.2, 3}, 1), "IfcSpace", Eigen::Affine3d(Eigen::Translation3d(0.2, 0.2, 0)));
+  e.products.back().tangible = false;
+  const auto place =
+      placeInRoom(e, static_cast<std::uint32_t>(e.products.size() - 1), hut.result, *hut.obstacles, kVisitor);
+  ASSERT_TRUE(place);
+  EXPECT_NEAR(place->feet.y(), 0.8, 0.2) << "in its middle";
+  ASSERT_TRUE(place->facing);
+  EXPECT_GT(std::abs(place->facing->x()), 0.9) << "along it";
+}
+
 }  // namespace
 }  // namespace standpoint
