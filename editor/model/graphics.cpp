@@ -154,6 +154,7 @@ std::string GraphicsPace::about(GraphicsChoice choice) const {
   list({}, level == GraphicsLevel::low || !means.no_smoothing.empty()
                ? "Anti-aliasing 4× at rest"
                : "Anti-aliasing 4× at rest, by contrast in motion");
+  if (level == GraphicsLevel::low && means.by_processor) list({}, "edges and grid at rest");
   if (level >= GraphicsLevel::medium && !means.no_smoothing.empty())
     list(means.no_smoothing, "anti-aliasing in motion");
   if (level >= GraphicsLevel::medium) list(means.no_sky, "sky and horizon");

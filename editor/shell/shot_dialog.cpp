@@ -156,11 +156,12 @@ void drawSize(ShotDialog& dialog) {
 void drawFrom(const Editor& editor, ShotDialog& dialog) {
   ui::propertyLabel("From");
   auto& station = dialog.place.station;
-  if (!ImGui::BeginCombo("###shot-from", station.empty() ? "The view" : ("Station " + station).c_str())) return;
+  const auto nameOf = [](const std::string& s) { return s.empty() ? tr("The view") : trf("Station {}", s); };
+  if (!ImGui::BeginCombo("###shot-from", nameOf(station).c_str())) return;
   if (ImGui::Selectable(ui::Label("The view###from-view"), station.empty())) station.clear();
   if (const auto& job = editor.session.document().job)
     for (const auto& s : job->stations)
-      if (ImGui::Selectable(fmt::format("Station {}###from-{}", s.name, s.name).c_str(), s.name == station))
+      if (ImGui::Selectable(fmt::format("{}###from-{}", nameOf(s.name), s.name).c_str(), s.name == station))
         station = s.name;
   ImGui::EndCombo();
 }
@@ -196,8 +197,8 @@ void drawMade(Editor& editor, ShotDialog& dialog) {
   if (dialog.made.empty()) return;
   ImGui::TextColored(colour(tone::kGood), "%s", ICON_CHECK);
   ImGui::SameLine();
-  ui::wrapped("Saved " + dialog.made.string());
-  if (ImGui::Button(ICON_FOLDER_OPEN "  Show in folder###shot-folder"))
+  ui::wrapped(trf("Saved {}", dialog.made.string()));
+  if (ImGui::Button(ui::Label(ICON_FOLDER_OPEN "  Show in folder###shot-folder")))
     dialog.opener.open(dialog.made.parent_path(), editor.wake);
   ImGui::SameLine();
   const bool film = dialog.made.extension() == ".mp4";
@@ -207,7 +208,7 @@ void drawMade(Editor& editor, ShotDialog& dialog) {
   ImGui::SameLine();
   if (ImGui::Button(ui::Label("Copy path###shot-path"))) ImGui::SetClipboardText(dialog.made.c_str());
   for (const auto& problem : {dialog.copy_problem, dialog.opener.problem()})
-    if (!problem.empty()) ui::wrapped(problem);
+    if (!problem.empty()) ui::wrapped(tr(problem));
 }
 
 void askForFileThenBegin(Editor& editor) {
@@ -233,7 +234,7 @@ void drawSetup(Editor& editor) {
   if (const auto why = whyNot(editor); !why.empty()) {
     ImGui::SameLine();
     ImGui::PushStyleColor(ImGuiCol_Text, tone::kWarning);
-    ui::fitted(why, ImGui::GetContentRegionAvail().x);
+    ui::fitted(tr(why), ImGui::GetContentRegionAvail().x);
     ImGui::PopStyleColor();
   }
 }
@@ -263,6 +264,8 @@ void drawMaking(Editor& editor) {
 
 void openShotDialog(Editor& editor, ShotKind kind) {
   choose(editor.shots, kind);
+  const auto& job = editor.session.document().job;
+  if (!job || job->stations.size() < 2) editor.shots.stops.rooms = true;
   editor.shots.open = true;
   editor.shots.problem.clear();
   editor.shots.made.clear();

@@ -114,7 +114,7 @@ TEST(GraphicsPace, BeginsAnewWithAnotherModel) {
 TEST(GraphicsPace, SaysWhatEachLevelHasAndCosts) {
   auto pace = paceOf(true);
   EXPECT_EQ(pace.about(GraphicsChoice::automatic), "The highest level that keeps 25 frames per second, now Medium");
-  EXPECT_EQ(pace.about(GraphicsChoice::low), "Anti-aliasing 4× at rest");
+  EXPECT_EQ(pace.about(GraphicsChoice::low), "Anti-aliasing 4× at rest, edges and grid at rest");
   pace.choose(GraphicsChoice::low);
   EXPECT_EQ(pace.about(GraphicsChoice::automatic),
             "The highest level that keeps 25 frames per second, starting at Medium");

@@ -14,6 +14,7 @@
 #include "editor/panels/panels.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
+#include "editor/shell/shot_dialog.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/words/sentences.h"
@@ -203,8 +204,17 @@ TEST_F(DrawnWords, AreAllAskedForInPanelsMenusAndDialogs) {
     editor.dialogs = DialogStates();
     gui.frames(2);
   }
-  for (const auto tool : {Tool::placeStation, Tool::placeRow, Tool::placeTarget, Tool::measure, Tool::takeMaterial,
-                          Tool::paintMaterial, Tool::layWay}) {
+  for (const auto& kind : shotKinds()) {
+    openShotDialog(editor, kind.kind);
+    look(kind.id);
+    editor.shots.place.station = "S1";
+    look(kind.id);
+    editor.shots.place.station.clear();
+    editor.shots.open = false;
+    gui.frames(2);
+  }
+  for (const auto tool : {Tool::placeStation, Tool::placeRow, Tool::placeTarget, Tool::measure, Tool::pickWall,
+                          Tool::pickSection, Tool::takeMaterial, Tool::paintMaterial, Tool::layWay}) {
     editor.view.tool = tool;
     look("tool");
   }
