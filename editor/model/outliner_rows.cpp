@@ -14,6 +14,7 @@ namespace standpoint {
 namespace {
 
 using Kind = OutlinerRow::Kind;
+constexpr const char* kSpace = "IfcSpace";
 
 std::string lower(const std::string& text) {
   std::string result = text;
@@ -47,14 +48,14 @@ std::string readableClass(const std::string& ifc_class) {
 }
 
 std::string productLabel(const Product& product) {
-  if (product.ifc_class == "IfcSpace") return readableName(product);
+  if (product.ifc_class == kSpace) return readableName(product);
   if (!product.name.empty()) return product.name;
   return readableClass(product.ifc_class) + " " + product.id;
 }
 
 bool matchesFilter(const Product& product, const std::string& filter) {
-  std::string all =
-      product.name + '\n' + product.ifc_class + '\n' + product.id + '\n' + product.global_id + '\n' + product.storey;
+  std::string all = readableName(product) + '\n' + product.ifc_class + '\n' + product.id + '\n' + product.global_id +
+                    '\n' + product.storey;
   for (const auto& m : product.materials) all += '\n' + m;
   all = lower(all);
   std::istringstream words(lower(filter));
@@ -65,12 +66,14 @@ bool matchesFilter(const Product& product, const std::string& filter) {
 
 Outliner::Outliner(const Environment& environment) {
   addSpatial(environment);
+  node_of_product_.assign(environment.products.size(), -1);
+  nameRooms(environment);
   addProducts(environment);
   countProducts();
   // Open down to the storeys: what one wants to see first.
   for (std::uint32_t n = 0; n < nodes_.size(); ++n)
     if (nodes_[n].kind == Kind::spatial && environment.spatial[nodes_[n].index].ifc_class != "IfcBuildingStorey" &&
-        environment.spatial[nodes_[n].index].ifc_class != "IfcSpace")
+        environment.spatial[nodes_[n].index].ifc_class != kSpace)
       expanded_.insert(n);
   if (environment.spatial.empty()) expandAll(true);
 }
@@ -92,11 +95,41 @@ void Outliner::addSpatial(const Environment& environment) {
   }
 }
 
+// A room is part of the structure and a product with a body: one row for both, with number and long name.
+void Outliner::nameRooms(const Environment& environment) {
+  std::map<std::string, std::uint32_t> room_of_id;
+  for (std::uint32_t i = 0; i < environment.spatial.size(); ++i)
+    if (environment.spatial[i].ifc_class == kSpace && !environment.spatial[i].global_id.empty())
+      room_of_id.emplace(environment.spatial[i].global_id, i);
+  for (std::uint32_t p = 0; p < environment.products.size(); ++p) {
+    const auto& product = environment.products[p];
+    const auto room = product.ifc_class == kSpace ? room_of_id.find(product.global_id) : room_of_id.end();
+    if (room == room_of_id.end() || nodes_[room->second].kind == Kind::product) continue;
+    auto& node = nodes_[room->second];
+    node.kind = Kind::product;
+    node.index = p;
+    node.label = productLabel(product);
+    node_of_product_[p] = static_cast<std::int32_t>(room->second);
+  }
+  for (auto& node : nodes_) sortRooms(environment, node.children);
+}
+
+// Among themselves, as people do; what else lies there stays where it is.
+void Outliner::sortRooms(const Environment& environment, std::vector<std::uint32_t>& children) const {
+  const auto isRoom = [&](std::uint32_t n) { return environment.spatial[n].ifc_class == kSpace; };
+  std::vector<std::pair<std::string, std::uint32_t>> rooms;
+  for (const auto n : children)
+    if (isRoom(n)) rooms.emplace_back(alphabeticalKey(nodes_[n].label), n);
+  std::sort(rooms.begin(), rooms.end());
+  auto next = rooms.begin();
+  for (auto& n : children)
+    if (isRoom(n)) n = (next++)->second;
+}
+
 void Outliner::addProducts(const Environment& environment) {
-  node_of_product_.assign(environment.products.size(), -1);
   std::map<std::pair<std::int32_t, std::string>, std::vector<std::uint32_t>> groups;
   for (std::uint32_t p = 0; p < environment.products.size(); ++p)
-    groups[{containerOf(environment, p), environment.products[p].ifc_class}].push_back(p);
+    if (node_of_product_[p] < 0) groups[{containerOf(environment, p), environment.products[p].ifc_class}].push_back(p);
   for (auto& [key, members] : groups) {
     std::vector<std::pair<std::string, std::uint32_t>> sorted;
     for (const auto p : members) sorted.emplace_back(alphabeticalKey(productLabel(environment.products[p])), p);

@@ -20,7 +20,8 @@ struct OutlinerRow {
 };
 
 // The tree project › site › building › storey › class › product of one environment, and the rows of it that are open.
-// A model without spatial structure (glTF, OBJ) is one list of products.
+// A room is a product, and what stands in it is below it. A model without spatial structure (glTF, OBJ) is one list of
+// products.
 class Outliner {
  public:
   struct Node {
@@ -49,6 +50,8 @@ class Outliner {
  private:
   std::uint32_t add(OutlinerRow::Kind kind, std::uint32_t index, std::int32_t parent, std::string label);
   void addSpatial(const Environment& environment);
+  void nameRooms(const Environment& environment);
+  void sortRooms(const Environment& environment, std::vector<std::uint32_t>& children) const;
   void addProducts(const Environment& environment);
   void countProducts();
 
@@ -62,7 +65,7 @@ class Outliner {
 std::string readableClass(const std::string& ifc_class);
 // Name, else what can be said instead.
 std::string productLabel(const Product& product);
-// Case-insensitive: every word of the filter is in the name, class, id, GlobalId or a material.
+// Case-insensitive: every word of the filter is in the name, long name, class, id, GlobalId or a material.
 bool matchesFilter(const Product& product, const std::string& filter);
 
 }  // namespace standpoint

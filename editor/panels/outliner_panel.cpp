@@ -19,19 +19,21 @@ namespace {
 
 const char* iconOf(const Model& model, const Outliner::Node& node) {
   if (node.kind == OutlinerRow::Kind::group) return ICON_FOLDER;
-  if (node.kind == OutlinerRow::Kind::product) return ICON_CUBE;
+  if (node.kind == OutlinerRow::Kind::product)
+    return model.environment()->products[node.index].ifc_class == "IfcSpace" ? ICON_HOME : ICON_CUBE;
   const auto& ifc_class = model.environment()->spatial[node.index].ifc_class;
   if (ifc_class == "IfcSite") return ICON_SITE;
   if (ifc_class == "IfcBuilding") return ICON_BUILDING;
   if (ifc_class == "IfcBuildingStorey") return ICON_STOREY;
-  if (ifc_class == "IfcSpace") return ICON_HOME;
   return ICON_GLOBE;
 }
 
 void choose(const Model& model, OutlinerState& state, Actions& actions, const std::vector<OutlinerRow>& rows,
             int index) {
-  const auto node = rows[static_cast<std::size_t>(index)].node;
-  const auto below = model.outliner.tree.productsBelow(node);
+  const auto& row = rows[static_cast<std::size_t>(index)];
+  // A room without what stands in it: that has rows of its own.
+  const auto below = row.kind == OutlinerRow::Kind::product ? std::vector{model.outliner.tree.node(row.node).index}
+                                                            : model.outliner.tree.productsBelow(row.node);
   const auto& io = ImGui::GetIO();
   if (io.KeyShift && state.anchor < rows.size()) {
     std::vector<std::uint32_t> chosen;

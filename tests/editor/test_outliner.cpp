@@ -89,6 +89,40 @@ TEST(Outliner, OfAModelWithoutStructureIsOneListOfProducts) {
   EXPECT_EQ(tree.rows(environment, "").size(), 4U);  // the group and its three
 }
 
+TEST(Outliner, HasOneRowForARoomWithItsNumberAndName) {
+  Environment e;
+  const auto place = [&](const char* ifc_class, const char* id, std::int32_t parent) {
+    SpatialNode node;
+    node.ifc_class = ifc_class;
+    node.name = node.global_id = id;
+    node.parent = parent;
+    e.spatial.push_back(node);
+    return static_cast<std::int32_t>(e.spatial.size() - 1);
+  };
+  const auto add = [&](const char* ifc_class, const char* id, std::int32_t container) -> Product& {
+    Product product;
+    product.ifc_class = ifc_class;
+    product.id = product.name = product.global_id = id;
+    product.container = container;
+    return e.products.emplace_back(product);
+  };
+  const auto storey = place("IfcBuildingStorey", "Ground floor", -1);
+  const auto ten = place("IfcSpace", "10", storey);
+  place("IfcSpace", "9", storey);
+  add("IfcWall", "Wall", storey);
+  add("IfcSpace", "9", storey).properties = {{"Attributes", "LongName", "Hall"}};
+  add("IfcSpace", "10", storey).properties = {{"Attributes", "LongName", "Kitchen"}};
+  add("IfcFurniture", "Table", ten);
+  Outliner tree(e);
+  tree.expandAll(true);
+  EXPECT_EQ(labels(tree, tree.rows(e, "")),
+            (std::vector<std::string>{"Ground floor", "9 Hall", "10 Kitchen", "Furniture", "Table", "Wall", "Wall"}));
+  EXPECT_EQ(tree.node(0).products, e.products.size());
+  EXPECT_EQ(labels(tree, tree.rows(e, "table")),
+            (std::vector<std::string>{"Ground floor", "10 Kitchen", "Furniture", "Table"}));
+  EXPECT_EQ(labels(tree, tree.rows(e, "hall")), (std::vector<std::string>{"Ground floor", "9 Hall"}));
+}
+
 TEST(Outliner, ReadsClassNamesAloud) {
   EXPECT_EQ(readableClass("IfcWallStandardCase"), "Wall standard case");
   EXPECT_EQ(readableClass(""), "Object");
