@@ -323,7 +323,6 @@ void drawBanner(const Editor& editor, ImVec2 origin, ImVec2 size, const ui::Text
 }
 
 void drawPlate(const Editor& editor, ImVec2 at, ImVec2 size) {
-  if (editor.graphicsLook() == GraphicsLook()) return;
   const float rim = editor.px(4);
   ImGui::GetWindowDrawList()->AddRectFilled({at.x - rim, at.y - rim}, {at.x + size.x + rim, at.y + size.y + rim},
                                             tone::kOverlay, rim);
