@@ -124,13 +124,13 @@ const char* movingHint(const Editor& editor) {
              : "W A S D to walk, Shift to run, C to crouch, T to teleport, drag to look around   Esc to leave";
 }
 
-void drawMovingLine(const Editor& editor, ImVec2 origin, ImVec2 size) {
+void drawMovingLine(const Editor& editor, ImVec2 origin, ImVec2 size, float above_pt) {
   std::string words;
   if (editor.walk.active())
     words = walkLine(editor);
   else if (editor.view.tool == Tool::fly)
     words = placeText(editor, editor.view.camera.eye()) + fmt::format("   {:.1f} m/s", editor.fly.speed_mps(false));
-  if (!words.empty()) drawBanner(editor, origin, size, words, 52, IM_COL32(24, 26, 30, 220));
+  if (!words.empty()) drawBanner(editor, origin, size, words, above_pt, IM_COL32(24, 26, 30, 220));
 }
 
 void drawTightPlaces(const Editor& editor, ImVec2 origin) {

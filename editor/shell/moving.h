@@ -19,7 +19,7 @@ bool movesByKey(const Editor& editor, int key);
 void movingChips(Editor& editor);
 // Where whoever walks or flies is, in the frame of the file, and what stops them; "" when nobody does.
 const char* movingHint(const Editor& editor);  // the keys; null when nobody does
-void drawMovingLine(const Editor& editor, ImVec2 origin, ImVec2 size);
+void drawMovingLine(const Editor& editor, ImVec2 origin, ImVec2 size, float above_pt);
 // What keeps the agent out of rooms, as long as the walkable area is shown or one of them was flown to.
 void drawTightPlaces(const Editor& editor, ImVec2 origin);
 

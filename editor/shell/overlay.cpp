@@ -24,7 +24,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr float kMargin = 10;
+constexpr float kMargin = 10, kBannerPad_pt = 8;
 // Behind the last chip where there is room for one of this width before the view's edge, else below.
 void beside(const Editor& editor, float width) {
   ImGui::SameLine();
@@ -201,22 +201,15 @@ void drawCloudTrouble(const Editor& editor, ImVec2 origin, ImVec2 size) {
   if (const auto words = cloudTrouble(editor); !words.empty()) drawBanner(editor, origin, size, words, 80, kWarning);
 }
 
-void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
-  constexpr ImU32 kHint = IM_COL32(38, 84, 148, 235);
-  if (editor.walk_ground.preparing()) {
-    const auto words =
-        trf("Preparing the walkable surface … {:.0f} %   Esc to cancel", 100 * editor.walk_ground.fraction());
-    return drawBanner(editor, origin, size, words, 26, kHint);
-  }
-  drawMovingLine(editor, origin, size);
-  if (editor.view.teleport.active()) {
-    const char* words = editor.view.teleport.by_key ? "Aim with the pointer, release T to stand there   Esc to cancel"
-                                                    : "Click where to stand   Esc to cancel";
-    return drawBanner(editor, origin, size, words, 26, kHint);
-  }
-  if (editor.view.tool == Tool::select && looksFromStation(editor))
-    return drawBanner(editor, origin, size, "Drag to look around   Alt+Left to go back", 26, kHint);
+// What the tool waits for; "" for nothing.
+ui::Text toolHint(const Editor& editor) {
   const auto& view = editor.view;
+  if (editor.walk_ground.preparing())
+    return trf("Preparing the walkable surface … {:.0f} %   Esc to cancel", 100 * editor.walk_ground.fraction());
+  if (view.teleport.active())
+    return view.teleport.by_key ? "Aim with the pointer, release T to stand there   Esc to cancel"
+                                : "Click where to stand   Esc to cancel";
+  if (view.tool == Tool::select && looksFromStation(editor)) return "Drag to look around   Alt+Left to go back";
   std::string measuring;
   const char* hint = movingHint(editor);
   switch (view.tool) {
@@ -241,8 +234,17 @@ void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
   }
   if (editor.environment() && !editor.picker.ready() && hint != nullptr && movingHint(editor) == nullptr)
     hint = "Preparing the model for picking …";
-  if (hint == nullptr) return;
-  drawBanner(editor, origin, size, hint, 26, kHint);
+  return hint != nullptr ? hint : "";
+}
+
+// Of who moves, above it what it says of the place.
+void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
+  constexpr float kAbove_pt = 26;
+  const auto hint = toolHint(editor);
+  float height = ImGui::GetTextLineHeight();
+  if (!hint.empty()) height = drawBanner(editor, origin, size, hint, kAbove_pt, IM_COL32(38, 84, 148, 235));
+  if (!editor.walk_ground.preparing())
+    drawMovingLine(editor, origin, size, kAbove_pt + height / editor.px(1) + 1.5F * kBannerPad_pt);
 }
 
 void drawReflectanceLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
@@ -308,18 +310,23 @@ float chipWidth(const Editor& editor, const std::string& label, float least_pt) 
   return std::max(editor.px(least_pt), ImGui::CalcTextSize(label.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x);
 }
 
-void drawBanner(const Editor& editor, ImVec2 origin, ImVec2 size, const ui::Text& words, float above_pt, ImU32 ground) {
-  const ImVec2 text = ImGui::CalcTextSize(words.c_str());
-  const float pad = editor.px(8);
-  ImVec2 at(origin.x + (size.x - text.x) / 2, origin.y + size.y - text.y - editor.px(above_pt));
-  // It goes up where it would hide what is pointed at.
+ImVec2 bannerPlace(const Editor& editor, ImVec2 origin, ImVec2 size, ImVec2 text, float above_pt) {
+  const ImVec2 at(origin.x + (size.x - text.x) / 2, origin.y + size.y - text.y - editor.px(above_pt));
   const ImVec2 pointer = ImGui::GetIO().MousePos;
   const bool in_the_way = std::abs(pointer.x - origin.x - size.x / 2) < text.x / 2 + editor.px(48) &&
                           pointer.y > at.y - editor.px(64) && pointer.y < origin.y + size.y;
-  if (in_the_way) at.y = origin.y + editor.px(above_pt) + 2 * pad;
+  return in_the_way ? ImVec2(at.x, origin.y + editor.px(above_pt + 2 * kBannerPad_pt)) : at;
+}
+
+float drawBanner(const Editor& editor, ImVec2 origin, ImVec2 size, const ui::Text& words, float above_pt,
+                 ImU32 ground) {
+  const float pad = editor.px(kBannerPad_pt), room = size.x - 4 * pad;
+  const ImVec2 text = ImGui::CalcTextSize(words.c_str(), nullptr, false, room);
+  const ImVec2 at = bannerPlace(editor, origin, size, text, above_pt);
   auto& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled({at.x - pad, at.y - pad / 2}, {at.x + text.x + pad, at.y + text.y + pad / 2}, ground, pad / 2);
-  list.AddText(at, IM_COL32(255, 255, 255, 255), words.c_str());
+  list.AddText(nullptr, 0, at, IM_COL32(255, 255, 255, 255), words.c_str(), nullptr, room);
+  return text.y;
 }
 
 void drawPlate(const Editor& editor, ImVec2 at, ImVec2 size) {

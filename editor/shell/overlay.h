@@ -17,9 +17,12 @@ void drawMarkers(Editor& editor, ImVec2 origin);  // stations, targets, the meas
 // others.
 float chipWidth(const Editor& editor, const std::string& label, float least_pt);
 void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size);  // view controls, cut, cube, legend
-// A line of words over the lower edge of the view.
-void drawBanner(const Editor& editor, ImVec2 origin, ImVec2 size, const ui::Text& words, float above_pt, ImU32 ground);
-// A ground for words over the view: the dark gradient of the lowest level needs none.
+// Where words of this size stand over the lower edge of the view; at the upper one while the pointer is near them, so
+// that they never hide what is pointed at.
+ImVec2 bannerPlace(const Editor& editor, ImVec2 origin, ImVec2 size, ImVec2 text, float above_pt);
+// Words there, in as many lines as they need; their height, px.
+float drawBanner(const Editor& editor, ImVec2 origin, ImVec2 size, const ui::Text& words, float above_pt, ImU32 ground);
+// A ground for words over the view.
 void drawPlate(const Editor& editor, ImVec2 at, ImVec2 size);
 // Is the pointer on one of the overlay's controls, so that the scene must not take the click?
 bool overOverlay(const Editor& editor, ImVec2 origin, ImVec2 size);

@@ -8,6 +8,7 @@
 #include "demo_verbs.h"
 #include "editor/model/station_steps.h"
 #include "editor/shell/actions.h"
+#include "editor/shell/overlay.h"
 #include "editor/shell/place_ghost.h"
 #include "editor/widgets/keyboard.h"
 #include "item_probe.h"
@@ -75,6 +76,20 @@ TEST_F(Placing, AStationThatHasJustBeenAddedIsNotJudgedAgainUntilThePointerLeave
   EXPECT_FALSE(heldStation(editor)) << "it would say: 0 cm from S3";
   gui.moveTo(screenOf({2.5, 6, 0}));
   EXPECT_TRUE(heldStation(editor));
+}
+
+TEST_F(Placing, WordsOverTheViewGoUpWhereThePointerComesNearThem) {
+  const ImVec2 origin(300, 60), size(600, 500), text(240, 16);
+  const auto heightFor = [&](ImVec2 pointer) {
+    ImGui::GetIO().MousePos = pointer;
+    return bannerPlace(editor, origin, size, text, 26).y;
+  };
+  const float low = heightFor({400, 200});
+  EXPECT_EQ(low, origin.y + size.y - 16 - editor.px(26));
+  EXPECT_EQ(heightFor({320, low}), low) << "beside them";
+  EXPECT_EQ(heightFor({600, 700}), low) << "in the panel below";
+  EXPECT_LT(heightFor({600, low + 5}), origin.y + 100);
+  EXPECT_LT(heightFor({700, low - editor.px(50)}), origin.y + 100);
 }
 
 TEST_F(Placing, ACutThatIsChosenInsideTheBuildingIsSeenFromOutside) {
