@@ -87,13 +87,17 @@ TEST(StartPlace, IsNowhereWhereThereIsOnlyAPlinth) {
       startPlace(environment, result, obstacles, kVisitor, {Vector3d(0.6, 0.6, 1.9), Vector3d(0.6, 0.6, 0.3)}));
 }
 
-TEST(PlaceInRoom, IsWhereMostIsFree) {
+// In a room of the hut along the wall with its door, that wide.
+std::optional<StartPlace> placeInRoomOf(double width_m) {
   Hut hut;
   auto& e = hut.environment;
-  models::add(e, models::box({7.6, 5.6, 3}, 1), "IfcSpace", Eigen::Affine3d(Eigen::Translation3d(0.2, 0.2, 0)));
+  models::add(e, models::box({7.6, width_m, 3}, 1), "IfcSpace", Eigen::Affine3d(Eigen::Translation3d(0.2, 0.2, 0)));
   e.products.back().tangible = false;
-  const auto place =
-      placeInRoom(e, static_cast<std::uint32_t>(e.products.size() - 1), hut.result, *hut.obstacles, kVisitor);
+  return placeInRoom(e, static_cast<std::uint32_t>(e.products.size() - 1), hut.result, *hut.obstacles, kVisitor);
+}
+
+TEST(PlaceInRoom, IsWhereMostIsFree) {
+  const auto place = placeInRoomOf(5.6);
   ASSERT_TRUE(place);
   EXPECT_GT(place->feet.x(), 2);
   EXPECT_LT(place->feet.x(), 6);
@@ -104,12 +108,7 @@ TEST(PlaceInRoom, IsWhereMostIsFree) {
 }
 
 TEST(PlaceInRoom, KeepsToItsRoomWhereItIsOpenToTheNext) {
-  Hut hut;
-  auto& e = hut.environment;
-  models::add(e, models::box({7.6, 1.2, 3}, 1), "IfcSpace", Eigen::Affine3d(Eigen::Translation3d(0.2, 0.2, 0)));
-  e.products.back().tangible = false;
-  const auto place =
-      placeInRoom(e, static_cast<std::uint32_t>(e.products.size() - 1), hut.result, *hut.obstacles, kVisitor);
+  const auto place = placeInRoomOf(1.2);
   ASSERT_TRUE(place);
   EXPECT_NEAR(place->feet.y(), 0.8, 0.2) << "in its middle";
   ASSERT_TRUE(place->facing);
