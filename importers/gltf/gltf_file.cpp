@@ -2,6 +2,7 @@
 #include "importers/gltf/gltf_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <optional>
 #include <sys/mman.h>
@@ -82,6 +83,16 @@ int hexDigit(char c) {
   return -1;
 }
 
+// After a byte order mark and white space.
+bool beginsAsJson(std::span<const std::uint8_t> bytes) {
+  constexpr std::array<std::uint8_t, 3> kMark = {0xEF, 0xBB, 0xBF};
+  if (bytes.size() >= kMark.size() && std::equal(kMark.begin(), kMark.end(), bytes.begin()))
+    bytes = bytes.subspan(kMark.size());
+  const auto first = std::find_if(bytes.begin(), bytes.end(),
+                                  [](std::uint8_t c) { return c != ' ' && c != '\t' && c != '\r' && c != '\n'; });
+  return first != bytes.end() && *first == '{';
+}
+
 }  // namespace
 
 std::string percentDecoded(std::string_view text) {
@@ -113,6 +124,8 @@ void GltfFile::load() {
   const bool binary = bytes.size() >= 4 && word(bytes, 0) == kGlbMagic;
   if (binary) {
     splitBinary(bytes);
+  } else if (!beginsAsJson(bytes)) {
+    fail("byte 0", "neither binary glTF (GLB) nor JSON");
   } else {
     parse(bytes);
     loadBuffers({});

@@ -48,6 +48,13 @@ TEST(GltfRefuses, WhatPointsToNothingAndNamesThePlace) {
   EXPECT_THAT(withChange("/bufferViews/1/buffer", 4), HasSubstr("/bufferViews/1/buffer"));
 }
 
+TEST(GltfRefuses, WhatIsNoneByItsFirstBytes) {
+  for (const std::string bytes : {"", " \n ", "\x89PNG\r\n", "[1]", "\xEF\xBB\xBF"})
+    EXPECT_THAT(refusal(write(scratch() / "other.glb", bytes)), HasSubstr("neither binary glTF (GLB) nor JSON"))
+        << bytes;
+  EXPECT_THAT(refusal(write(scratch() / "other.gltf", "\xEF\xBB\xBF {\"asset\":")), HasSubstr("invalid JSON"));
+}
+
 TEST(GltfLosses, WhatFollowsTheLengthThatTheHeaderStates) {
   const auto longer = import(write(scratch() / "longer.glb", sound() + "more"));
   ASSERT_TRUE(longer) << describe(longer.error());
