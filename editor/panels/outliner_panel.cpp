@@ -19,9 +19,11 @@ namespace {
 
 const char* iconOf(const Model& model, const Outliner::Node& node) {
   if (node.kind == OutlinerRow::Kind::group) return ICON_FOLDER;
-  if (node.kind == OutlinerRow::Kind::product)
-    return model.environment()->products[node.index].ifc_class == "IfcSpace" ? ICON_HOME : ICON_CUBE;
-  const auto& ifc_class = model.environment()->spatial[node.index].ifc_class;
+  const auto& e = *model.environment();
+  const bool product = node.kind == OutlinerRow::Kind::product;
+  const auto& ifc_class = product ? e.products[node.index].ifc_class : e.spatial[node.index].ifc_class;
+  if (ifc_class == "IfcSpace") return ICON_HOME;
+  if (product) return ICON_CUBE;
   if (ifc_class == "IfcSite") return ICON_SITE;
   if (ifc_class == "IfcBuilding") return ICON_BUILDING;
   if (ifc_class == "IfcBuildingStorey") return ICON_STOREY;
