@@ -74,14 +74,13 @@ void move(std::span<CloudPoint> points, const Eigen::Vector3d& origin_m, std::sp
 
 Cloud moved(const Cloud& cloud, std::vector<Pose> moves) {
   Cloud other = cloud;
-  const Eigen::Vector3d local_from_points = cloud.header.origin_m - cloud.shift_m;
   Pose local_from_file;
   local_from_file.translation = -cloud.shift_m;
   for (std::size_t i = 0; i < moves.size(); ++i) {
     auto& pose = other.header.stations.at(i).file_from_scanner;
     pose = inverse(local_from_file) * moves[i] * local_from_file * pose;
   }
-  move(other.points, local_from_points, moves);
+  move(other.points, cloud.pointsOrigin_m(), moves);
   other.moves = std::move(moves);
   return other;
 }

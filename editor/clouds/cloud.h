@@ -32,6 +32,9 @@ struct Cloud {
   // frame. Empty: none is. Points that come from the octree are moved when they are read.
   std::vector<Pose> moves;
   std::vector<std::filesystem::path> files;  // of header.stations, where there are several; `file` is empty then
+
+  // Where the places of `points` are counted from, local frame: not its origin where an octree was made in another one.
+  Eigen::Vector3d pointsOrigin_m() const { return header.origin_m - shift_m; }
 };
 
 // The cloud with each station where `moves` takes it, one for each of header.stations; `cloud` is not moved yet.

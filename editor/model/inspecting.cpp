@@ -47,7 +47,9 @@ std::optional<Eigen::Vector3d> Model::measurableAt(const ViewRay& ray, double re
     }
   };
   if (cloud_) {
-    tryCloud(*cloud_, Eigen::Matrix4d::Identity());
+    Eigen::Matrix4d local_from_points = Eigen::Matrix4d::Identity();
+    local_from_points.topRightCorner<3, 1>() = cloud_->pointsOrigin_m();
+    tryCloud(*cloud_, local_from_points);
     return best;
   }
   const ViewState state = viewState();

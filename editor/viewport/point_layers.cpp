@@ -43,7 +43,7 @@ Eigen::Matrix4d movedTo(const Eigen::Vector3d& place) {
 
 CloudNodes::MoveOfPoints movesOf(const std::shared_ptr<const Cloud>& cloud) {
   if (cloud->moves.empty()) return {};
-  return [cloud](std::span<CloudPoint> points) { move(points, cloud->header.origin_m - cloud->shift_m, cloud->moves); };
+  return [cloud](std::span<CloudPoint> points) { move(points, cloud->pointsOrigin_m(), cloud->moves); };
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ void PointLayers::update(const ViewState& state) {
   bounds_ = {};
   if (state.cloud) {
     if (!state.cloud->points.empty())
-      show(state.cloud, state.cloud_paint, movedTo(state.cloud->header.origin_m - state.cloud->shift_m), before);
+      show(state.cloud, state.cloud_paint, movedTo(state.cloud->pointsOrigin_m()), before);
     return;
   }
   for (const auto& u : state.underlays)

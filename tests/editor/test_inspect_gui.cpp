@@ -193,7 +193,7 @@ TEST_F(Inspect, ScansAreShownTogetherAndWhereRegistrationBelievesThemToBe) {
 
 Eigen::Vector3d placeOf(const Cloud& cloud, std::size_t point) {
   const auto& p = cloud.points.at(point).position_m;
-  return cloud.header.origin_m - cloud.shift_m + Eigen::Vector3d(p[0], p[1], p[2]);
+  return cloud.pointsOrigin_m() + Eigen::Vector3d(p[0], p[1], p[2]);
 }
 
 TEST_F(Inspect, AnUnderlayIsShownInsteadOfTheModelWhereItStandsHoweverFarItsFileLies) {

@@ -244,6 +244,10 @@ TEST_F(CloudFiles, OfManyPointsAreShownByAnOctreeThatIsMadeOnce) {
   ASSERT_TRUE(first->octree);
   EXPECT_EQ(first->points_in_file, static_cast<std::uint64_t>(kPoints));
   EXPECT_EQ(readAll(*first), static_cast<std::uint64_t>(kPoints));
+  for (const auto& p : first->points) {  // its octree is in the frame of the file
+    const Eigen::Vector3d place = first->pointsOrigin_m() + Eigen::Vector3f(p.position_m.data()).cast<double>();
+    ASSERT_TRUE(place.x() > -1e-3 && place.x() < 10.001) << place.transpose();
+  }
   EXPECT_FALSE(first->points.empty()) << "the coarsest ones";
   const Eigen::Vector3d place = first->header.origin_m - first->shift_m;
   EXPECT_NEAR(place.x() + static_cast<double>(first->points.front().position_m[0]), 5, 5.01)
