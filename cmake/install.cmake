@@ -2,7 +2,7 @@
 # What is installed, and where. The build folder is laid out the same way, so that programs find their data by one rule
 # (core/data_folder.cpp): their data lies in share/standpoint beside their folder.
 set(data_folders
-  emulated-ui/devices emulated-ui/exercises emulated-ui/words
+  emulated-ui/devices emulated-ui/exercises emulated-ui/icons emulated-ui/words
   materials/library materials/rules
   optimizer/lod
   pointclouds/classes

@@ -2,6 +2,8 @@
 #include "editor/device_pictures.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iostream>
 
 #include <imgui.h>
 
@@ -57,6 +59,8 @@ Result<std::vector<StoredSetup>> scannedHouse(const fs::path& folder) {
     s.instrument_seconds = station.scans.back().instrument_seconds;
     s.plan_x_m = station.true_pose.translation.x();
     s.plan_y_m = station.true_pose.translation.y();
+    const Eigen::Vector3d forward = station.true_pose.rotation * Eigen::Vector3d::UnitX();
+    s.plan_turn_rad = std::atan2(forward.y(), forward.x());
     TRY_ASSIGN(auto preview, readPreview(s.file, quiet));
     s.preview = preview;
     if (s.number == 2) s.link = LinkResult{true, 0.0021, 0.43, 0.001, 0.01};
@@ -127,39 +131,51 @@ void putInto(Device& device, const std::string& screen, const std::vector<Stored
 
 }  // namespace
 
-Result<int> drawDevicePictures(Offscreen& offscreen, const fs::path& folder, const std::string& language, float scale) {
+Result<int> drawDevicePictures(const fs::path& folder, const std::string& language, float scale) {
   const auto scratch = fs::temp_directory_path() / "standpoint-device-pictures";
   TRY_ASSIGN(const auto setups, scannedHouse(scratch));
   std::error_code error;
   int count = 0;
   for (const auto& row : emulatedDevices()) {
     TRY_ASSIGN(const auto type, loadDevice(row));
+    TRY_ASSIGN(auto layout, loadLayout(row, *type));
+    const auto shared = std::make_shared<const Layout>(std::move(layout));
     fs::create_directories(folder / row.id, error);
     if (error) return failure(ErrorKind::file_system, error.message(), (folder / row.id).string());
-    std::vector<std::string> screens = {""};
-    for (const auto& screen : type->definition.screens) screens.push_back(screen.id);
-    for (const auto& screen : screens) {
-      Device device(type);
-      if (!screen.empty()) putInto(device, screen, setups, language);
-      DeviceView view;
-      view.still = true;
-      std::shared_ptr<const PixelPicture> picture;
-      view.texture = [&](const std::shared_ptr<const ScanPreview>& preview) {
-        if (!picture) picture = pictureOf(*preview, device.value("colouring"));
-        return offscreen.scene().texture(picture);
-      };
-      const auto draw = [&] {
-        ImGui::SetNextWindowPos({0, 0});
-        ImGui::SetNextWindowSize({kDevicePicture[0] * scale, kDevicePicture[1] * scale});
-        ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8, 8});
-        ImGui::Begin("device", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground);
-        const ImVec2 room = ImGui::GetContentRegionAvail();
-        (void)drawDevice(device, view, room.x, room.y);
-        ImGui::End();
-        ImGui::PopStyleVar();
-      };
-      TRY(offscreen.picture(draw, folder / row.id / ((screen.empty() ? "off" : screen) + ".png")));
-      ++count;
+    for (const auto& face : shared->faces) {
+      const float fit = scale * std::min(kLayoutRoom[0] / face.box[0], kLayoutRoom[1] / face.box[1]);
+      const std::array<float, 2> room = {std::ceil(fit * face.box[0]), std::ceil(fit * face.box[1])};
+      const float margin = 8 * scale;
+      TRY_ASSIGN(const auto offscreen, Offscreen::create(static_cast<int>(room[0] + 2 * margin),
+                                                         static_cast<int>(room[1] + 2 * margin), scale));
+      std::vector<std::string> screens;
+      if (&face == &shared->faces.front()) screens.emplace_back();
+      for (const auto& screen : type->definition.screens)
+        if (faceOf(*shared, screen.id).id == face.id) screens.push_back(screen.id);
+      for (const auto& screen : screens) {
+        Device device(type);
+        if (!screen.empty()) putInto(device, screen, setups, language);
+        DeviceView view;
+        view.layout = shared;
+        view.still = true;
+        view.font = [&](float pixels) { return lettersFor(offscreen->fonts(), pixels); };
+        PreviewPictures pictures;
+        view.texture = [&](const std::shared_ptr<const ScanPreview>& preview) {
+          return offscreen->scene().texture(pictures.of(preview, device.value("colouring")));
+        };
+        const auto draw = [&] {
+          ImGui::SetNextWindowPos({0, 0});
+          ImGui::SetNextWindowSize({room[0] + 2 * margin, room[1] + 2 * margin});
+          ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {margin, margin});
+          ImGui::Begin("device", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground);
+          (void)drawDevice(device, view, room[0], room[1]);
+          ImGui::End();
+          ImGui::PopStyleVar();
+        };
+        TRY(offscreen->picture(draw, folder / row.id / ((screen.empty() ? "off" : screen) + ".png")));
+        for (const auto& cut : view.cut) std::cerr << row.id << '/' << screen << ": cut " << cut << '\n';
+        ++count;
+      }
     }
   }
   fs::remove_all(scratch, error);

@@ -181,10 +181,7 @@ int makePictures(const Arguments& arguments) {
 }
 
 int makeDevicePictures(const Arguments& arguments) {
-  auto offscreen = Offscreen::create(static_cast<int>(kDevicePicture[0] * arguments.scale),
-                                     static_cast<int>(kDevicePicture[1] * arguments.scale), arguments.scale);
-  if (!offscreen) return fail(offscreen.error());
-  auto written = drawDevicePictures(**offscreen, arguments.devices, arguments.language, arguments.scale);
+  auto written = drawDevicePictures(arguments.devices, arguments.language, arguments.scale);
   if (!written) return fail(written.error());
   std::cout << *written << " pictures in " << arguments.devices << '\n';
   return 0;

@@ -31,6 +31,13 @@ namespace {
 
 const char* const kCopies = "office";  // folder beside the scans, where copies go
 
+void putOnPlan(StoredSetup& setup, const Pose& pose) {
+  const Eigen::Vector3d forward = pose.rotation * Eigen::Vector3d::UnitX();
+  setup.plan_x_m = pose.translation.x();
+  setup.plan_y_m = pose.translation.y();
+  setup.plan_turn_rad = std::atan2(forward.y(), forward.x());
+}
+
 // Adds a scan to a station of the document as it is now.
 Document withScan(Document document, const std::string& station_name, const Scan& scan) {
   Job job = *document.job;
@@ -170,8 +177,7 @@ std::vector<StoredSetup> storedSetups(const Document& document, const DeviceType
       s.bytes = static_cast<double>(scan.points) * type.definition.body.bytes_per_point;
       s.instrument_seconds = scan.instrument_seconds;
       const auto& pose = station.solved_pose ? *station.solved_pose : station.true_pose;
-      s.plan_x_m = pose.translation.x();
-      s.plan_y_m = pose.translation.y();
+      putOnPlan(s, pose);
       stored.push_back(std::move(s));
     }
   std::stable_sort(stored.begin(), stored.end(), [](const StoredSetup& a, const StoredSetup& b) {
@@ -304,10 +310,7 @@ void DeviceHost::takeScan(const ScanOrder& order, const Scan& scan, const Docume
   s.bytes = static_cast<double>(s.points) * device_.type().definition.body.bytes_per_point;
   s.instrument_seconds = scan.instrument_seconds;
   s.notes = notes_;
-  if (const auto* station = stationOf(document, order.station)) {
-    s.plan_x_m = station->true_pose.translation.x();
-    s.plan_y_m = station->true_pose.translation.y();
-  }
+  if (const auto* station = stationOf(document, order.station)) putOnPlan(s, station->true_pose);
   station_ = order.station;
   finished_ = scan;
   device_.scanDone(std::move(s));

@@ -2,6 +2,7 @@
 #include "emulated-ui/menus.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 
 #include "core/data_folder.h"
@@ -58,6 +59,21 @@ Result<std::shared_ptr<const DeviceType>> loadDevice(const EmulatedDevice& devic
   if (!type) return type;
   if (const auto faults = checkStructure(**type); !faults.empty()) return failure(faults.front());
   return type;
+}
+
+std::filesystem::path userLayout(const EmulatedDevice& device) {
+  namespace fs = std::filesystem;
+  const auto file = std::string(device.id) + ".json";
+  if (const char* folder = std::getenv("STANDPOINT_LAYOUTS"); folder != nullptr && *folder != '\0')
+    return fs::path(folder) / file;
+  if (const char* config = std::getenv("XDG_CONFIG_HOME"); config != nullptr && *config != '\0')
+    return fs::path(config) / "standpoint" / "layouts" / file;
+  const char* home = std::getenv("HOME");
+  return home == nullptr ? fs::path() : fs::path(home) / ".config" / "standpoint" / "layouts" / file;
+}
+
+Result<Layout> loadLayout(const EmulatedDevice& device, const DeviceType& type) {
+  return readLayout(device.folder() / "layout.json", type.definition);
 }
 
 const EmulatedDevice& deviceFor(const std::string& instrument) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "emulated-ui/device/device.h"
+#include "emulated-ui/layout/layout.h"
 
 namespace standpoint {
 
@@ -25,6 +26,11 @@ const EmulatedDevice* findDevice(const std::string& id);
 // Reads its data file, the words and the scanner's data sheet. `instrument` empty: the first that it drives. Refuses
 // what checkStructure finds, so that a slip in a data file shows when the device is chosen, not when a key is pressed.
 Result<std::shared_ptr<const DeviceType>> loadDevice(const EmulatedDevice& device, const std::string& instrument = {});
+// Where its widgets stand, by the device's own file.
+Result<Layout> loadLayout(const EmulatedDevice& device, const DeviceType& type);
+// The file by which a user shows it otherwise; it need not be there: <id>.json in STANDPOINT_LAYOUTS, else in
+// ~/.config/standpoint/layouts.
+std::filesystem::path userLayout(const EmulatedDevice& device);
 // The device that drives this scanner; the generic one where no other does.
 const EmulatedDevice& deviceFor(const std::string& instrument);
 

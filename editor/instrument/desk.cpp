@@ -82,7 +82,7 @@ void act(InstrumentDesk& desk, const RehearsalAction& action) {
     done = desk.shown()->act(action.name, action.value);
   else if (action.kind == Kind::hand)
     done = desk.shown()->hand(action.name, action.value);
-  desk.view.said = done ? desk.shown()->state().moved_along : done.error().message;
+  desk.said = done ? desk.shown()->state().moved_along : done.error().message;
   desk.view.pointed.clear();
   if (done && desk.recording) desk.recorded.push_back(action);
 }
@@ -92,7 +92,7 @@ void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& de
   desk.instrument = instrument;
   desk.host.reset();
   desk.refused.clear();
-  desk.view.said.clear();
+  desk.said.clear();
   auto type = loadDevice(device, instrument);
   if (!type) {
     desk.problem = describe(type.error());
@@ -150,10 +150,10 @@ void advance(InstrumentDesk& desk, Editor& editor) {
   if (!desk.view.texture)
     desk.view.texture = [&desk, &editor](const std::shared_ptr<const ScanPreview>& preview) -> std::uint64_t {
       if (editor.scene == nullptr || !preview) return 0;
-      const auto wanted = std::pair(preview, desk.shown()->value("colouring"));
-      if (desk.pictured != wanted) desk.pictured = wanted, desk.picture = pictureOf(*preview, wanted.second);
-      return editor.scene->texture(desk.picture);
+      return editor.scene->texture(desk.pictures.of(preview, desk.shown()->value("colouring")));
     };
+  if (!desk.view.font) desk.view.font = [&editor](float pixels) { return lettersFor(editor.fonts, pixels); };
+  desk.layouts.follow(*desk.shown(), desk.view, editor.wake);
 }
 
 namespace {
@@ -179,7 +179,7 @@ void takeFieldWork(InstrumentDesk& desk, const Session& session, std::string_vie
   } else {
     Progress quiet;
     const auto done = desk.rehearsal->act(action, quiet);
-    desk.view.said = done ? std::string() : done.error().message;
+    desk.said = done ? std::string() : done.error().message;
   }
 }
 

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "editor/desktop/desktop_opener.h"
+#include "editor/instrument/layout_follower.h"
+#include "editor/instrument/preview_picture.h"
 #include "editor/shell/editor.h"
 #include "emulated-ui/draw/device_view.h"
 #include "emulated-ui/host.h"
@@ -38,6 +40,7 @@ struct InstrumentDesk {
   std::unique_ptr<Rehearsal> rehearsal;  // else
   DeviceView view;
   std::string refused;  // what the device refused last
+  std::string said;     // why the last press did nothing, or what it did besides
   std::string problem;  // why there is no device
   std::string station;  // where it stands on the open project
   std::string search;   // in the help
@@ -63,9 +66,8 @@ struct InstrumentDesk {
   std::pair<std::filesystem::path, const Environment*> project{"?", nullptr};
   bool was_busy = false;
   std::vector<std::pair<std::string, std::string>> scanners;  // that the device can drive: id and name
-  std::pair<std::shared_ptr<const ScanPreview>, std::string>
-      pictured;  // what `picture` was made from, and its colouring
-  std::shared_ptr<const PixelPicture> picture;
+  PreviewPictures pictures;
+  LayoutFollower layouts;
 
   Device* shown() { return rehearsal ? &rehearsal->device() : host ? &host->device() : nullptr; }
   // Marked: nothing more is done in it, and its clock stands.

@@ -17,6 +17,7 @@ namespace standpoint {
 namespace {
 
 constexpr float kWaitsInSilence_s = 0.5F;
+constexpr float kWordsBelow_pt = 58;                                  // room for what is said below a device
 constexpr float kNarrowestDevice_em = 13.5F, kNarrowestText_em = 11;  // in heights of the text
 constexpr std::array kClockFactors = {1.0, 5.0, 20.0, 100.0};
 
@@ -34,11 +35,13 @@ class InstrumentPanel {
     if (desk_.shown() == nullptr) return;
     const ImVec2 room = ImGui::GetContentRegionAvail();
     const float least = kNarrowestDevice_em * ImGui::GetFontSize();
-    const bool beside = room.x > least + kNarrowestText_em * ImGui::GetFontSize();  // else the rest comes below
-    const float below = beside ? 0 : std::min(editor.px(260), 0.4F * room.y);
-    const float wanted = deviceWidth(*desk_.shown(), room.y - editor.px(40));
+    const auto [as_wide, as_high] = deviceSize(*desk_.shown(), desk_.view, room.x, room.y - editor.px(kWordsBelow_pt));
+    // A portrait device has the rest beside it, a landscape one below; also where there is no room for both.
+    const bool beside = as_wide < as_high && room.x > least + kNarrowestText_em * ImGui::GetFontSize();
+    const float below =
+        beside ? 0 : std::clamp(room.y - as_high - editor.px(kWordsBelow_pt), 0.3F * room.y, 0.6F * room.y);
     const float most = std::max(least, std::min(0.54F * room.x, editor.px(560)));
-    const float width = beside ? std::clamp(wanted, least, most) : room.x;
+    const float width = beside ? std::clamp(as_wide, least, most) : room.x;
     if (ImGui::BeginChild("device", {width, room.y - below})) device(editor);
     ImGui::EndChild();
     if (beside) ImGui::SameLine();
@@ -58,18 +61,25 @@ class InstrumentPanel {
     desk_.view.working = task != nullptr && !desk_.shown()->state().running
                              ? std::optional(task->progress().fraction())
                              : std::nullopt;  // a scan has a bar of its own
-    desk_.view.waits = waits();
-    const auto press = drawDevice(*desk_.shown(), desk_.view, room.x, room.y - editor.px(40));
+    const auto press = drawDevice(*desk_.shown(), desk_.view, room.x, room.y - editor.px(kWordsBelow_pt));
     if (press) {
       act(desk_, {RehearsalAction::Kind::press, press->widget, press->value, 0, {}});
       const auto& device = *desk_.shown();
       const auto& moved = device.state().moved_along;
       if (!moved.empty()) editor.session.say(LogLevel::note, device.type().definition.title, moved);
     }
-    if (desk_.refused.empty())
-      ui::dimWrapped("Screens drawn by Standpoint; not affiliated with or endorsed by the manufacturers.");
-    else
-      ui::wrapped(desk_.refused);
+    sayBelow();
+  }
+
+  // Below the device, so that nothing that is said covers a key of it: what is waited for, why the last press did
+  // nothing, what is wrong with a file.
+  void sayBelow() {
+    const auto waited_for = waits();
+    if (!waited_for.empty()) return ui::wrapped(waited_for);
+    if (!desk_.said.empty()) return ui::wrapped(desk_.said);
+    if (!desk_.layouts.problem().empty()) return ui::wrapped(trf("Layout not used: {}", desk_.layouts.problem()));
+    if (!desk_.refused.empty()) return ui::wrapped(desk_.refused);
+    ui::dimWrapped("Screens drawn by Standpoint; not affiliated with or endorsed by the manufacturers.");
   }
 
   // In words what the device's clock waits for, once that has taken a moment.
@@ -77,7 +87,7 @@ class InstrumentPanel {
     auto* task = desk_.running()->task();
     stood_s_ = desk_.running()->clockStands() ? stood_s_ + ImGui::GetIO().DeltaTime : 0;
     if (stood_s_ < kWaitsInSilence_s) return {};
-    return fmt::format("{}\n{:.0f} %", desk_.shown()->word("simulation_computes"), 100 * task->progress().fraction());
+    return fmt::format("{} {:.0f} %", desk_.shown()->word("simulation_computes"), 100 * task->progress().fraction());
   }
 
   void tabs(Editor& editor) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/instrument/preview_picture.h"
 
+#include <imgui.h>
+
 #include "emulated-ui/preview.h"
 
 namespace standpoint {
@@ -17,6 +19,24 @@ std::shared_ptr<const PixelPicture> pictureOf(const ScanPreview& preview, const 
       picture->rgba[std::size_t{row} * preview.columns + column] = {red, green, blue, 255};
     }
   return picture;
+}
+
+const std::shared_ptr<const PixelPicture>& PreviewPictures::of(const std::shared_ptr<const ScanPreview>& preview,
+                                                               const std::string& colouring) {
+  std::erase_if(made_, [](const auto& one) { return one.second.preview.expired(); });
+  auto& made = made_[{preview.get(), colouring}];
+  if (!made.picture) made = {preview, pictureOf(*preview, colouring)};
+  return made.picture;
+}
+
+ImFont* lettersFor(const Fonts& fonts, float pixels) {
+  constexpr float kNear = 0.96F;  // as good as the size itself
+  ImFont* best = nullptr;
+  for (auto* font : fonts.letters) {
+    best = font;
+    if (font != nullptr && font->FontSize >= kNear * pixels) break;
+  }
+  return best;
 }
 
 }  // namespace standpoint

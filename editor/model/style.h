@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <string>
+
 struct ImFont;
 
 namespace standpoint {
@@ -10,8 +13,9 @@ struct Fonts {
   ImFont* bold = nullptr;
   ImFont* small = nullptr;
   ImFont* mono = nullptr;
-  ImFont* huge = nullptr;  // icons of empty panels
-  std::string problem;     // which packages are missing; "" when none is
+  ImFont* huge = nullptr;            // icons of empty panels
+  std::array<ImFont*, 6> letters{};  // of the text's family, from small to large: a device's letters are made of them
+  std::string problem;               // which packages are missing; "" when none is
 };
 
 // How large everything is drawn, and in which letters.

@@ -95,6 +95,7 @@ class EglOffscreen : public Offscreen {
   }
 
   SceneView& scene() override { return *scene_; }
+  const Fonts& fonts() const override { return fonts_; }
 
   void frame(Editor& editor) override {
     layOut([&] { drawShell(editor); });

@@ -19,6 +19,7 @@ class Offscreen {
   // Fonts, scale and the scene view of this context.
   virtual void adopt(Editor& editor) = 0;
   virtual SceneView& scene() = 0;
+  virtual const Fonts& fonts() const = 0;
   // Draws one frame, as the window does.
   virtual void frame(Editor& editor) = 0;
   // Draws until nothing moves any more, then writes the picture.

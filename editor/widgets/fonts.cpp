@@ -94,6 +94,12 @@ bool build(const FontFiles& files, float scale, Fonts& fonts) {
   fonts.mono = addFont(files.mono, sized(13));
   fonts.huge = addFont(files.regular, sized(30));
   mergeIcons(files.icons, sized(30), scale);
+  fonts.letters = {fonts.small,
+                   fonts.text,
+                   addFont(files.regular, sized(16.5F)),
+                   addFont(files.regular, sized(19)),
+                   addFont(files.regular, sized(23)),
+                   fonts.huge};
   return atlas.Build();
 }
 

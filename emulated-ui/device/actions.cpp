@@ -275,7 +275,8 @@ const std::vector<ListRow>& sharedLists() {
                  {std::to_string(i),
                   fmt::format("{}  {}  {:.1f} M{}", s.name, s.station, static_cast<double>(s.points) / 1e6, marks),
                   true,
-                  {}});
+                  {},
+                  static_cast<int>(i)});
            }
          return rows;
        }},

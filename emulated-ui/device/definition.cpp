@@ -64,8 +64,6 @@ void readBody(JsonFields& root, BodyRow& body) {
   body.warm_up_s = f.number("warm_up_s", 0, 7200);
   body.tilt_full_deg = f.number("tilt_full_deg", 0, 90);
   body.tilt_limit_deg = f.number("tilt_limit_deg", body.tilt_full_deg, 90);
-  body.display_aspect = f.numberOr("display_aspect", 0.62, 0, 4);
-  body.tablet = f.flagOr("tablet", false);
   f.object("sleeps", [&](JsonFields& sleeps) {
     body.sleeps_by = sleeps.text("value");
     sleeps.object("minutes", [&](JsonFields& minutes) {

@@ -102,8 +102,6 @@ struct BodyRow {
   double warm_up_s = 0;          // until it is used to another temperature
   double tilt_full_deg = 0;      // up to this the compensator is exact
   double tilt_limit_deg = 0;     // beyond this it does not work
-  double display_aspect = 0.62;  // width over height; 0 = no display
-  bool tablet = false;           // the display is a tablet's
   // A value of this file, and after how many minutes at rest its display goes dark at each choice; a choice that is not
   // named: never.
   std::string sleeps_by;

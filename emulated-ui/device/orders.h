@@ -120,6 +120,7 @@ struct StoredSetup {
   std::optional<LinkResult> link;           // to the setup before
   std::vector<FittedTarget> targets;
   double plan_x_m = 0, plan_y_m = 0;           // where it is thought to stand, for the plan
+  double plan_turn_rad = 0;                    // of its preview's frame there, counter-clockwise
   std::shared_ptr<const ScanPreview> preview;  // once it was asked for
   SettingValues notes;                         // key and text: readings of the sensors, who measured
 };

@@ -37,6 +37,7 @@ struct WidgetOption {
   std::string value, label;
   bool enabled = true;
   std::string why_not;
+  int setup = -1;  // of the open project, for its picture
 };
 
 struct Widget {

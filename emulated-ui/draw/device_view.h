@@ -8,9 +8,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "emulated-ui/device/device.h"
 #include "emulated-ui/draw/keyboard.h"
+#include "emulated-ui/layout/layout.h"
+
+struct ImFont;
 
 namespace standpoint {
 
@@ -19,8 +23,18 @@ struct Press {
   std::string widget, value;
 };
 
-// What a drawn device keeps from one frame to the next. A plain value but for the way to textures.
+// A map that is moved and made larger by hand: its middle in shares of the picture, and how much larger.
+struct MapView {
+  float x = 0, y = 0, zoom = 1;
+};
+
+// What a drawn device keeps from one frame to the next. A plain value but for the ways to textures and fonts.
 struct DeviceView {
+  // Where its widgets stand; null: title and form on a plain body.
+  std::shared_ptr<const Layout> layout;
+  std::string face;                           // that was shown last: it stays when the display goes dark
+  std::map<std::string, int> tabs;            // which tab is chosen, by the screen and the place of the tabs
+  std::map<std::string, MapView> maps;        // by screen and widget
   bool asking = false;                        // a press explains instead of acting
   std::string explained;                      // the widget that was asked about last
   std::string pointed;                        // a hint: this widget is framed
@@ -28,17 +42,19 @@ struct DeviceView {
   Keyboard keyboard;
   std::array<double, 4> area{};  // edges while one is dragged: from_h, to_h, from_v, to_v in degrees
   int dragged_edge = -1;
-  bool grabbed = false, scrolling = false;  // a finger lies on the screen, and has moved it
+  std::string grabbed;     // the form that a finger lies on
+  bool scrolling = false;  // the finger has moved it
   // A texture of a preview; 0 or empty: none can be had.
   std::function<std::uint64_t(const std::shared_ptr<const ScanPreview>&)> texture;
+  // The font whose letters are made for about this height; empty or null: the current one.
+  std::function<ImFont*(float pixels)> font;
   bool still = false;             // for a picture: lamps do not flash
-  std::string said;               // why the last press did nothing, or what it did besides
   std::optional<double> working;  // share of what the device reads or computes just now
-  std::string waits;              // in words, when that is all that is waited for
+  std::vector<std::string> cut;   // of the last frame: texts that do not fit where they stand, as "widget: text"
 };
 
-// How wide a device of this height is, in pixels.
-float deviceWidth(const Device& device, float height);
+// How wide and high a device is that fits into this room, in pixels.
+std::array<float, 2> deviceSize(const Device& device, const DeviceView& view, float width, float height);
 // Draws the device into the current ImGui window, at most `width` × `height` pixels, and gives what was pressed.
 std::optional<Press> drawDevice(const Device& device, DeviceView& view, float width, float height);
 

@@ -3,11 +3,13 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <imgui.h>
 
 #include "emulated-ui/draw/device_view.h"
 #include "emulated-ui/draw/skin.h"
+#include "emulated-ui/layout/place.h"
 
 namespace standpoint {
 
@@ -15,11 +17,14 @@ namespace standpoint {
 struct Pen {
   const Device& device;
   DeviceView& view;
+  const Layout& layout;
   const Skin& skin;
   float unit;
   float left = 0, width = 0;  // of the column that widgets stand in, in the window
+  float height = 0;           // that a picture is to fill; 0: as its width gives it
   std::optional<Press> press = {};
-  bool editing = false;  // a field was drawn that is edited
+  bool editing = false;     // a field was drawn that is edited
+  std::string screen = {};  // that is drawn
 
   // The press, or the wish to have the widget explained.
   void pressed(const std::string& widget, const std::string& value = {}) {
@@ -29,9 +34,13 @@ struct Pen {
     else
       press = Press{widget, value};
   }
+  float text() const { return unit / 0.8F; }   // height of letters, in pixels
   float touch() const { return 2.6F * unit; }  // the least height of what is pressed by a finger
   float hair(float points = 1) const { return points * unit / 11.6F; }  // the width of a line; a unit has 11.6 points
 };
+
+// Letters of the current window are as high as the pen's from now on.
+void useText(const Pen& pen);
 
 ImVec2 screenAt(const Pen& pen);  // the next widget's upper left
 bool area(const char* id, ImVec2 at,
@@ -43,6 +52,15 @@ ImU32 faded(ImU32 colour, bool enabled);
 void frame(const Pen& pen, const Widget& w, ImVec2 at, ImVec2 size);  // about the widget that a hint points to
 float wrappedHeight(const std::string& text, float width);
 void wrapped(ImVec2 at, float width, ImU32 colour, const std::string& text);
+
+// A text in a box: broken into lines, and smaller where it has to be. What does not fit then is clipped, and stands in
+// the view's `cut`.
+enum class Align { left, centre, right };
+void fitted(const Pen& pen, const std::string& widget, const Box& box, ImU32 colour, const std::string& text,
+            Align align = Align::centre, float scale = 1);
+// The icon of this name in the middle of a square at x, y; nothing where there is none.
+void drawIcon(const Pen& pen, const std::string& id, ImVec2 centre, float size, ImU32 colour);
+const std::string& iconOf(const Pen& pen, const std::string& widget);  // empty: none
 
 // The keyboard below the screen, while a field is edited.
 float keyboardHeight(const Pen& pen, float room);
@@ -64,5 +82,15 @@ void drawLevel(Pen& pen, const Widget& w);
 void drawArea(Pen& pen, const Widget& w);
 void drawPreview(Pen& pen, const Widget& w);
 void drawPlan(Pen& pen, const Widget& w);
+// The picture of a scan where there is one, else a grid of the sphere; false then.
+bool scanPicture(const Pen& pen, const std::shared_ptr<const ScanPreview>& preview, ImVec2 at, ImVec2 size);
+const std::shared_ptr<const ScanPreview>& newestPreview(const Device& device);
+
+// A widget that fills a box, as its region says it is drawn.
+void drawCell(Pen& pen, const Widget& w, const Region& region, const Box& box);
+// All regions of a screen in the display, which the keyboard covers from `covered` on.
+void drawRegions(Pen& pen, const Screen& screen, const Region& root, const Box& display, float covered);
+// Body, keys and lamps of a face; `scale` is pixels per point.
+void drawBody(Pen& pen, const Screen& screen, const DeviceFace& face, ImVec2 at, float scale);
 
 }  // namespace standpoint

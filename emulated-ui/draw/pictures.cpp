@@ -16,6 +16,8 @@ namespace {
 
 ImVec2 plus(ImVec2 a, ImVec2 b) { return {a.x + b.x, a.y + b.y}; }
 
+}  // namespace
+
 const std::shared_ptr<const ScanPreview>& newestPreview(const Device& device) {
   static const std::shared_ptr<const ScanPreview> kNone;
   if (const auto* shown = device.shownSetup(); shown != nullptr && shown->preview) return shown->preview;
@@ -24,7 +26,7 @@ const std::shared_ptr<const ScanPreview>& newestPreview(const Device& device) {
 }
 
 // The picture where there is one, else a grid of the sphere.
-bool picture(const Pen& pen, const std::shared_ptr<const ScanPreview>& preview, ImVec2 at, ImVec2 size) {
+bool scanPicture(const Pen& pen, const std::shared_ptr<const ScanPreview>& preview, ImVec2 at, ImVec2 size) {
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddRectFilled(at, plus(at, size), IM_COL32(28, 30, 33, 255));
   const std::uint64_t texture = preview && pen.view.texture ? pen.view.texture(preview) : 0;
@@ -43,14 +45,13 @@ bool picture(const Pen& pen, const std::shared_ptr<const ScanPreview>& preview, 
   return false;
 }
 
-}  // namespace
-
 // The bubble runs to where the instrument is high; the ring is as far as the sensor corrects.
 void drawLevel(Pen& pen, const Widget& w) {
-  caption(pen, w.label);
-  const float radius = std::min(3.4F * pen.unit, pen.width / 4);
+  if (pen.height == 0) caption(pen, w.label);
+  const float radius =
+      pen.height > 0 ? 0.46F * std::min(pen.width, pen.height) : std::min(3.4F * pen.unit, pen.width / 4);
   const ImVec2 at = screenAt(pen);
-  const ImVec2 centre{at.x + pen.width / 2, at.y + radius + 2};
+  const ImVec2 centre{at.x + pen.width / 2, at.y + (pen.height > 0 ? pen.height / 2 : radius + 2)};
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddCircleFilled(centre, radius, IM_COL32(196, 214, 96, 255), 48);
   list->AddCircle(centre, radius, pen.skin.dim, 48, pen.hair(1.5F));
@@ -65,15 +66,16 @@ void drawLevel(Pen& pen, const Widget& w) {
   const ImVec2 bubble{centre.x + radius * static_cast<float>(x), centre.y + radius * static_cast<float>(y)};
   list->AddCircleFilled(bubble, 0.18F * radius, IM_COL32(245, 250, 225, 235), 24);
   list->AddCircle(bubble, 0.18F * radius, IM_COL32(90, 110, 40, 255), 24);
-  if (area(("##" + w.id).c_str(), at, {pen.width, 2 * radius + 4}) && pen.view.asking) pen.pressed(w.id);
+  if (area(("##" + w.id).c_str(), at, {pen.width, pen.height > 0 ? pen.height : 2 * radius + 4}) && pen.view.asking)
+    pen.pressed(w.id);
 }
 
 // The field of view on the picture all around: its edges are dragged.
 void drawArea(Pen& pen, const Widget& w) {
-  caption(pen, w.label);
+  if (pen.height == 0) caption(pen, w.label);
   const ImVec2 at = screenAt(pen);
-  const ImVec2 size{pen.width, pen.width * 0.42F};
-  picture(pen, newestPreview(pen.device), at, size);
+  const ImVec2 size{pen.width, pen.height > 0 ? pen.height : pen.width * 0.42F};
+  scanPicture(pen, newestPreview(pen.device), at, size);
   const auto& instrument = pen.device.type().instrument;
   const double low = instrument.min_elevation_rad * 57.29577951308232,
                high = instrument.max_elevation_rad * 57.29577951308232;
@@ -145,9 +147,16 @@ void drawPreview(Pen& pen, const Widget& w) {
   const float aspect = preview && preview->columns > 0
                            ? static_cast<float>(preview->rows) / static_cast<float>(preview->columns)
                            : whole;
-  const ImVec2 at = screenAt(pen);
-  const ImVec2 size{pen.width, pen.width * aspect};
-  const bool has = picture(pen, preview, at, size);
+  ImVec2 at = screenAt(pen);
+  ImVec2 size{pen.width, pen.width * aspect};
+  if (pen.height > 0) {  // as large as the room lets it be, in its middle
+    const ImVec2 room{pen.width, pen.height};
+    ImGui::GetWindowDrawList()->AddRectFilled(at, plus(at, room), IM_COL32(12, 13, 15, 255));
+    const float scale = std::min(1.0F, room.y / size.y);
+    size = {size.x * scale, size.y * scale};
+    at = plus(at, {(room.x - size.x) / 2, (room.y - size.y) / 2});
+  }
+  const bool has = scanPicture(pen, preview, at, size);
   if (!has)
     centred(ImGui::GetWindowDrawList(), at, size, IM_COL32(200, 204, 210, 255), w.label);
   else
@@ -162,42 +171,6 @@ void drawPreview(Pen& pen, const Widget& w) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     pen.pressed(w.id, fmt::format("{:.4f},{:.4f}", std::clamp((mouse.x - at.x) / size.x, 0.0F, 0.9999F),
                                   std::clamp((mouse.y - at.y) / size.y, 0.0F, 0.9999F)));
-  }
-}
-
-// North up, as wide as the setups lie; green lines are links that hold, red ones failed.
-void drawPlan(Pen& pen, const Widget& w) {
-  caption(pen, w.label);
-  const ImVec2 at = screenAt(pen);
-  const ImVec2 size{pen.width, pen.width * 0.6F};
-  ImDrawList* list = ImGui::GetWindowDrawList();
-  list->AddRectFilled(at, plus(at, size), pen.skin.tile, pen.skin.rounding * pen.unit);
-  list->AddRect(at, plus(at, size), pen.skin.line, pen.skin.rounding * pen.unit);
-  if (area(("##" + w.id).c_str(), at, size) && pen.view.asking) pen.pressed(w.id);
-  const auto* project = pen.device.project();
-  if (project == nullptr || project->setups.empty()) return centred(list, at, size, pen.skin.dim, "–");
-  double low_x = 1e300, high_x = -1e300, low_y = 1e300, high_y = -1e300;
-  for (const auto& s : project->setups) {
-    low_x = std::min(low_x, s.plan_x_m), high_x = std::max(high_x, s.plan_x_m);
-    low_y = std::min(low_y, s.plan_y_m), high_y = std::max(high_y, s.plan_y_m);
-  }
-  const float inset = 2 * pen.unit;
-  const double scale = std::min((size.x - 2 * inset) / std::max(1.0, high_x - low_x),
-                                (size.y - 2 * inset) / std::max(1.0, high_y - low_y));
-  const auto place = [&](const StoredSetup& s) {
-    return ImVec2{at.x + size.x / 2 + static_cast<float>((s.plan_x_m - (low_x + high_x) / 2) * scale),
-                  at.y + size.y / 2 - static_cast<float>((s.plan_y_m - (low_y + high_y) / 2) * scale)};
-  };
-  for (std::size_t i = 1; i < project->setups.size(); ++i)
-    if (const auto& link = project->setups[i].link)
-      list->AddLine(place(project->setups[i - 1]), place(project->setups[i]),
-                    link->joined ? IM_COL32(40, 150, 70, 255) : IM_COL32(200, 50, 40, 255), pen.hair(2));
-  for (const auto& s : project->setups) {
-    const ImVec2 p = place(s);
-    list->AddCircleFilled(p, 0.45F * pen.unit, pen.skin.accent, 20);
-    const float width = ImGui::CalcTextSize(s.name.c_str()).x;
-    const float x = std::min(p.x + 0.6F * pen.unit, at.x + size.x - width - 0.4F * pen.unit);
-    list->AddText({x, p.y - 1.9F * pen.unit}, pen.skin.tile_text, s.name.c_str());
   }
 }
 

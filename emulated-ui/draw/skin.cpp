@@ -5,11 +5,7 @@
 
 namespace standpoint {
 
-namespace {
-
-constexpr ImU32 packed(std::uint32_t rgb) { return IM_COL32(rgb >> 16U & 0xFFU, rgb >> 8U & 0xFFU, rgb & 0xFFU, 255); }
-
-}  // namespace
+unsigned packed(std::uint32_t rgb) { return IM_COL32(rgb >> 16U & 0xFFU, rgb >> 8U & 0xFFU, rgb & 0xFFU, 255); }
 
 Skin skinOf(const SkinRow& row) {
   return {.body = packed(row.body),

@@ -11,6 +11,8 @@ struct Skin {
       dim, line, key_text, warning, off;
   float rounding;  // of tiles, in units
 };
+// 0xRRGGBB as ImGui packs it, opaque.
+unsigned packed(std::uint32_t rgb);
 Skin skinOf(const SkinRow& row);
 
 }  // namespace standpoint

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
+#include <fstream>
 #include <thread>
 
 #include <gtest/gtest.h>
 
+#include "core/json_file.h"
 #include "demo_verbs.h"
 #include "editor/instrument/desk.h"
 #include "editor/instrument/instrument.h"
@@ -194,7 +197,7 @@ TEST_F(Desk, AWayIsTimedByItsSpeeds) {
 TEST_F(Desk, NothingIsDoneAndNoTimePassesOnceAnExerciseIsMarked) {
   begin("T-RTC360");
   act(desk, {RehearsalAction::Kind::press, "power", "", 0, {}});
-  EXPECT_EQ(desk.view.said, "");
+  EXPECT_EQ(desk.said, "");
   pass(100);
   EXPECT_GT(desk.rehearsal->seconds(), 0);
   finishExercise(desk, editor);
@@ -207,7 +210,7 @@ TEST_F(Desk, NothingIsDoneAndNoTimePassesOnceAnExerciseIsMarked) {
   const auto phase = desk.shown()->state().phase;
   act(desk, {RehearsalAction::Kind::press, "power", "", 0, {}});
   EXPECT_EQ(desk.shown()->state().phase, phase);
-  EXPECT_NE(desk.view.said.find("ended"), std::string::npos);
+  EXPECT_NE(desk.said.find("ended"), std::string::npos);
 }
 
 TEST_F(Desk, WhatWasDoneToTheEnvironmentIsSavedWhenTheExerciseIsLeft) {
@@ -226,6 +229,56 @@ TEST_F(Desk, WhatWasDoneToTheEnvironmentIsSavedWhenTheExerciseIsLeft) {
   ASSERT_TRUE(again) << describe(again.error());
   const auto& stations = again->job->stations;
   EXPECT_TRUE(std::any_of(stations.begin(), stations.end(), [](const Station& s) { return s.name == "S9"; }));
+}
+
+// A teacher's file beside the program's.
+class OwnLayout : public testing::Test {
+ protected:
+  OwnLayout() : type_(*loadDevice(*findDevice("leica-rtc360"))), device_(type_) {
+    setenv("STANDPOINT_LAYOUTS", folder_.path().c_str(), 1);
+  }
+  ~OwnLayout() override { unsetenv("STANDPOINT_LAYOUTS"); }
+  void write(const nlohmann::json& layout) {
+    std::ofstream(folder_.path() / "leica-rtc360.json", std::ios::binary) << layout.dump(1);
+    // A file system that counts in seconds would not tell two writes apart.
+    std::filesystem::last_write_time(
+        folder_.path() / "leica-rtc360.json",
+        std::filesystem::file_time_type::clock::now() + ++later_ * std::chrono::seconds(2));
+  }
+  void follow() {
+    layouts_.follow(device_, view_, [this] { woken_ = true; });
+  }
+  std::string first() const { return view_.layout->screens.at("home").root.parts.at(1).widget; }
+
+  TemporaryFolder folder_;
+  std::shared_ptr<const DeviceType> type_;
+  Device device_;
+  DeviceView view_;
+  LayoutFollower layouts_;
+  std::atomic<bool> woken_ = false;
+  int later_ = 0;
+};
+
+TEST_F(OwnLayout, IsShownAtOnceWhenItIsSavedAndTheBuiltInOneWhereItIsWrong) {
+  follow();
+  EXPECT_EQ(first(), "job");
+  auto layout = readJsonFile(findDevice("leica-rtc360")->folder() / "layout.json").value();
+  auto& rows = layout["screens"]["home"]["region"]["rows"];
+  std::swap(rows[1], rows[3]);
+  write(layout);
+  for (int i = 0; i < 20000 && !woken_; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  EXPECT_TRUE(woken_) << "the window is woken without anybody touching it";
+  follow();
+  EXPECT_EQ(first(), "settings");
+  rows[1] = "nothing";
+  write(layout);
+  follow();
+  EXPECT_EQ(first(), "job");
+  EXPECT_NE(layouts_.problem().find("leica-rtc360.json /screens/home/region/rows/1"), std::string::npos)
+      << layouts_.problem();
+  std::filesystem::remove(folder_.path() / "leica-rtc360.json");
+  follow();
+  EXPECT_EQ(layouts_.problem(), "");
 }
 
 }  // namespace

@@ -18,8 +18,11 @@ class DeviceFolder : public testing::TestWithParam<const EmulatedDevice*> {};
 TEST_P(DeviceFolder, HasItsDataItsTutorialItsPageAndAPictureOfEachScreen) {
   const std::string id = GetParam()->id;
   const fs::path reference = SOURCE_DIR "/docs/reference/devices";
-  std::vector<fs::path> needed = {GetParam()->folder() / "device.json", GetParam()->folder() / "words.json",
-                                  GetParam()->folder() / "tutorial.json", reference / (id + ".md"),
+  std::vector<fs::path> needed = {GetParam()->folder() / "device.json",
+                                  GetParam()->folder() / "words.json",
+                                  GetParam()->folder() / "layout.json",
+                                  GetParam()->folder() / "tutorial.json",
+                                  reference / (id + ".md"),
                                   reference / id / "off.png"};
   const auto type = loadDevice(*GetParam());
   ASSERT_TRUE(type) << describe(type.error());

@@ -1,16 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include <imgui.h>
 #include <imgui_internal.h>
 
 #include "emulated-ui/draw/device_view.h"
 #include "emulated-ui/draw/skin.h"
-#include "tests/emulated-ui/support.h"
+#include "emulated-ui/layout/place.h"
+#include "tests/emulated-ui/working.h"
 
 namespace standpoint {
 namespace {
+
+// The phase that shows the screen; else one in which the device is on and waits.
+const PhaseRow& phaseWith(const DeviceType& type, const std::string& screen) {
+  const PhaseRow* waits = nullptr;
+  for (const auto& phase : type.definition.phases) {
+    if (phase.on && phase.screen == screen) return phase;
+    if (phase.on && !phase.ends()) waits = &phase;
+  }
+  return *waits;
+}
 
 // A device in a window without a display, and a finger on it.
 class Draw : public testing::Test {
@@ -34,6 +46,13 @@ class Draw : public testing::Test {
     d->show(screen);
     frame();
     frame();
+  }
+  // With the device's own layout.
+  void layOut(const std::string& id) {
+    const auto& device = *findDevice(id);
+    auto layout = loadLayout(device, d->type());
+    ASSERT_TRUE(layout) << describe(layout.error());
+    view.layout = std::make_shared<const Layout>(*std::move(layout));
   }
   std::optional<Press> frame() {
     ImGui::GetIO().DeltaTime = 1.0F / 60;
@@ -68,7 +87,7 @@ class Draw : public testing::Test {
   }
   ImGuiWindow* scrolled() const {
     for (auto* window : ImGui::GetCurrentContext()->Windows)
-      if (std::string(window->Name).find("/screen_") != std::string::npos && window->ScrollMax.y > 0) return window;
+      if (std::string(window->Name).find("/region") != std::string::npos && window->ScrollMax.y > 0) return window;
     return nullptr;
   }
 
@@ -98,6 +117,99 @@ TEST_F(Draw, ATrembleIsStillATap) {
   std::optional<Press> press;
   for (float y = 60; y < kHeight && !press; y += 10) press = finger({kWidth / 2, y}, 2);
   EXPECT_TRUE(press);
+}
+
+class DrawnFace : public Draw {
+ protected:
+  DrawnFace() { layOut("faro-focus"); }
+  // The middle of a widget, by its place in the layout.
+  ImVec2 middleOf(const std::string& id) {
+    const auto& face = faceOf(*view.layout, d->screen().id);
+    const auto [width, height] = deviceSize(*d, view, kWidth - 16, kHeight - 16);
+    const float scale = width / face.box[0];
+    const auto [left, top, wide, high] = face.display;
+    const PlacingState state{[&](const std::string& w) { return findWidget(d->screen(), w) != nullptr; },
+                             [](const Region&) { return 0; }, 40};
+    for (const auto& placed :
+         placeRegions(view.layout->screens.at(d->screen().id).root, {left, top, wide, high}, state))
+      if (placed.region->widget == id)
+        return {8 + scale * (placed.box.x + placed.box.width / 2), 8 + scale * (placed.box.y + placed.box.height / 2)};
+    ADD_FAILURE() << id;
+    (void)height;
+    return {};
+  }
+};
+
+TEST_F(DrawnFace, ATileIsPressedWhereItStands) {
+  open("home");
+  const auto press = finger(middleOf("parameters"), 0);
+  ASSERT_TRUE(press);
+  EXPECT_EQ(press->widget, "parameters");
+}
+
+TEST_F(DrawnFace, ASliderStopsAtWhatCanBeChosen) {
+  open("resolution_quality");
+  ImVec2 at = middleOf("resolution");
+  at.y += 6;
+  const auto press = finger(at, 0);
+  ASSERT_TRUE(press);
+  EXPECT_EQ(press->widget, "resolution");
+  EXPECT_EQ(press->value, "1/8") << "the fifth of nine, in the middle";
+}
+
+TEST_F(DrawnFace, ADragOnASliderChoosesOnceWhenTheFingerLifts) {
+  open("resolution_quality");
+  ImVec2 at = middleOf("resolution");
+  auto& io = ImGui::GetIO();
+  io.MousePos = {at.x, at.y + 6};
+  EXPECT_FALSE(frame());
+  io.MouseDown[0] = true;
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_FALSE(frame());
+    io.MousePos.x += 40;
+  }
+  io.MouseDown[0] = false;
+  const auto press = frame();
+  ASSERT_TRUE(press);
+  EXPECT_EQ(press->value, "1/32");
+}
+
+TEST(DrawnLayouts, CutNothingInAnyLanguageAtAnySize) {
+  const std::filesystem::path letters = "/usr/share/fonts/opentype/inter/Inter-Regular.otf";
+  if (!std::filesystem::exists(letters)) GTEST_SKIP() << "fonts-inter is not installed";
+  constexpr std::array<ImWchar, 5> kRanges = {0x20, 0x17F, 0x400, 0x52F, 0};
+  for (const float scale : {1.0F, 1.5F, 2.5F}) {
+    ImGui::CreateContext();
+    auto& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.DisplaySize = {2000, 2000};
+    io.Fonts->AddFontFromFileTTF(letters.c_str(), std::round(14.5F * scale), nullptr, kRanges.data());
+    unsigned char* pixels = nullptr;
+    int w = 0, h = 0;
+    io.Fonts->GetTexDataAsRGBA32(&pixels, &w, &h);
+    for (const auto& device : emulatedDevices()) {
+      const auto type = *loadDevice(device);
+      const auto layout = std::make_shared<const Layout>(*loadLayout(device, *type));
+      for (const auto& language : type->words->languages())
+        for (const auto& screen : type->definition.screens) {
+          Device shown = working(type, phaseWith(*type, screen.id), screen.id);
+          shown.change().language = language;
+          DeviceView view;
+          view.layout = layout;
+          io.DeltaTime = 1.0F / 60;
+          ImGui::NewFrame();
+          ImGui::SetNextWindowPos({0, 0});
+          ImGui::SetNextWindowSize({2000, 2000});
+          ImGui::Begin("device", nullptr, ImGuiWindowFlags_NoDecoration);
+          (void)drawDevice(shown, view, kLayoutRoom[0] * scale, kLayoutRoom[1] * scale);
+          ImGui::End();
+          ImGui::EndFrame();
+          EXPECT_TRUE(view.cut.empty()) << device.id << '/' << screen.id << " in " << language << " at " << scale
+                                        << ": " << view.cut.front();
+        }
+    }
+    ImGui::DestroyContext();
+  }
 }
 
 // The place of a key, and a tap on it.
