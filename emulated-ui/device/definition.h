@@ -99,9 +99,9 @@ struct BodyRow {
   double card_bytes = 0;
   double bytes_per_point = 0;
   double coldest_c = 0, hottest_c = 0;
-  double warm_up_s = 0;          // until it is used to another temperature
-  double tilt_full_deg = 0;      // up to this the compensator is exact
-  double tilt_limit_deg = 0;     // beyond this it does not work
+  double warm_up_s = 0;       // until it is used to another temperature
+  double tilt_full_deg = 0;   // up to this the compensator is exact
+  double tilt_limit_deg = 0;  // beyond this it does not work
   // A value of this file, and after how many minutes at rest its display goes dark at each choice; a choice that is not
   // named: never.
   std::string sleeps_by;
