@@ -47,7 +47,7 @@ const EmulatedDevice* findDevice(const std::string& id) {
 
 Result<std::shared_ptr<const DeviceType>> loadDevice(const EmulatedDevice& device, const std::string& instrument) {
   TRY_ASSIGN(auto definition, definitionOf(device));
-  TRY_ASSIGN(auto words, Words::read(dataFolder() / "emulated-ui" / "words"));
+  TRY_ASSIGN(auto words, Words::read(wordsFolder()));
   TRY(words.add(device.folder() / "words.json", device.id));
   const auto& drives = definition.instruments;
   const auto default_value =
@@ -74,6 +74,14 @@ std::filesystem::path userLayout(const EmulatedDevice& device) {
 
 Result<Layout> loadLayout(const EmulatedDevice& device, const DeviceType& type) {
   return readLayout(device.folder() / "layout.json", type.definition);
+}
+
+std::filesystem::path wordsFolder() { return dataFolder() / "emulated-ui" / "words"; }
+
+Result<Words> wordsOfAllDevices() {
+  TRY_ASSIGN(auto words, Words::read(wordsFolder()));
+  for (const auto& device : emulatedDevices()) TRY(words.add(device.folder() / "words.json", device.id));
+  return words;
 }
 
 const EmulatedDevice& deviceFor(const std::string& instrument) {

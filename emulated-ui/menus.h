@@ -31,6 +31,10 @@ Result<Layout> loadLayout(const EmulatedDevice& device, const DeviceType& type);
 // The file by which a user shows it otherwise; it need not be there: <id>.json in STANDPOINT_LAYOUTS, else in
 // ~/.config/standpoint/layouts.
 std::filesystem::path userLayout(const EmulatedDevice& device);
+// With the files of words that the devices share, and those of further languages.
+std::filesystem::path wordsFolder();
+// The words of all devices, for what is asked of them together.
+Result<Words> wordsOfAllDevices();
 // The device that drives this scanner; the generic one where no other does.
 const EmulatedDevice& deviceFor(const std::string& instrument);
 

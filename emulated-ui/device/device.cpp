@@ -54,6 +54,15 @@ void spellOutSettings(std::vector<WidgetRow>& widgets, const Instrument& instrum
   widgets.insert(widgets.erase(star), rows.begin(), rows.end());
 }
 
+// The device speaks every language that there are words in.
+void offerLanguages(std::vector<ValueRow>& values, const Words& words) {
+  for (auto& value : values)
+    if (value.id == "language")
+      for (const auto& language : words.languages())
+        if (std::find(value.choices.begin(), value.choices.end(), language) == value.choices.end())
+          value.choices.push_back(language);
+}
+
 }  // namespace
 
 Result<std::shared_ptr<const DeviceType>> makeDeviceType(DeviceDefinition definition, const DeviceProgram& program,
@@ -67,6 +76,7 @@ Result<std::shared_ptr<const DeviceType>> makeDeviceType(DeviceDefinition defini
     return failure(ErrorKind::usage, "the device needs a tripod, but this instrument is mobile", instrument.id);
   if (auto default_value = resolveSettings(instrument, {}); !default_value) return failure(default_value.error());
   for (auto& screen : definition.screens) spellOutSettings(screen.widgets, instrument);
+  offerLanguages(definition.values, *words);
   auto type = std::make_shared<DeviceType>();
   type->definition = std::move(definition);
   type->program = program;

@@ -11,22 +11,34 @@
 #include "emulated-ui/device/numbers.h"
 #include "emulated-ui/device/replaced.h"
 #include "emulated-ui/device/settings.h"
+#include "emulated-ui/language/plural.h"
 
 namespace standpoint {
 
 namespace {
 
-std::string filled(const Device& device, const std::string& text, const std::string& detail) {
+// The text with what stands in its braces filled in: `part` says what for.
+template <class Part>
+std::string filled(const std::string& text, const Part& part) {
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
     const auto open = text.find('{', i);
     const auto end = open == std::string::npos ? open : text.find('}', open);
     if (end == std::string::npos) return out + text.substr(i);
-    const auto name = text.substr(open + 1, end - open - 1);
-    out += text.substr(i, open - i) + (name == "detail" ? detail : device.shown(name));
+    out += text.substr(i, open - i) + part(text.substr(open + 1, end - open - 1));
     i = end + 1;
   }
   return out;
+}
+
+// In a sentence a number has the decimal sign of its language, and a noun the form that goes with its count.
+std::string inSentence(const Device& device, const std::string& between_braces) {
+  const auto part = countedPart(between_braces);
+  const std::string name(part.fact);
+  const auto& language = device.state().language;
+  if (!part.forms.empty()) return std::string(formFor(part, language, device.number(name)));
+  const auto found = device.fact(name);
+  return found && found->number ? numberInSentence(device.shown(name), language) : device.shown(name);
 }
 
 const InstrumentSetting* settingOf(const Instrument& instrument, const std::string& key) {
@@ -125,7 +137,9 @@ Leads leadsOf(const WidgetRow& row, const DeviceProgram& program, const DeviceSt
 }  // namespace
 
 std::string Device::word(const std::string& key) const {
-  return filled(*this, type_->words->text(type_->definition.id, key, state_.language), state_.dialog_detail);
+  return filled(type_->words->text(type_->definition.id, key, state_.language), [this](const std::string& name) {
+    return name == "detail" ? state_.dialog_detail : inSentence(*this, name);
+  });
 }
 
 std::string Device::movedAlong(const SettingValues& adapted, const std::string& key) const {
@@ -180,7 +194,9 @@ std::optional<Widget> Device::widget(const WidgetRow& row) const {
   }
   if (showsFeet()) turnIntoFeet(w);
   if (!row.shows.empty())
-    w.value = row.shows.find('{') == std::string::npos ? shown(row.shows) : filled(*this, row.shows, {});
+    w.value = row.shows.find('{') == std::string::npos
+                  ? shown(row.shows)
+                  : filled(row.shows, [this](const std::string& name) { return shown(name); });
   if (row.kind == WidgetKind::progress || row.kind == WidgetKind::number)
     w.number = std::strtod(w.value.c_str(), nullptr);
   if (row.kind == WidgetKind::progress) w.number = fact(row.shows).value_or(numberFact(0)).number.value_or(0);

@@ -14,13 +14,14 @@ namespace standpoint {
 namespace {
 
 constexpr std::size_t kLongestWord = 2000;
+constexpr std::string_view kLanguage = "language=";  // with a code: the name of that language
 
 }  // namespace
 
 Result<Words> Words::read(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error))
     if (entry.path().extension() == ".json") files.push_back(entry.path());
   if (error) return failure(ErrorKind::file_system, "cannot read the folder: " + error.message(), folder.string());
   std::sort(files.begin(), files.end());
@@ -36,24 +37,32 @@ Result<void> Words::take(const std::filesystem::path& file, std::string device) 
   JsonFault fault(nameWithFolder(file));
   JsonFields root(fault, json, "");
   root.skip("about");
+  root.skip("exercises");
   if (device.empty()) device = root.textOr("of", "");
-  root.each("words", [&](const std::string& key, const nlohmann::json& by_language, const std::string& at) {
-    JsonFields fields(fault, by_language, at);
-    fields.everyText([&](const std::string& language, const std::string& text) {
-      if (text.empty() || text.size() > kLongestWord)
-        fault.say(at + "/" + language, "must be a text of 1 to 2000 bytes");
-      if (!texts_[device.empty() ? key : device + "/" + key].emplace(language, text).second)
-        fault.say(at + "/" + language, "already defined in another file");
-    });
+  const auto only = root.textOr("language", "");
+  const auto put = [&](const std::string& key, const std::string& language, const std::string& text,
+                       const std::string& at) {
+    if (text.empty() || text.size() > kLongestWord) fault.say(at, "must be a text of 1 to 2000 bytes");
+    if (!texts_[device.empty() ? key : device + "/" + key].emplace(language, text).second)
+      fault.say(at, "already defined in another file");
+  };
+  root.each("words", [&](const std::string& key, const nlohmann::json& word, const std::string& at) {
+    if (!only.empty()) return put(key, only, textAt(fault, word, at, "Scan"), at);
+    JsonFields fields(fault, word, at);
+    fields.everyText(
+        [&](const std::string& language, const std::string& text) { put(key, language, text, at + "/" + language); });
   });
   root.close();
   return fault.result();
 }
 
 const std::string* Words::find(const std::string& device, const std::string& key, const std::string& language) const {
+  const auto in = key.starts_with(kLanguage) ? key.substr(kLanguage.size()) : language;
   for (const auto& name : {device + "/" + key, key})
-    if (const auto found = texts_.find(name); found != texts_.end())
-      if (const auto text = found->second.find(language); text != found->second.end()) return &text->second;
+    if (const auto found = texts_.find(name); found != texts_.end()) {
+      if (const auto text = found->second.find(in); text != found->second.end()) return &text->second;
+      if (found->second.contains("en")) return nullptr;  // a word of its own: the shared one means something else
+    }
   return nullptr;
 }
 

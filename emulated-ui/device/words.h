@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/report.h"
 #include "core/result.h"
 
 namespace standpoint {
@@ -13,17 +14,28 @@ namespace standpoint {
 // The words on the instruments' screens, in the languages that their files have: a teacher with the manual at hand
 // corrects them, or adds a language, without a build. A file is
 //   {"about": "…", "words": {"scan": {"en": "Scan", "de": "Scannen", "uk": "…"}}}
-// Every file may add languages to the words of others. The files of a folder have the words that the devices share, or
-// those of the device that "of" names: {"of": "leica-rtc360", …}.
+// or, of one language,
+//   {"language": "pl", "words": {"scan": "Skanuj"}}
+// Every file may add languages to the words of others. The files of a folder, and of the folders in it, have the words
+// that the devices share, or those of the device that "of" names: {"of": "leica-rtc360", …}. "exercises" in such a file
+// are ExerciseWords.
+// A word may name facts in braces, "{battery} remaining", and have forms for a count (language/plural.h):
+//   "{setups} {setups|one=setup|other=setups}"
 class Words {
  public:
   static Result<Words> read(const std::filesystem::path& folder);
   Result<void> add(const std::filesystem::path& file, const std::string& device);  // the device's own words
 
   // The device's own word, else the shared one; in English where the language lacks it; the key where nobody has it.
+  // The name of a language ("language=pl") is in that language.
   std::string text(const std::string& device, const std::string& key, const std::string& language) const;
   bool has(const std::string& device, const std::string& key, const std::string& language) const;
   std::vector<std::string> languages() const;  // "de", "en", "uk", …
+
+  // All that is wrong between the languages, by word: a language lacks it, or it is in no use since the English is
+  // gone; other facts in braces, or other forms for a count than the language has. A label much longer than the English
+  // one is a warning.
+  Report check() const;
 
  private:
   Result<void> take(const std::filesystem::path& file, std::string device);

@@ -13,6 +13,7 @@
 #include "core/json_file.h"
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/events.h"
+#include "emulated-ui/rehearsal/exercise_words.h"
 #include "project/verb.h"
 
 namespace standpoint {
@@ -149,6 +150,24 @@ const std::string& Spoken::in(const std::string& language) const {
   return english == texts.end() ? kNothing : english->second;
 }
 
+void eachText(Exercise& e, const std::function<void(Spoken& text, const std::string& place)>& visit) {
+  visit(e.title, "/title");
+  visit(e.goal, "/goal");
+  for (std::size_t i = 0; i < e.steps.size(); ++i) {
+    visit(e.steps[i].text, fmt::format("/steps/{}/text", i));
+    visit(e.steps[i].hint, fmt::format("/steps/{}/hint", i));
+  }
+  for (std::size_t i = 0; i < e.rules.size(); ++i) {
+    visit(e.rules[i].text, fmt::format("/rules/{}/text", i));
+    visit(e.rules[i].because, fmt::format("/rules/{}/because", i));
+  }
+  for (std::size_t i = 0; i < e.questions.size(); ++i) {
+    visit(e.questions[i].text, fmt::format("/questions/{}/text", i));
+    for (std::size_t k = 0; k < e.questions[i].choice_texts.size(); ++k)
+      visit(e.questions[i].choice_texts[k], fmt::format("/questions/{}/choices/{}/text", i, k));
+  }
+}
+
 bool isFor(const Exercise& exercise, const std::string& device) {
   return std::any_of(exercise.devices.begin(), exercise.devices.end(),
                      [&](const std::string& d) { return d == "*" || d == device; });
@@ -281,35 +300,47 @@ std::vector<fs::path> tutorials() {
   return files;
 }
 
+void take(KnownExercises& known, const std::vector<fs::path>& files, const Result<ExerciseWords>& words) {
+  for (const auto& file : files) {
+    auto exercise = readExercise(file);
+    if (!exercise) {
+      known.refused.push_back(exercise.error());
+      continue;
+    }
+    if (words) words->addTo(*exercise);
+    const auto other = std::find_if(known.readable.begin(), known.readable.end(),
+                                    [&](const auto& one) { return one.exercise.id == exercise->id; });
+    if (other == known.readable.end())
+      known.readable.push_back({*std::move(exercise), file});
+    else
+      known.refused.push_back(
+          {ErrorKind::unusable,
+           fmt::format("id '{}' is also used by {}: choose another id", exercise->id, other->file.string()),
+           file.string() + " /id"});
+  }
+}
+
+KnownExercises shipped(const Result<ExerciseWords>& words) {
+  KnownExercises known;
+  if (!words) known.refused.push_back(words.error());
+  take(known, tutorials(), words);
+  auto& found = known.readable;
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.exercise.id < b.exercise.id; });
+  take(known, filesIn(dataFolder() / "emulated-ui" / "exercises"), words);
+  return known;
+}
+
 }  // namespace
 
+KnownExercises shippedExercises() { return shipped(ExerciseWords::read(wordsFolder())); }
+
 KnownExercises knownExercises() {
-  KnownExercises known;
-  auto& found = known.readable;
-  const auto take = [&](const std::vector<fs::path>& files) {
-    for (const auto& file : files) {
-      auto exercise = readExercise(file);
-      if (!exercise) {
-        known.refused.push_back(exercise.error());
-        continue;
-      }
-      const auto other =
-          std::find_if(found.begin(), found.end(), [&](const auto& one) { return one.exercise.id == exercise->id; });
-      if (other == found.end())
-        found.push_back({*std::move(exercise), file});
-      else
-        known.refused.push_back(
-            {ErrorKind::unusable,
-             fmt::format("id '{}' is also used by {}: choose another id", exercise->id, other->file.string()),
-             file.string() + " /id"});
-    }
-  };
-  take(tutorials());
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.exercise.id < b.exercise.id; });
-  take(filesIn(dataFolder() / "emulated-ui" / "exercises"));
-  take(filesIn(ownExercisesFolder()));
+  const auto words = ExerciseWords::read(wordsFolder());
+  auto known = shipped(words);
+  take(known, filesIn(ownExercisesFolder()), words);
   // Students who are new begin with them.
-  std::stable_partition(found.begin(), found.end(), [](const KnownExercise& one) { return one.exercise.tutorial; });
+  std::stable_partition(known.readable.begin(), known.readable.end(),
+                        [](const KnownExercise& one) { return one.exercise.tutorial; });
   return known;
 }
 
@@ -317,6 +348,8 @@ Result<KnownExercise> findExercise(const std::string& name) {
   std::error_code error;
   if (fs::is_regular_file(name, error)) {
     TRY_ASSIGN(auto exercise, readExercise(name));
+    TRY_ASSIGN(const auto words, ExerciseWords::read(wordsFolder()));
+    words.addTo(exercise);
     return KnownExercise{std::move(exercise), name};
   }
   auto known = knownExercises();

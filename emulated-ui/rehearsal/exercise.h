@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -110,6 +111,9 @@ struct Exercise {
   std::vector<RehearsalAction> solution;  // one way to do it: to be watched, and it is tested
 };
 
+// Every text of it that is said, with its place in the file: "/steps/2/hint".
+void eachText(Exercise& exercise, const std::function<void(Spoken& text, const std::string& place)>& visit);
+
 // Whether it can be done on the device; "*" stands for all.
 bool isFor(const Exercise& exercise, const std::string& device);
 
@@ -135,8 +139,9 @@ struct KnownExercises {
   std::vector<Error> refused;           // files that are none, or whose id another one has
 };
 // The shipped ones and those of the user's folder (STANDPOINT_EXERCISES, else XDG_CONFIG_HOME/standpoint/exercises), by
-// file within each.
+// file within each; with what ExerciseWords have for their texts.
 KnownExercises knownExercises();
+KnownExercises shippedExercises();  // without the user's own
 // A file, or the id of a known one.
 Result<KnownExercise> findExercise(const std::string& name);
 

@@ -274,20 +274,8 @@ class Checker {
   }
 
   void checkTexts() {
-    checkSpoken(e_.goal, "/goal");
-    for (std::size_t i = 0; i < e_.steps.size(); ++i) {
-      checkSpoken(e_.steps[i].text, fmt::format("/steps/{}/text", i));
-      checkSpoken(e_.steps[i].hint, fmt::format("/steps/{}/hint", i));
-    }
-    for (std::size_t i = 0; i < e_.rules.size(); ++i) {
-      checkSpoken(e_.rules[i].text, fmt::format("/rules/{}/text", i));
-      checkSpoken(e_.rules[i].because, fmt::format("/rules/{}/because", i));
-    }
-    for (std::size_t i = 0; i < e_.questions.size(); ++i) {
-      checkSpoken(e_.questions[i].text, fmt::format("/questions/{}/text", i));
-      for (std::size_t k = 0; k < e_.questions[i].choice_texts.size(); ++k)
-        checkSpoken(e_.questions[i].choice_texts[k], fmt::format("/questions/{}/choices/{}/text", i, k));
-    }
+    auto exercise = e_;
+    eachText(exercise, [this](const Spoken& text, const std::string& place) { checkSpoken(text, place); });
   }
 
   const Exercise& e_;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "emulated-ui/menus.h"
+#include "emulated-ui/rehearsal/exercise_words.h"
 #include "emulated-ui/rehearsal/marks.h"
 #include "emulated-ui/rehearsal/names.h"
 #include "project/fields.h"
@@ -21,6 +22,7 @@ struct RehearseOptions {
   bool solution = false;
   std::vector<std::string> check;  // files
   bool names = false;
+  bool words = false;
   std::string device;
   std::string student;
   std::string language = "en";
@@ -143,6 +145,25 @@ Result<RehearseOutcome> checkFiles(const Document& document, const std::vector<s
   return outcome;
 }
 
+// What the languages lack: of the devices' words, and of the exercises that come with the program.
+Result<RehearseOutcome> checkWords(const Document& document) {
+  TRY_ASSIGN(const auto words, wordsOfAllDevices());
+  TRY_ASSIGN(const auto of_exercises, ExerciseWords::read(wordsFolder()));
+  auto report = words.check();
+  report.append(of_exercises.check(shippedExercises().readable));
+  RehearseOutcome outcome{document};
+  CheckedFile row{wordsFolder().string(), "words", report.losses() == 0, {}};
+  for (const auto& issue : report.issues) {
+    const char* severity = issue.severity == Severity::loss ? "error" : "warning";
+    row.findings.push_back({severity, issue.source, issue.message});
+    outcome.text += fmt::format("{}: {}: {}\n", severity, issue.source, issue.message);
+  }
+  if (!row.sound) outcome.report.lose("--words", fmt::format("{} texts are missing or wrong", report.losses()));
+  outcome.description = fmt::format("Languages: {}", fmt::join(words.languages(), ", "));
+  outcome.answer = CheckedFiles{row.sound, {std::move(row)}};
+  return outcome;
+}
+
 Result<RehearseOutcome> listNames(const Document& document, const std::string& device) {
   if (device.empty()) {
     TRY_ASSIGN(auto devices, namedDevices());
@@ -156,11 +177,13 @@ Result<RehearseOutcome> listNames(const Document& document, const std::string& d
 
 Result<RehearseOutcome> runRehearse(const Document& document, const RehearseOptions& options, Progress& progress) {
   if (static_cast<int>(!options.exercise.empty()) + static_cast<int>(!options.check.empty()) +
-          static_cast<int>(options.names) >
+          static_cast<int>(options.names) + static_cast<int>(options.words) >
       1)
-    return failure(ErrorKind::usage, "--check, --names and carrying out an exercise cannot be combined", "--check");
+    return failure(ErrorKind::usage, "--check, --names, --words and carrying out an exercise cannot be combined",
+                   "--check");
   if (!options.check.empty()) return checkFiles(document, options.check, progress);
   if (options.names) return listNames(document, options.device);
+  if (options.words) return checkWords(document);
   if (options.exercise.empty()) return listExercises(document, options.language);
   TRY_ASSIGN(auto known, findExercise(options.exercise));
   std::vector<RehearsalAction> actions;
@@ -201,6 +224,8 @@ const Fields<RehearseOptions>& rehearseFields() {
        "exercise files to check and start; list all that is wrong with them and do nothing else (exit code 3: one is "
        "refused)"},
       {"names", &O::names, "list the devices, or with --device all names and choices for its exercises"},
+      {"words", &O::words,
+       "list the texts of devices and exercises that a language lacks (exit code 3: there are some)"},
       {"device", &O::device, "id of the device, for an exercise with several"},
       {"student", &O::student, "name on the certificate"},
       {"language", &O::language, "language of the texts"},

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/report.h"
+#include "core/result.h"
+#include "emulated-ui/rehearsal/exercise.h"
+
+namespace standpoint {
+
+// Texts of exercises in languages that their own files lack, by the English text, so that what several exercises say is
+// said once. A file is
+//   {"language": "pl", "exercises": {"Answer the question.": "Odpowiedz na pytanie."}}
+// and may hold words of devices, too (Words).
+class ExerciseWords {
+ public:
+  static Result<ExerciseWords> read(const std::filesystem::path& folder);  // with the folders in it
+
+  // What the exercise's own file says stays.
+  void addTo(Exercise& exercise) const;
+  // What these exercises, to which they were added, lack in a language, and what none of them says any more.
+  Report check(const std::vector<KnownExercise>& exercises) const;
+
+ private:
+  Result<void> take(const std::filesystem::path& file);
+
+  std::map<std::string, std::map<std::string, std::string>> texts_;  // language: English: text
+};
+
+}  // namespace standpoint
