@@ -88,10 +88,11 @@ bool held(const CarriedOut& outcome, const std::string& rule) {
 
 class ShippedExercise : public testing::TestWithParam<std::string> {};
 
-TEST_P(ShippedExercise, IsSoundAndSpeaksThreeLanguages) {
+TEST_P(ShippedExercise, IsSoundAndSpeaksSevenLanguages) {
   const auto& e = exercise(GetParam());
   for (const auto& fault : checkExercise(e)) ADD_FAILURE() << describe(fault);
-  for (const char* language : {"en", "de", "uk"}) EXPECT_TRUE(e.title.texts.contains(language)) << language;
+  for (const char* language : {"en", "de", "uk", "es", "fr", "it", "pl"})
+    EXPECT_TRUE(e.title.texts.contains(language)) << language;
   EXPECT_FALSE(e.solution.empty());
   EXPECT_FALSE(e.source.empty());
 }
@@ -141,7 +142,11 @@ std::set<std::string> labelsOf(const Exercise& e, const std::string& language) {
 std::vector<std::string> quotedIn(const std::string& text, const std::string& language) {
   static const std::map<std::string, std::regex> kQuotes = {{"en", std::regex("(?:^|[^A-Za-z])'([^']+)'(?![A-Za-z])")},
                                                             {"de", std::regex("„([^“]+)“")},
-                                                            {"uk", std::regex("«([^»]+)»")}};
+                                                            {"uk", std::regex("«([^»]+)»")},
+                                                            {"es", std::regex("«([^»]+)»")},
+                                                            {"fr", std::regex("«\u00a0([^»]+)\u00a0»")},
+                                                            {"it", std::regex("«([^»]+)»")},
+                                                            {"pl", std::regex("„([^”]+)”")}};
   std::vector<std::string> found;
   const auto& quotes = kQuotes.at(language);
   for (auto at = std::sregex_iterator(text.begin(), text.end(), quotes); at != std::sregex_iterator(); ++at)
