@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cctype>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -241,19 +243,36 @@ TEST_F(DrawnWords, OfEveryActionHaveATranslation) {
   for (const auto& panel : panels()) EXPECT_TRUE(catalogue.contains(panel.title)) << panel.title;
 }
 
+// The letters of a text that one of the fonts lacks.
+std::set<unsigned> lettersWithout(const Fonts& fonts, const std::string& text) {
+  std::set<unsigned> missing;
+  for (const char* c = text.c_str(); *c != 0;) {
+    unsigned code = 0;
+    c += ImTextCharFromUtf8(&code, c, nullptr);
+    for (const ImFont* font : {fonts.text, fonts.bold, fonts.small})
+      if (code >= ' ' && font->FindGlyphNoFallback(static_cast<ImWchar>(code)) == nullptr) missing.insert(code);
+  }
+  return missing;
+}
+
 TEST_F(DrawnWords, HaveALetterInTheAtlasForEachOfTheirCharacters) {
   editor.fonts = buildFonts(1);
   std::set<unsigned> missing;
   for (const auto& language : languages().subspan(1))
     for (const auto& [english, text] : textsOf(SOURCE_DIR "/editor/words/" + std::string(language.code) + ".po"))
-      for (const auto& form : text.forms)
-        for (const char* c = form.c_str(); *c != 0;) {
-          unsigned code = 0;
-          c += ImTextCharFromUtf8(&code, c, nullptr);
-          for (const ImFont* font : {editor.fonts.text, editor.fonts.bold, editor.fonts.small})
-            if (code >= ' ' && font->FindGlyphNoFallback(static_cast<ImWchar>(code)) == nullptr) missing.insert(code);
-        }
+      for (const auto& form : text.forms) missing.merge(lettersWithout(editor.fonts, form));
   EXPECT_THAT(missing, IsEmpty());
+}
+
+TEST_F(DrawnWords, HaveALetterInTheAtlasForEachOfTheDevicesLanguages) {
+  editor.fonts = buildFonts(1);
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(SOURCE_DIR "/emulated-ui/words")) {
+    if (entry.path().extension() != ".json") continue;
+    std::ifstream in(entry.path());
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    EXPECT_FALSE(text.empty());
+    EXPECT_THAT(lettersWithout(editor.fonts, text), IsEmpty()) << entry.path();
+  }
 }
 
 // What a German or Ukrainian reads may be longer, but ends where it is to be read.
