@@ -23,6 +23,12 @@ Result<DeviceDefinition> definitionOf(const EmulatedDevice& device) {
   return definition;
 }
 
+Result<void> addWords(Words& words, const EmulatedDevice& device) {
+  TRY(words.add(device.folder() / "words.json", device.id));
+  for (const auto& file : languageFiles(wordsFolder(), device.id)) TRY(words.add(file, device.id));
+  return {};
+}
+
 }  // namespace
 
 const std::string& EmulatedDevice::title() const {
@@ -48,7 +54,7 @@ const EmulatedDevice* findDevice(const std::string& id) {
 Result<std::shared_ptr<const DeviceType>> loadDevice(const EmulatedDevice& device, const std::string& instrument) {
   TRY_ASSIGN(auto definition, definitionOf(device));
   TRY_ASSIGN(auto words, Words::read(wordsFolder()));
-  TRY(words.add(device.folder() / "words.json", device.id));
+  TRY(addWords(words, device));
   const auto& drives = definition.instruments;
   const auto default_value =
       std::find_if(drives.begin(), drives.end(), [](const std::string& id) { return id != "*"; });
@@ -80,7 +86,7 @@ std::filesystem::path wordsFolder() { return dataFolder() / "emulated-ui" / "wor
 
 Result<Words> wordsOfAllDevices() {
   TRY_ASSIGN(auto words, Words::read(wordsFolder()));
-  for (const auto& device : emulatedDevices()) TRY(words.add(device.folder() / "words.json", device.id));
+  for (const auto& device : emulatedDevices()) TRY(addWords(words, device));
   return words;
 }
 

@@ -21,10 +21,11 @@ constexpr std::string_view kLanguage = "language=";  // with a code: the name of
 Result<Words> Words::read(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   std::error_code error;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error))
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
     if (entry.path().extension() == ".json") files.push_back(entry.path());
   if (error) return failure(ErrorKind::file_system, "cannot read the folder: " + error.message(), folder.string());
   std::sort(files.begin(), files.end());
+  for (auto& file : languageFiles(folder, "common")) files.push_back(std::move(file));
   Words words;
   for (const auto& file : files) TRY(words.take(file, {}));
   return words;
@@ -37,7 +38,6 @@ Result<void> Words::take(const std::filesystem::path& file, std::string device) 
   JsonFault fault(nameWithFolder(file));
   JsonFields root(fault, json, "");
   root.skip("about");
-  root.skip("exercises");
   if (device.empty()) device = root.textOr("of", "");
   const auto only = root.textOr("language", "");
   const auto put = [&](const std::string& key, const std::string& language, const std::string& text,
@@ -74,6 +74,16 @@ std::string Words::text(const std::string& device, const std::string& key, const
 
 bool Words::has(const std::string& device, const std::string& key, const std::string& language) const {
   return find(device, key, language) != nullptr;
+}
+
+std::vector<std::filesystem::path> languageFiles(const std::filesystem::path& folder, const std::string& name) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (auto file = entry.path() / (name + ".json"); std::filesystem::is_regular_file(file, error))
+      files.push_back(std::move(file));
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 std::vector<std::string> Words::languages() const {

@@ -14,16 +14,15 @@ namespace standpoint {
 // The words on the instruments' screens, in the languages that their files have: a teacher with the manual at hand
 // corrects them, or adds a language, without a build. A file is
 //   {"about": "…", "words": {"scan": {"en": "Scan", "de": "Scannen", "uk": "…"}}}
-// or, of one language,
+// and in a language's folder, such as pl/common.json or pl/leica-rtc360.json,
 //   {"language": "pl", "words": {"scan": "Skanuj"}}
-// Every file may add languages to the words of others. The files of a folder, and of the folders in it, have the words
-// that the devices share, or those of the device that "of" names: {"of": "leica-rtc360", …}. "exercises" in such a file
-// are ExerciseWords.
-// A word may name facts in braces, "{battery} remaining", and have forms for a count (language/plural.h):
+// Every file may add languages to the words of others. The files of a folder, and common.json of each language, have
+// the words that the devices share, or those of the device that "of" names: {"of": "leica-rtc360", …}. A word may name
+// facts in braces, "{battery} remaining", and have forms for a count (language/plural.h):
 //   "{setups} {setups|one=setup|other=setups}"
 class Words {
  public:
-  static Result<Words> read(const std::filesystem::path& folder);
+  static Result<Words> read(const std::filesystem::path& folder);                  // with common.json of each language
   Result<void> add(const std::filesystem::path& file, const std::string& device);  // the device's own words
 
   // The device's own word, else the shared one; in English where the language lacks it; the key where nobody has it.
@@ -43,5 +42,8 @@ class Words {
 
   std::map<std::string, std::map<std::string, std::string>> texts_;  // "leica-rtc360/scan" or "scan": language: text
 };
+
+// The files of this name in the folders of the languages, by language: "common", "exercises", the id of a device.
+std::vector<std::filesystem::path> languageFiles(const std::filesystem::path& folder, const std::string& name);
 
 }  // namespace standpoint

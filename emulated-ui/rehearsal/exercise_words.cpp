@@ -1,25 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "emulated-ui/rehearsal/exercise_words.h"
 
-#include <algorithm>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "core/json_fields.h"
 #include "core/json_file.h"
+#include "emulated-ui/device/words.h"
 
 namespace standpoint {
 
 Result<ExerciseWords> ExerciseWords::read(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error))
-    if (entry.path().extension() == ".json") files.push_back(entry.path());
-  if (error) return failure(ErrorKind::file_system, "cannot read the folder: " + error.message(), folder.string());
-  std::sort(files.begin(), files.end());
   ExerciseWords words;
-  for (const auto& file : files) TRY(words.take(file));
+  for (const auto& file : languageFiles(folder, "exercises")) TRY(words.take(file));
   return words;
 }
 
@@ -27,8 +21,7 @@ Result<void> ExerciseWords::take(const std::filesystem::path& file) {
   TRY_ASSIGN(const auto json, readJsonFile(file));
   JsonFault fault(nameWithFolder(file));
   JsonFields root(fault, json, "");
-  if (!root.has("exercises")) return {};
-  for (const auto* of_words : {"about", "of", "words"}) root.skip(of_words);
+  root.skip("about");
   auto& texts = texts_[root.text("language", "pl")];
   root.each("exercises", [&](const std::string& english, const nlohmann::json& text, const std::string& at) {
     if (!texts.emplace(english, textAt(fault, text, at)).second) fault.say(at, "already defined in another file");

@@ -13,12 +13,11 @@
 namespace standpoint {
 
 // Texts of exercises in languages that their own files lack, by the English text, so that what several exercises say is
-// said once. A file is
+// said once. exercises.json in the folder of a language is
 //   {"language": "pl", "exercises": {"Answer the question.": "Odpowiedz na pytanie."}}
-// and may hold words of devices, too (Words).
 class ExerciseWords {
  public:
-  static Result<ExerciseWords> read(const std::filesystem::path& folder);  // with the folders in it
+  static Result<ExerciseWords> read(const std::filesystem::path& folder);  // of the folders of the languages
 
   // What the exercise's own file says stays.
   void addTo(Exercise& exercise) const;

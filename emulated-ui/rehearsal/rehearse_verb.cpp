@@ -2,10 +2,12 @@
 #include "emulated-ui/rehearsal/rehearse_verb.h"
 
 #include <filesystem>
+#include <set>
 #include <variant>
 
 #include <fmt/format.h>
 
+#include "core/json_fields.h"
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/exercise_words.h"
 #include "emulated-ui/rehearsal/marks.h"
@@ -145,12 +147,27 @@ Result<RehearseOutcome> checkFiles(const Document& document, const std::vector<s
   return outcome;
 }
 
+// A file whose name is no device's is never read.
+void reportUnreadFiles(Report& report) {
+  std::set<std::string> names = {"common", "exercises"};
+  for (const auto& device : emulatedDevices()) names.insert(device.id);
+  std::error_code error;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(wordsFolder(), error)) {
+    const auto& file = entry.path();
+    if (file.parent_path() != wordsFolder() && !entry.is_directory() &&
+        (file.extension() != ".json" || !names.contains(file.stem().string())))
+      report.lose(nameWithFolder(file),
+                  fmt::format("is not read: the name must be one of {}, with .json", fmt::join(names, ", ")));
+  }
+}
+
 // What the languages lack: of the devices' words, and of the exercises that come with the program.
 Result<RehearseOutcome> checkWords(const Document& document) {
   TRY_ASSIGN(const auto words, wordsOfAllDevices());
   TRY_ASSIGN(const auto of_exercises, ExerciseWords::read(wordsFolder()));
   auto report = words.check();
   report.append(of_exercises.check(shippedExercises().readable));
+  reportUnreadFiles(report);
   RehearseOutcome outcome{document};
   CheckedFile row{wordsFolder().string(), "words", report.losses() == 0, {}};
   for (const auto& issue : report.issues) {
@@ -158,7 +175,7 @@ Result<RehearseOutcome> checkWords(const Document& document) {
     row.findings.push_back({severity, issue.source, issue.message});
     outcome.text += fmt::format("{}: {}: {}\n", severity, issue.source, issue.message);
   }
-  if (!row.sound) outcome.report.lose("--words", fmt::format("{} texts are missing or wrong", report.losses()));
+  if (!row.sound) outcome.report.lose("--words", fmt::format("missing or wrong texts: {}", report.losses()));
   outcome.description = fmt::format("Languages: {}", fmt::join(words.languages(), ", "));
   outcome.answer = CheckedFiles{row.sound, {std::move(row)}};
   return outcome;

@@ -65,9 +65,11 @@ class WordFiles : public testing::Test {
 TEST_F(WordFiles, OfOneLanguageAddItToTheWordsOfOthers) {
   write("common.json", R"({"words": {"scan": {"en": "Scan"}, "language=en": {"en": "English"}}})");
   write("pl/common.json", R"({"language": "pl", "words": {"scan": "Skanuj", "language=pl": "Polski"}})");
-  write("pl/x7.json", R"({"language": "pl", "of": "x7", "words": {"scan": "Start"}})");
-  const auto words = Words::read(folder_.path());
+  write("pl/x7.json", R"({"language": "pl", "words": {"scan": "Start"}})");
+  auto words = Words::read(folder_.path());
   ASSERT_TRUE(words) << describe(words.error());
+  ASSERT_THAT(languageFiles(folder_.path(), "x7"), ElementsAre(folder_.path() / "pl" / "x7.json"));
+  ASSERT_TRUE(words->add(folder_.path() / "pl" / "x7.json", "x7"));
   EXPECT_EQ(words->text("rtc", "scan", "pl"), "Skanuj");
   EXPECT_EQ(words->text("x7", "scan", "pl"), "Start");
   EXPECT_EQ(words->text("rtc", "scan", "it"), "Scan");
@@ -86,14 +88,14 @@ TEST_F(WordFiles, DoNotLendADeviceASharedWordOfAnotherMeaning) {
 
 TEST_F(WordFiles, AreRefusedByNameAndPlace) {
   write("a.json", R"({"words": {"scan": {"en": "Scan", "pl": "Skan"}}})");
-  write("pl/b.json", R"({"language": "pl", "words": {"scan": "Skanuj"}})");
+  write("pl/common.json", R"({"language": "pl", "words": {"scan": "Skanuj"}})");
   auto words = Words::read(folder_.path());
   ASSERT_FALSE(words);
-  EXPECT_EQ(describe(words.error()), "pl/b.json /words/scan: already defined in another file");
-  write("pl/b.json", R"({"language": "pl", "words": {"stop": 3}})");
+  EXPECT_EQ(describe(words.error()), "pl/common.json /words/scan: already defined in another file");
+  write("pl/common.json", R"({"language": "pl", "words": {"stop": 3}})");
   words = Words::read(folder_.path());
   ASSERT_FALSE(words);
-  EXPECT_THAT(describe(words.error()), HasSubstr("pl/b.json /words/stop"));
+  EXPECT_THAT(describe(words.error()), HasSubstr("pl/common.json /words/stop"));
 }
 
 TEST_F(WordFiles, AreCheckedForWhatALanguageLacks) {
@@ -112,7 +114,7 @@ TEST_F(WordFiles, AreCheckedForWhatALanguageLacks) {
 }
 
 TEST_F(WordFiles, AddTextsToAnExerciseThatLacksThem) {
-  write("pl.json", R"({"language": "pl", "exercises": {"Scan.": "Zeskanuj.", "Go home.": "Idź do domu."}})");
+  write("pl/exercises.json", R"({"language": "pl", "exercises": {"Scan.": "Zeskanuj.", "Go home.": "Idź do domu."}})");
   const auto words = ExerciseWords::read(folder_.path());
   ASSERT_TRUE(words) << describe(words.error());
   Exercise exercise;
