@@ -15,6 +15,7 @@
 
 #include "pointclouds/formats.h"
 #include "pointclouds/octree/octree_plan.h"
+#include "pointclouds/octree/octree_sorted.h"
 #include "pointclouds/octree/octree_writer.h"
 
 namespace standpoint {
@@ -247,6 +248,33 @@ Result<void> buildChunks(const octree::Plan& plan, octree::PointSpool& spool, As
   return error.result();
 }
 
+// Two passes over the cloud.
+Result<octree::Sorted> sortedBy(const CloudSource& source, const OctreeKey& key, octree::PointSpool& spool,
+                                const OctreeOptions& options, Progress& progress) {
+  progress.stage("Counting points", 0, 0.3);
+  CountSink counted(options.watcher, progress);
+  TRY(pass(source, counted, progress));
+  octree::Plan plan(counted.counts.cube(), counted.counts.counts(), options.points_at_once, spool);
+  progress.stage("Sorting points", 0.3, 0.6);
+  DistributeSink distribute(plan, spool, progress);
+  TRY(pass(source, distribute, progress));
+  TRY(plan.refine(progress));
+  return octree::Sorted{
+      key, options.points_at_once, counted.counts.bounds(), distribute.leftOut(), distribute.header(), plan.nodes()};
+}
+
+// What a build of the same cloud had sorted when it was killed.
+std::optional<octree::Sorted> leftBy(octree::PointSpool& spool, const OctreeKey& key, const OctreeOptions& options) {
+  const auto note = spool.kept();
+  auto sorted = note ? octree::sortedFrom(*note) : std::nullopt;
+  const auto chunks = static_cast<std::int64_t>(spool.chunks());
+  if (sorted && sorted->key == key && sorted->points_at_once == options.points_at_once &&
+      std::all_of(sorted->nodes.begin(), sorted->nodes.end(), [&](const auto& n) { return n.chunk < chunks; }))
+    return sorted;
+  spool.clear();
+  return std::nullopt;
+}
+
 }  // namespace
 
 CloudSource sourceOf(const std::filesystem::path& cloud) {
@@ -262,23 +290,21 @@ CloudSource sourceOf(const std::filesystem::path& cloud) {
 Result<OctreeBuilt> buildOctree(const CloudSource& source, const OctreeKey& key, const std::filesystem::path& octree,
                                 const OctreeOptions& options, Progress& progress) {
   TRY_ASSIGN(auto writer, octree::OctreeWriter::create(octree));
-  TRY_ASSIGN(auto spool, octree::PointSpool::create(std::filesystem::absolute(octree).parent_path()));
-  progress.stage("Counting points", 0, 0.3);
-  CountSink counted(options.watcher, progress);
-  TRY(pass(source, counted, progress));
-  const Cube cube = counted.counts.cube();
-  octree::Plan plan(cube, counted.counts.counts(), options.points_at_once, spool);
-  progress.stage("Sorting points", 0.3, 0.6);
-  DistributeSink distribute(plan, spool, progress);
-  TRY(pass(source, distribute, progress));
-  TRY(plan.refine(progress));
+  TRY_ASSIGN(auto spool, octree::PointSpool::create(octree));
+  auto sorted = leftBy(spool, key, options);
+  if (!sorted) {
+    TRY_ASSIGN(sorted, sortedBy(source, key, spool, options, progress));
+    TRY(spool.keep(octree::textOf(*sorted)));
+  }
   progress.stage("Making levels of detail", 0.6, 1);
+  const octree::Plan plan(std::move(sorted->nodes), spool);
+  const Cube cube = plan.nodes()[0].cube;
   Assembler assembler(plan, writer);
   TRY(buildChunks(plan, spool, assembler, options.threads, progress));
   TRY_ASSIGN(const auto root, assembler.root());
   TRY(progress.check());
-  TRY(writer.close(root, cube, key, distribute.header(), counted.counts.bounds()));
-  return OctreeBuilt{writer.points(), writer.nodes(), distribute.leftOut(), writer.levels()};
+  TRY(writer.close(root, cube, key, sorted->header, sorted->bounds_m));
+  return OctreeBuilt{writer.points(), writer.nodes(), sorted->left_out, writer.levels()};
 }
 
 }  // namespace standpoint

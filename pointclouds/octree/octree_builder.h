@@ -28,10 +28,11 @@ struct OctreeBuilt {
   int levels = 0;
 };
 
-// Makes the octree file of a cloud, in two passes over the source and one over a scratch file beside `octree`, which
-// has no name, needs 32 bytes a point and is gone with the program. Memory does not grow with the points. The same
-// points give the same bytes, in whatever order and on any number of threads. The file is there when it is whole: a
-// build that is cancelled or out of disk leaves nothing, one that is killed the hidden part of a PartFile.
+// Makes the octree file of a cloud, in two passes over the source and one over a hidden scratch file beside `octree`,
+// which needs 32 bytes a point. Memory does not grow with the points. The same points give the same bytes, in whatever
+// order and on any number of threads. The file is there when it is whole: a build that is cancelled or out of disk
+// leaves nothing. One that is killed leaves the scratch file and the hidden part of a PartFile: where all points were
+// sorted, the next build of the same cloud begins with them, and does not read the cloud again.
 Result<OctreeBuilt> buildOctree(const CloudSource& source, const OctreeKey& key, const std::filesystem::path& octree,
                                 const OctreeOptions& options, Progress& progress);
 

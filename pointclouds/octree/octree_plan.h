@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/progress.h"
@@ -25,6 +26,8 @@ class Plan {
  public:
   // The points of `cube`, counted in its cells.
   Plan(const Cube& cube, std::span<const std::uint64_t> counts, std::size_t most_points, PointSpool& spool);
+  // As it was when all points were in their chunks.
+  Plan(std::vector<PlanNode> nodes, PointSpool& spool) : most_points_(0), spool_(spool), nodes_(std::move(nodes)) {}
   // The chunk for a point of the whole cube; less than 0: none was counted there.
   std::int64_t chunkOf(const CloudPoint& point) const {
     return chunk_of_cell_[cellOf(nodes_[0].cube, point.position_m, 7)];

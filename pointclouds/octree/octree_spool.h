@@ -4,7 +4,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/result.h"
@@ -12,10 +15,12 @@
 
 namespace standpoint::octree {
 
-// Points sorted into chunks, in a file without a name: it is gone with the program, however that ends.
+// Points sorted into chunks, in a hidden file beside the one that is made of them. It goes with the spool, but stays
+// where the program is killed, and what it holds can then be had again, once keep() has said that it is complete. Who
+// makes the same file at the same time has a file without a name instead.
 class PointSpool {
  public:
-  static Result<PointSpool> create(const std::filesystem::path& folder);
+  static Result<PointSpool> create(const std::filesystem::path& made_of_it);
   PointSpool(PointSpool&& other) noexcept;
   PointSpool(const PointSpool&) = delete;
   ~PointSpool();
@@ -26,6 +31,14 @@ class PointSpool {
   // A block after the other, in the order in which they were added.
   Result<void> each(std::size_t chunk, const std::function<Result<void>(std::span<const CloudPoint>)>& take) const;
   void forget(std::size_t chunk) { chunks_[chunk] = {}; }
+  std::size_t chunks() const { return chunks_.size(); }
+
+  // All points are in their chunks: they outlive a kill from here on, with `note`.
+  Result<void> keep(const std::string& note);
+  // Of a spool that has just been created: the note of what a program that was killed has left, with its chunks.
+  // Nothing where there is none that is whole.
+  std::optional<std::string> kept();
+  void clear();  // what was left is not wanted
 
  private:
   static constexpr std::size_t kBlock = 1024;  // points
@@ -34,9 +47,13 @@ class PointSpool {
     std::vector<std::uint32_t> blocks;  // numbers of full ones in the file
     std::vector<CloudPoint> rest;
   };
-  PointSpool(std::filesystem::path folder, int descriptor) : folder_(std::move(folder)), descriptor_(descriptor) {}
+  PointSpool(std::filesystem::path folder, std::filesystem::path hidden, int descriptor)
+      : folder_(std::move(folder)), hidden_(std::move(hidden)), descriptor_(descriptor) {}
   Result<void> flush(Chunk& chunk);
-  std::filesystem::path folder_;
+  Result<void> write(std::uint64_t at, std::string_view bytes);
+  bool read(std::uint64_t at, std::size_t size, char* bytes) const;
+  bool takeChunks(std::string_view record);
+  std::filesystem::path folder_, hidden_;  // hidden_: empty where the file has no name
   int descriptor_ = -1;
   std::uint32_t blocks_ = 0;
   std::vector<Chunk> chunks_;

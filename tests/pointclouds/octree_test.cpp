@@ -260,6 +260,89 @@ TEST_F(OctreeTest, LeavesNothingOnAFullDisk) {
   }
 }
 
+// Killed in another process, once it makes levels (at 60 %) or before.
+void buildUntil(double fraction, const char* where) {
+  Progress progress;
+  progress.onChange([&] {
+    if (progress.fraction() >= fraction) _exit(7);
+  });
+  const auto places = room(100000);
+  const CloudSource source = [&](PointSink& sink, Progress&) -> Result<void> {
+    ScanHeader scan;
+    scan.name = "S1";
+    TRY(sink.begin(scan));
+    PointBlock block;
+    for (const auto& p : places) {
+      block.x_m.push_back(p[0]);
+      block.y_m.push_back(p[1]);
+      block.z_m.push_back(p[2]);
+      block.intensity.push_back(0.5F);
+    }
+    TRY(sink.write(block));
+    return sink.end();
+  };
+  const std::filesystem::path file = where;
+  (void)buildOctree(source, kKey, file, {30000, 1, nullptr}, progress);
+  _exit(8);
+}
+
+TEST_F(OctreeTest, ThatIsKilledGoesOnWithThePointsThatItHasSorted) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  setenv("OCTREE_TEST_FILE", file.c_str(), 0);
+  const std::filesystem::path where = std::getenv("OCTREE_TEST_FILE");
+  const auto whole = where.parent_path() / "whole.octree";
+  EXPECT_EXIT(buildUntil(2, whole.c_str()), testing::ExitedWithCode(8), "");
+  EXPECT_EXIT(buildUntil(0.8, where.c_str()), testing::ExitedWithCode(7), "");
+  EXPECT_FALSE(std::filesystem::exists(where));
+  const auto hidden = where.parent_path() / ".cloud.octree.sorted";
+  ASSERT_TRUE(std::filesystem::exists(hidden));
+  int reads = 0;
+  const CloudSource counted = [&](PointSink&, Progress&) -> Result<void> { return ++reads, Result<void>(); };
+  const auto built = buildOctree(counted, kKey, where, {30000, 2, nullptr}, progress);
+  ASSERT_TRUE(built) << describe(built.error());
+  EXPECT_EQ(reads, 0) << "the cloud is not read again";
+  EXPECT_EQ(built->points, 100000U);
+  EXPECT_FALSE(std::filesystem::exists(hidden));
+  const auto contentOf = [](const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  EXPECT_EQ(contentOf(where), contentOf(whole)) << "byte by byte";
+  unsetenv("OCTREE_TEST_FILE");
+}
+
+TEST_F(OctreeTest, BeginsAnewWhereWhatWasLeftIsOfAnotherCloudOrDamaged) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  setenv("OCTREE_TEST_FILE", file.c_str(), 0);
+  const std::filesystem::path where = std::getenv("OCTREE_TEST_FILE");
+  const auto hidden = where.parent_path() / ".cloud.octree.sorted";
+  const auto places = room(5000);
+  const auto readsFor = [&](const OctreeKey& key) {
+    int reads = 0;
+    const CloudSource counted = [&](PointSink& sink, Progress& p) { return ++reads, sourceOf(places)(sink, p); };
+    const auto built = buildOctree(counted, key, where, {30000, 1, nullptr}, progress);
+    EXPECT_TRUE(built && built->points == places.size());
+    return reads;
+  };
+  EXPECT_EXIT(buildUntil(0.8, where.c_str()), testing::ExitedWithCode(7), "");
+  EXPECT_EQ(readsFor({1235, 5678}), 2) << "the cloud has changed";
+  EXPECT_EXIT(buildUntil(0.3, where.c_str()), testing::ExitedWithCode(7), "");
+  EXPECT_EQ(readsFor(kKey), 2) << "it was killed before all was sorted";
+  EXPECT_EXIT(buildUntil(0.8, where.c_str()), testing::ExitedWithCode(7), "");
+  std::string bytes;
+  {
+    std::ifstream in(hidden, std::ios::binary);
+    bytes.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  for (const std::size_t back : {20U, 60U, 200U, 2000U}) {
+    auto wrong = bytes;
+    wrong[wrong.size() - back] = static_cast<char>(wrong[wrong.size() - back] ^ 0x55);
+    std::ofstream(hidden, std::ios::binary) << wrong;
+    EXPECT_EQ(readsFor(kKey), 2) << back;
+  }
+  unsetenv("OCTREE_TEST_FILE");
+}
+
 TEST_F(OctreeTest, KeepsTheOldOneWhenTheCloudBreaksOff) {
   ASSERT_TRUE(build(room(1000)));
   const auto before = bytes();
