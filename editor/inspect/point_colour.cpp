@@ -10,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include "editor/words/words.h"
+#include "pointclouds/statistics/cloud_sample.h"
 
 namespace standpoint {
 
@@ -282,11 +283,7 @@ bool hasClasses(C colour) {
 
 }  // namespace
 
-bool standsSomewhere(const CloudStation& station) {
-  const auto& pose = station.file_from_scanner;
-  const bool whole = (pose.translation.array() - pose.translation.array().round()).abs().maxCoeff() < 1e-9;
-  return pose.rotation.vec().norm() > 1e-9 || !whole;
-}
+bool standsSomewhere(const CloudStation& station) { return isOfScanner(station.file_from_scanner); }
 
 std::span<const ColourByRow> coloursBy() { return kRows; }
 const ColourByRow& rowOf(ColourBy colour) { return kRows.at(static_cast<std::size_t>(colour)); }

@@ -10,14 +10,17 @@
 
 namespace standpoint {
 
-// A pose is a scanner's when the scan has its grid, or when it is more than the whole metres by which readers keep far
-// coordinates fine (local_points.h).
+// local_points.h
+bool isOfScanner(const Pose& file_from_scanner) {
+  const auto& t = file_from_scanner.translation;
+  const bool whole_metres = (t.array() - t.array().round()).abs().maxCoeff() < 1e-9;
+  return file_from_scanner.rotation.vec().norm() > 1e-9 || !whole_metres;
+}
+
+// That of a grid is its scanner's anyway.
 std::optional<Eigen::Vector3d> stationOf(const ScanHeader& header) {
-  const Pose& pose = header.file_from_scanner;
   const bool grid = header.rows > 0 && header.columns > 0;
-  const bool turned = pose.rotation.vec().norm() > 1e-9;
-  const bool whole_metres = (pose.translation.array() - pose.translation.array().round()).abs().maxCoeff() < 1e-9;
-  if (grid || turned || !whole_metres) return pose.translation;
+  if (grid || isOfScanner(header.file_from_scanner)) return header.file_from_scanner.translation;
   return std::nullopt;
 }
 

@@ -19,6 +19,8 @@ namespace standpoint {
 // Where a scan's scanner stood, in the frame of the cloud's file; nothing where the file does not say (a LAS, a merged
 // cloud).
 std::optional<Eigen::Vector3d> stationOf(const ScanHeader& header);
+// Is a pose more than the whole metres by which readers keep far coordinates fine?
+bool isOfScanner(const Pose& file_from_scanner);
 
 struct SampledScan {
   std::string name, sensor_vendor, sensor_model;
