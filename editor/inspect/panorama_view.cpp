@@ -74,26 +74,22 @@ PanoramaWindow zoomed(const PanoramaWindow& window, double factor, double at_x, 
   return kept(nearer, aspect);
 }
 
-void PanoramaView::start(PanoramaRequest request, const std::function<void()>& wake) {
-  clear();
-  task_ = std::make_unique<Task<PanoramaRead>>(
-      "Panorama", [request = std::move(request)](Progress& progress) { return readWith(request, progress); }, wake);
+void PanoramaView::start(PanoramaRequest request) {
+  latest_.want(++started_,
+               [request = std::move(request)](Progress& progress) -> Result<std::shared_ptr<const PanoramaRead>> {
+                 TRY_ASSIGN(auto made, readWith(request, progress));
+                 return std::make_shared<const PanoramaRead>(std::move(made));
+               });
 }
 
-void PanoramaView::poll() {
-  if (!task_ || !task_->done()) return;
-  auto done = task_->take();
-  task_.reset();
-  if (done)
-    result_ = std::make_shared<const PanoramaRead>(*std::move(done));
-  else if (done.error().kind != ErrorKind::cancelled)
-    problem_ = describe(done.error());
+std::shared_ptr<const PanoramaRead> PanoramaView::result() const {
+  const auto* answer = latest_.answer();
+  return answer != nullptr && *answer ? **answer : nullptr;
 }
 
-void PanoramaView::clear() {
-  task_.reset();
-  result_.reset();
-  problem_.clear();
+std::string PanoramaView::problem() const {
+  const auto* answer = latest_.answer();
+  return answer == nullptr || *answer ? std::string() : describe(answer->error());
 }
 
 }  // namespace standpoint

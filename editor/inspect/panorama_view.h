@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/survey.h"
 #include "editor/colours/colour_scale.h"
 #include "pointclouds/inspection/panorama.h"
-#include "project/task.h"
+#include "project/latest_task.h"
 
 namespace standpoint {
 
@@ -43,20 +45,19 @@ std::pair<double, double> panoramaAt(const PanoramaWindow& window, double at_x, 
 // Reads in the background; a newer request ends an older one.
 class PanoramaView {
  public:
-  void start(PanoramaRequest request, const std::function<void()>& wake);
-  bool busy() const { return task_ && !task_->done(); }
-  void wait() {
-    if (task_) task_->wait();
-  }
-  void poll();  // once a frame
-  const std::shared_ptr<const PanoramaRead>& result() const { return result_; }
-  const std::string& problem() const { return problem_; }
-  void clear();
+  explicit PanoramaView(std::function<void()> wake) : latest_("Panorama", std::move(wake)) {}
+  void start(PanoramaRequest request);
+  bool busy() const { return latest_.busy() && latest_.wanted(); }
+  void wait() { latest_.wait(); }
+  void poll() { latest_.poll(); }  // once a frame
+  // Of the last start; null until it is done, and where there is none, or see problem().
+  std::shared_ptr<const PanoramaRead> result() const;
+  std::string problem() const;
+  void clear() { latest_.drop(); }
 
  private:
-  std::unique_ptr<Task<PanoramaRead>> task_;
-  std::shared_ptr<const PanoramaRead> result_;
-  std::string problem_;
+  std::uint64_t started_ = 0;
+  LatestTask<std::uint64_t, std::shared_ptr<const PanoramaRead>> latest_;  // by the number of its start
 };
 
 }  // namespace standpoint

@@ -60,27 +60,22 @@ std::string wallText(const WallResult& wall) {
   return text;
 }
 
-void WallView::start(WallRequest request, const std::function<void()>& wake) {
-  clear();
-  task_ = std::make_unique<Task<WallResult>>(
-      "Measure a wall", [request = std::move(request)](Progress& progress) { return measured(request, progress); },
-      wake);
+void WallView::start(WallRequest request) {
+  latest_.want(++started_,
+               [request = std::move(request)](Progress& progress) -> Result<std::shared_ptr<const WallResult>> {
+                 TRY_ASSIGN(auto made, measured(request, progress));
+                 return std::make_shared<const WallResult>(std::move(made));
+               });
 }
 
-void WallView::poll() {
-  if (!task_ || !task_->done()) return;
-  auto done = task_->take();
-  task_.reset();
-  if (done)
-    result_ = std::make_shared<const WallResult>(*std::move(done));
-  else if (done.error().kind != ErrorKind::cancelled)
-    problem_ = describe(done.error());
+std::shared_ptr<const WallResult> WallView::result() const {
+  const auto* answer = latest_.answer();
+  return answer != nullptr && *answer ? **answer : nullptr;
 }
 
-void WallView::clear() {
-  task_.reset();
-  result_.reset();
-  problem_.clear();
+std::string WallView::problem() const {
+  const auto* answer = latest_.answer();
+  return answer == nullptr || *answer ? std::string() : describe(answer->error());
 }
 
 }  // namespace standpoint

@@ -2,14 +2,16 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "core/survey.h"
 #include "pointclouds/inspection/wall_fit.h"
-#include "project/task.h"
+#include "project/latest_task.h"
 
 namespace standpoint {
 
@@ -38,23 +40,19 @@ std::string wallNote(const WallResult& wall);
 // Measures in the background; a newer request ends an older one.
 class WallView {
  public:
-  void start(WallRequest request, const std::function<void()>& wake);
-  bool busy() const { return task_ && !task_->done(); }
-  Progress* progress() { return busy() ? &task_->progress() : nullptr; }
-  double seconds() const { return busy() ? task_->seconds() : 0; }
-  void wait() {
-    if (task_) task_->wait();
-  }
-  void poll();  // once a frame
-  // Of the last start that is done; null: none, or see problem().
-  const std::shared_ptr<const WallResult>& result() const { return result_; }
-  const std::string& problem() const { return problem_; }
-  void clear();
+  explicit WallView(std::function<void()> wake) : latest_("Measure a wall", std::move(wake)) {}
+  void start(WallRequest request);
+  bool busy() const { return latest_.busy() && latest_.wanted(); }
+  void wait() { latest_.wait(); }
+  void poll() { latest_.poll(); }  // once a frame
+  // Of the last start; null until it is done, and where there is none, or see problem().
+  std::shared_ptr<const WallResult> result() const;
+  std::string problem() const;
+  void clear() { latest_.drop(); }
 
  private:
-  std::unique_ptr<Task<WallResult>> task_;
-  std::shared_ptr<const WallResult> result_;
-  std::string problem_;
+  std::uint64_t started_ = 0;
+  LatestTask<std::uint64_t, std::shared_ptr<const WallResult>> latest_;  // by the number of its start
 };
 
 }  // namespace standpoint

@@ -80,7 +80,7 @@ void Model::measureWall(const Eigen::Vector3d& place, const std::optional<Eigen:
   request.ball = {cloud_from_local * place, wall_choice.radius_m};
   if (normal) request.options.normal = cloud_from_local.rotation * *normal;
   request.options.roughness_radius_m = wall_choice.roughness_radius_m;
-  wall.start(std::move(request), wake);
+  wall.start(std::move(request));
 }
 
 // A mode that another file has no channel for gives way to its own colours.
@@ -99,7 +99,7 @@ const PointLegend* Model::pointLegend() const {
 }
 
 void Model::showPanorama(const InspectedCloud& cloud, std::optional<std::size_t> scan) {
-  panorama.start({cloud.label, cloud.file, scan, cloud.local_from_cloud}, wake);
+  panorama.start({cloud.label, cloud.file, scan, cloud.local_from_cloud});
 }
 
 void Model::jumpTo(const Eigen::Vector3d& place, const Eigen::Vector3d& from) {

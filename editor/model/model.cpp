@@ -22,6 +22,8 @@ Model::Model(std::vector<Verb> verbs, std::function<void()> wake_up)
       target_list(wake_up),
       wake(std::move(wake_up)) {}
 
+      wall(wake_up),
+      panorama(wake_up),
 const Document& Model::shownDocument() const {
   return preview.outcome() != nullptr ? preview.outcome()->document : session.document();
 }
