@@ -124,6 +124,19 @@ tl::unexpected<Error> refused(const std::string& name, const Refusal& why) {
   return failure(ErrorKind::unusable, fmt::format("cannot place station {}: {}; {}", name, why.reason, why.remedy));
 }
 
+// Who gives the height of a floor to --at means --on: "" where no floor with room for the tripod is that near.
+std::string onFloorRemedy(const StationPlacement& placement, const Eigen::Vector3d& at, const Eigen::Vector3d& centre,
+                          double height) {
+  constexpr double kSameFloor_m = 0.25;
+  for (const auto floor : floorsAt(placement.scene(), centre.x(), centre.y(), height)) {
+    if (std::abs(floor - centre.z()) > kSameFloor_m || placement.whyNot({centre.x(), centre.y(), floor + height}))
+      continue;
+    return fmt::format("if {} is the height of the floor, specify --on {},{},{}: the tripod adds its height", at.z(),
+                       at.x(), at.y(), at.z());
+  }
+  return {};
+}
+
 // `before` is what moves: where no place is said but a tilt is, it stays where it is.
 Result<Station> place(const Document& document, const RayScene& scene, const std::string& name,
                       const StationOptions& options, const Station* before, Report& report, Progress& progress) {
@@ -138,7 +151,12 @@ Result<Station> place(const Document& document, const RayScene& scene, const std
   TRY_ASSIGN(auto centre, stays       ? Result<Eigen::Vector3d>(before->true_pose.translation)
                           : somewhere ? centreFrom(scene, *document.georeference, options, setup.height_m)
                                       : bestPlace(document, placement, setup.height_m, report, progress));
-  if (auto why = setup.free ? placement.tooNear(centre) : placement.whyNot(centre)) return refused(name, *why);
+  if (auto why = setup.free ? placement.tooNear(centre) : placement.whyNot(centre)) {
+    if (options.at && !setup.free)
+      if (auto remedy = onFloorRemedy(placement, *options.at, centre, setup.height_m); !remedy.empty())
+        why->remedy = std::move(remedy);
+    return refused(name, *why);
+  }
   if (const auto odd = placement.remark(centre)) report.warn(name, *odd);
   Station station;
   station.name = name;
