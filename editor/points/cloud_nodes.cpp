@@ -15,11 +15,10 @@ std::uint32_t wordOf(const PointColour& c) {
   return std::uint32_t{c[0]} | std::uint32_t{c[1]} << 8 | std::uint32_t{c[2]} << 16 | std::uint32_t{c[3]} << 24;
 }
 
-void add(PackedPoints& to, const CloudPoint& p, const PointColour& colour) {
+void addPlace(PackedPoints& to, const CloudPoint& p) {
   to.x_m.push_back(p.position_m[0]);
   to.y_m.push_back(p.position_m[1]);
   to.z_m.push_back(p.position_m[2]);
-  to.colours.push_back(wordOf(colour));
 }
 
 PackedPoints emptyFor(std::size_t points) {
@@ -37,13 +36,16 @@ PackedPoints packedNode(const OctreeNode& node, std::vector<CloudPoint> points, 
       for (std::size_t k = 0; k < 3; ++k)
         p.position_m[k] += sign * static_cast<float>(node.min_m[static_cast<Eigen::Index>(k)]);
   };
-  const std::vector<CloudPoint> in_node = move ? std::vector<CloudPoint>() : points;
+  PackedPoints to = emptyFor(points.size());
+  const auto addPlaces = [&] {
+    for (const auto& p : points) addPlace(to, p);
+  };
+  if (!move) addPlaces();  // as they are in the node: there and back would cost digits
   shift(1);
   if (move) move(points);
   const auto colours = paint(points);
-  if (move) shift(-1);
-  PackedPoints to = emptyFor(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) add(to, move ? points[i] : in_node[i], colours[i]);
+  if (move) shift(-1), addPlaces();
+  for (const auto& colour : colours) to.colours.push_back(wordOf(colour));
   return to;
 }
 
@@ -58,7 +60,10 @@ PackedPoints packed(std::span<const CloudPoint> points, std::span<const PointCol
     std::swap(order[i - 1], order[static_cast<std::size_t>(((state >> 32) * i) >> 32)]);
   }
   PackedPoints to = emptyFor(points.size());
-  for (const auto i : order) add(to, points[i], colours[i]);
+  for (const auto i : order) {
+    addPlace(to, points[i]);
+    to.colours.push_back(wordOf(colours[i]));
+  }
   return to;
 }
 
