@@ -39,8 +39,7 @@ Cloud CloudSampler::coloured() const {
   return cloud;
 }
 
-Result<Cloud> sampleCloud(std::span<const std::filesystem::path> files, const Eigen::Vector3d& shift_m,
-                          std::uint64_t most, Progress& progress) {
+Result<std::uint64_t> pointsIn(std::span<const std::filesystem::path> files) {
   std::uint64_t points = 0;
   for (const auto& file : files) {
     const CloudFormat* format = cloudFormatFor(file);
@@ -49,6 +48,11 @@ Result<Cloud> sampleCloud(std::span<const std::filesystem::path> files, const Ei
     TRY_ASSIGN(const auto info, format->info(file));
     for (const auto& scan : info.scans) points += scan.points;
   }
+  return points;
+}
+
+Result<Cloud> sampleCloud(std::span<const std::filesystem::path> files, std::uint64_t points,
+                          const Eigen::Vector3d& shift_m, std::uint64_t most, Progress& progress) {
   CloudSampler sink(points / most + 1, most, shift_m);
   std::vector<std::filesystem::path> of_scans;
   for (const auto& file : files) {

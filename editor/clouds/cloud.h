@@ -66,9 +66,11 @@ class CloudSampler : public PointSink {
   std::vector<CloudPoint> points_;
 };
 
-// Every k-th point, so that at most `most` are kept; memory does not grow with the file. Of several files, one after
-// the other.
-Result<Cloud> sampleCloud(std::span<const std::filesystem::path> files, const Eigen::Vector3d& shift_m,
-                          std::uint64_t most, Progress& progress);
+// In all of them.
+Result<std::uint64_t> pointsIn(std::span<const std::filesystem::path> files);
+// Every k-th of the `points` of the files, so that at most `most` are kept; memory does not grow with the file. Of
+// several files, one after the other.
+Result<Cloud> sampleCloud(std::span<const std::filesystem::path> files, std::uint64_t points,
+                          const Eigen::Vector3d& shift_m, std::uint64_t most, Progress& progress);
 
 }  // namespace standpoint

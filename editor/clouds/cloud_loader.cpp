@@ -54,13 +54,8 @@ Result<Cloud> cloudOf(std::shared_ptr<const OctreeFile> octree, const std::files
 
 Result<Cloud> openCloud(const std::filesystem::path& file, const Eigen::Vector3d& shift_m, std::uint64_t most_in_memory,
                         PointSink* preview, Progress& progress) {
-  const CloudFormat* format = cloudFormatFor(file);
-  if (format == nullptr || format->read == nullptr)
-    return failure(ErrorKind::unusable, "unsupported point-cloud format", file.string());
-  TRY_ASSIGN(const auto info, format->info(file));
-  std::uint64_t points = 0;
-  for (const auto& scan : info.scans) points += scan.points;
-  if (points <= most_in_memory) return sampleCloud(std::span(&file, 1), shift_m, most_in_memory, progress);
+  TRY_ASSIGN(const auto points, pointsIn(std::span(&file, 1)));
+  if (points <= most_in_memory) return sampleCloud(std::span(&file, 1), points, shift_m, most_in_memory, progress);
   TRY_ASSIGN(const auto key, octreeKeyOf(file));
   const auto places = octreePlaces(file);
   for (const auto& place : places)
@@ -82,9 +77,10 @@ void CloudLoader::start(const std::vector<std::filesystem::path>& files, const E
   preview_ = std::make_shared<LiveCloud>(shift_m, wake);
   task_ = std::make_unique<Task<Cloud>>(
       files.size() == 1 ? "Show " + files.front().filename().string() : "Show all scans together",
-      [files, shift_m, preview = preview_](Progress& progress) {
-        return files.size() == 1 ? openCloud(files.front(), shift_m, kMostInMemory, preview.get(), progress)
-                                 : sampleCloud(files, shift_m, kMostInMemory, progress);
+      [files, shift_m, preview = preview_](Progress& progress) -> Result<Cloud> {
+        if (files.size() == 1) return openCloud(files.front(), shift_m, kMostInMemory, preview.get(), progress);
+        TRY_ASSIGN(const auto points, pointsIn(files));
+        return sampleCloud(files, points, shift_m, kMostInMemory, progress);
       },
       std::move(wake));
 }

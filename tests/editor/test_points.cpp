@@ -290,14 +290,17 @@ TEST_F(CloudFiles, AreMovedWhenTheirNodesAreRead) {
 TEST_F(CloudFiles, AreShownTogether) {
   std::ofstream(folder / "few.xyz") << "101 0 0 1\n102 0 0 1\n";
   const std::vector<std::filesystem::path> files = {file, folder / "few.xyz"};
-  const auto both = sampleCloud(files, {100, 0, 0}, 100000, progress);
+  const auto points = pointsIn(files);
+  ASSERT_TRUE(points) << describe(points.error());
+  const auto both = sampleCloud(files, *points, {100, 0, 0}, 100000, progress);
   ASSERT_TRUE(both) << describe(both.error());
   EXPECT_EQ(both->files, files);
   EXPECT_EQ(both->points.size(), static_cast<std::size_t>(kPoints) + 2);
   EXPECT_EQ(both->header.stations.size(), 2U);
   EXPECT_FLOAT_EQ(both->points.back().position_m[0], 2.0F);
   const std::vector<std::filesystem::path> lost = {file, folder / "gone.xyz"};
-  EXPECT_FALSE(sampleCloud(lost, {100, 0, 0}, 100000, progress));
+  EXPECT_FALSE(pointsIn(lost));
+  EXPECT_FALSE(sampleCloud(lost, *points, {100, 0, 0}, 100000, progress));
 }
 
 TEST_F(CloudFiles, OfFewPointsNeedNoOctree) {
