@@ -135,6 +135,8 @@ struct Document {
   const std::shared_ptr<const Environment>& environment() const {
     return simplified ? simplified->environment : imported;
   }
+  // Not of a project that was begun with point clouds alone: its environment is empty, and came from no file.
+  bool hasModel() const { return imported && !(imported->products.empty() && sources.empty()); }
   // Where one can walk in the scene; null until its collision shapes were made.
   const Mesh* walkable() const { return collision ? &collision->walkable : nullptr; }
   bool operator==(const Document&) const = default;

@@ -100,8 +100,13 @@ Result<json> checkOptions(const Verb& verb, const json& options) {
 
 Result<Outcome> runVerb(const Verb& verb, const Document& document, const json& options, Progress& progress) {
   TRY_ASSIGN(auto complete, checkOptions(verb, options));
-  if ((verb.scope == VerbScope::changes || verb.scope == VerbScope::reads) && !document.imported)
+  const bool takes_document = verb.scope == VerbScope::changes || verb.scope == VerbScope::reads;
+  if (takes_document && !document.imported)
     return failure(ErrorKind::usage, "there is no model: import one first", verb.name);
+  if (takes_document && !document.hasModel() && !verb.without_model)
+    return failure(ErrorKind::usage,
+                   "the project has point clouds and no model: add one first, with `standpoint add PROJECT FILE`",
+                   verb.name);
   try {
     return verb.run(document, complete, progress);
   } catch (const std::bad_alloc&) {

@@ -78,6 +78,7 @@ struct Verb {
   std::vector<Parameter> parameters;  // without the project itself
   std::function<Result<Outcome>(const Document&, const nlohmann::json& options, Progress&)> run;
   std::vector<std::string> answer_names = {};  // keys of its answer; with '/' those of the rows below a key
+  bool without_model = false;                  // of those that take a document: one of point clouds alone will do
   // The struct of its options, and what a job file would say for one; of a verb that is typed.
   std::type_index options_type = typeid(void);
   std::function<nlohmann::json(const std::any& options)> job_options = {};
@@ -110,7 +111,8 @@ std::string domainOf(const Parameter& parameter);
 // Fills in defaults and checks kinds, domains, unknown and missing options; errors name the option and what it may be.
 Result<nlohmann::json> checkOptions(const Verb& verb, const nlohmann::json& options);
 
-// checkOptions, then run; `changes` and `reads` need a model. Every door goes here, so what import makes is not null.
+// checkOptions, then run; `changes` and `reads` need what import makes, and a model in it unless `without_model`. Every
+// door goes here, so what import makes is not null.
 Result<Outcome> runVerb(const Verb& verb, const Document& document, const nlohmann::json& options, Progress& progress);
 
 }  // namespace standpoint

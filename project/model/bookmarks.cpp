@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "project/survey/underlays.h"
 
 namespace standpoint {
 
@@ -32,15 +33,15 @@ Result<std::vector<Bookmark>::iterator> existing(std::vector<Bookmark>& bookmark
                                                names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
 }
 
-// From the south-west and above, so far away that all of the model is seen.
+// From the south-west and above, so far away that all of the model, or of the clouds, is seen.
 Bookmark overview(const Document& document) {
   Bookmark bookmark;
   bookmark.azimuth_rad = 45 * kRadPerDeg;
   bookmark.elevation_rad = -30 * kRadPerDeg;
-  const Bounds model = bounds(*document.imported);
-  if (model.empty()) return bookmark;
-  bookmark.distance_m = 0.5 * model.diagonal() / std::sin(bookmark.view_angle_rad / 2);
-  bookmark.eye = 0.5 * (model.min + model.max) - bookmark.forward() * bookmark.distance_m;
+  const Bounds site = siteInFile(document);
+  if (site.empty()) return bookmark;
+  bookmark.distance_m = 0.5 * site.diagonal() / std::sin(bookmark.view_angle_rad / 2);
+  bookmark.eye = 0.5 * (site.min + site.max) - shiftOf(document) - bookmark.forward() * bookmark.distance_m;
   return bookmark;
 }
 

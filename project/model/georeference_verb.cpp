@@ -6,17 +6,18 @@
 #include "core/units.h"
 #include "project/answers.h"
 #include "project/model/model_verbs.h"
+#include "project/survey/underlays.h"
 #include "survey/geodesy.h"
 
 namespace standpoint {
 
 namespace {
 
-// Where the model's centre is on the Earth. A model without map conversion whose CRS is named has map coordinates
-// itself.
+// Where the centre of the model, or of the clouds, is on the Earth. A model without map conversion whose CRS is named
+// has map coordinates itself.
 void locate(const Document& document, GeoreferenceAnswer& answer, Report& report) {
-  const Bounds b = bounds(*document.imported);
-  answer.reference_m = (b.empty() ? Eigen::Vector3d::Zero() : Eigen::Vector3d(0.5 * (b.min + b.max))) + answer.shift_m;
+  const Bounds b = siteInFile(document);
+  answer.reference_m = b.empty() ? answer.shift_m : Eigen::Vector3d(0.5 * (b.min + b.max));
   if (!answer.crs.empty()) {
     answer.map_m = answer.map_from_file ? mapFromFile(*answer.map_from_file, answer.reference_m) : answer.reference_m;
     const auto factors = geographic(answer.crs, *answer.map_m);

@@ -13,6 +13,7 @@
 #include "project/answers.h"
 #include "project/materials/materials_verb.h"
 #include "project/model/global_ids.h"
+#include "project/model/import_clouds.h"
 #include "project/model/model_verbs.h"
 #include "survey/geodesy.h"
 
@@ -255,6 +256,7 @@ Result<Answered<ImportAnswer>> importModels(const Document& document, const std:
                     triangleCount(environment),
                     fileBounds(bounds(environment), georeference.shift_m),
                     georeference,
+                    {},
                     {}};
   outcome.description = fmt::format("Imported {}: {} products, {} triangles", files.front().filename().string(),
                                     environment.products.size(), sceneTriangleCount(environment));
@@ -313,7 +315,7 @@ const Fields<AddOptions>& addFields() {
 const Fields<ImportVerbOptions>& importFields() {
   using O = ImportVerbOptions;
   static const Fields<O> fields = {
-      {"files", &O::files, "the model files", {.positional = true, .required = true}},
+      {"files", &O::files, "the model and point-cloud files", {.positional = true, .required = true}},
       {"output", &O::output, "folder of the new project"},
       {"replace", &O::replace, "replace the contents of that folder"},
       {"update", &O::update, "read a changed model; keep stations, targets and materials, and list the changes"},
@@ -374,18 +376,28 @@ const AnswerFields<ImportedLook>& answerFields(const ImportedLook*) {
 
 const AnswerFields<ImportAnswer>& answerFields(const ImportAnswer*) {
   using A = ImportAnswer;
-  static const AnswerFields<A> fields = {{"products", &A::products},        {"spatial", &A::spatial},
-                                         {"surfaces", &A::surfaces},        {"triangles", &A::triangles},
-                                         {"bounds", &A::bounds_m},          {"georeference", &A::georeference},
-                                         {"changes", &A::changes, kLeftOut}};
+  static const AnswerFields<A> fields = {{"products", &A::products},   {"spatial", &A::spatial},
+                                         {"surfaces", &A::surfaces},   {"triangles", &A::triangles},
+                                         {"bounds", &A::bounds_m},     {"georeference", &A::georeference},
+                                         {"underlays", &A::underlays}, {"changes", &A::changes, kLeftOut}};
   return fields;
 }
 
 Result<Answered<ImportAnswer>> runImport(const Document& document, const ImportVerbOptions& options,
                                          Progress& progress) {
   const auto typed = importOptions(options);
-  return options.update ? updateModels(document, options.files, typed, options.crs, progress)
-                        : importModels(document, options.files, typed, options.crs, progress);
+  const auto [models, clouds] = sorted(options.files);
+  if (options.update) {
+    if (!clouds.empty())
+      return failure(ErrorKind::usage,
+                     "a point cloud is no model to update from; add it with `standpoint underlay PROJECT --add FILE`",
+                     clouds.front().string());
+    return updateModels(document, models, typed, options.crs, progress);
+  }
+  if (models.empty() && !clouds.empty()) return importClouds(document, clouds, options, progress);
+  auto imported = importModels(document, models, typed, options.crs, progress);
+  if (imported) TRY(addClouds(*imported, clouds, progress));
+  return imported;
 }
 
 Result<Answered<ImportAnswer>> addImported(const Document& document, Answered<ImportAnswer> imported,
@@ -421,6 +433,10 @@ Result<Answered<ImportAnswer>> addImported(const Document& document, Answered<Im
 }
 
 Result<Answered<ImportAnswer>> runAdd(const Document& document, const AddOptions& options, Progress& progress) {
+  if (const auto clouds = sorted(options.files).clouds; !clouds.empty())
+    return failure(ErrorKind::usage,
+                   "a point cloud is an underlay; add it with `standpoint underlay PROJECT --add FILE`",
+                   clouds.front().string());
   auto imported = importModels(Document(), options.files, importOptions(options), options.crs, progress);
   if (!imported) return imported;
   return addImported(document, *std::move(imported), progress);

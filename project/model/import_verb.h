@@ -12,6 +12,7 @@
 #include "importers/importers.h"
 #include "project/answers.h"
 #include "project/fields.h"
+#include "project/survey/underlays.h"
 
 namespace standpoint {
 
@@ -114,6 +115,7 @@ struct ImportAnswer {
   std::size_t triangles = 0;
   Bounds bounds_m;  // in the model's file frame
   Georeference georeference;
+  std::vector<UnderlayRow> underlays;    // point clouds that came with the models, or alone
   std::optional<UpdateChanges> changes;  // of an update
 };
 const AnswerFields<ImportAnswer>& answerFields(const ImportAnswer*);

@@ -21,12 +21,6 @@ namespace fs = std::filesystem;
 constexpr std::array kActions = {"add", "move", "register", "rename", "remove", "show", "hide"};
 enum class Action { add, move, fit, rename, remove, show, hide };  // of kActions
 
-UnderlayRow underlayRow(const Underlay& u) {
-  std::error_code ignored;
-  return {u.name,           u.file,          fs::exists(u.file, ignored), u.format, u.points,
-          u.bounds_cloud_m, boundsInFile(u), u.file_from_cloud,           u.crs,    u.visible};
-}
-
 bool posed(const UnderlayOptions& options) { return options.at || options.yaw_deg; }
 
 // What is not said stays as it is.
@@ -44,37 +38,6 @@ std::string freeName(const Underlays& underlays, const std::string& wanted) {
   std::string name = wanted;
   for (int i = 2; taken(name); ++i) name = fmt::format("{}-{}", wanted, i);
   return name;
-}
-
-Result<Underlay> addedUnderlay(const Document& document, const UnderlayOptions& options, Report& report,
-                               Progress& progress) {
-  const fs::path file = fs::absolute(*options.add).lexically_normal();
-  progress.stage("Reading " + file.filename().string());
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) return failure(ErrorKind::file_system, "file not found", file.string());
-  TRY_ASSIGN(const auto extent, measureCloud(file, progress));
-  if (extent.points == 0) return failure(ErrorKind::unusable, "the point cloud is empty", file.string());
-  // Nothing is lost to the project: the points stay in their file.
-  for (const auto& issue : extent.report.issues)
-    report.issues.push_back({std::min(issue.severity, Severity::warning), issue.source, issue.message});
-  Underlay u;
-  u.name = freeName(document.underlays, options.name.empty() ? file.stem().string() : options.name);
-  u.file = file.string();
-  u.format = extent.format;
-  u.points = extent.points;
-  u.bounds_cloud_m = extent.bounds_file_m;
-  u.crs = extent.crs;
-  if (posed(options)) {
-    u.file_from_cloud = posedBy(options, {});
-    return u;
-  }
-  Bounds model = bounds(*document.imported);
-  if (!model.empty()) {
-    model.min += document.georeference->shift_m;
-    model.max += document.georeference->shift_m;
-  }
-  u.file_from_cloud = placeCloud({u.name, u.crs, u.bounds_cloud_m}, *document.georeference, model, report);
-  return u;
 }
 
 Result<void> change(Answered<UnderlayAnswer>& outcome, Action what, const std::string& name,
@@ -123,6 +86,47 @@ Result<void> change(Answered<UnderlayAnswer>& outcome, Action what, const std::s
 }  // namespace
 
 Bounds boundsInFile(const Underlay& u) { return moved(u.file_from_cloud, u.bounds_cloud_m); }
+
+Bounds siteInFile(const Document& document) {
+  if (document.hasModel()) return fileBounds(bounds(*document.imported), document.georeference->shift_m);
+  Bounds all;
+  for (const auto& u : document.underlays)
+    if (const Bounds b = boundsInFile(*u); !b.empty()) all.extend(b);
+  return all;
+}
+
+UnderlayRow underlayRow(const Underlay& u) {
+  std::error_code ignored;
+  return {u.name,           u.file,          fs::exists(u.file, ignored), u.format, u.points,
+          u.bounds_cloud_m, boundsInFile(u), u.file_from_cloud,           u.crs,    u.visible};
+}
+
+Result<Underlay> readUnderlay(const Document& document, const UnderlayOptions& options, Report& report,
+                              Progress& progress) {
+  const fs::path file = fs::absolute(*options.add).lexically_normal();
+  progress.stage("Reading " + file.filename().string());
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return failure(ErrorKind::file_system, "file not found", file.string());
+  TRY_ASSIGN(const auto extent, measureCloud(file, progress));
+  if (extent.points == 0) return failure(ErrorKind::unusable, "the point cloud is empty", file.string());
+  // Nothing is lost to the project: the points stay in their file.
+  for (const auto& issue : extent.report.issues)
+    report.issues.push_back({std::min(issue.severity, Severity::warning), issue.source, issue.message});
+  Underlay u;
+  u.name = freeName(document.underlays, options.name.empty() ? file.stem().string() : options.name);
+  u.file = file.string();
+  u.format = extent.format;
+  u.points = extent.points;
+  u.bounds_cloud_m = extent.bounds_file_m;
+  u.crs = extent.crs;
+  if (posed(options)) {
+    u.file_from_cloud = posedBy(options, {});
+    return u;
+  }
+  u.file_from_cloud =
+      placeCloud({u.name, u.crs, u.bounds_cloud_m}, *document.georeference, siteInFile(document), report);
+  return u;
+}
 
 const Fields<UnderlayOptions>& underlayFields() {
   using O = UnderlayOptions;
@@ -191,7 +195,7 @@ Result<Answered<UnderlayAnswer>> runUnderlay(const Document& document, const Und
   Answered<UnderlayAnswer> outcome{document};
   auto& underlays = outcome.document.underlays;
   if (action == Action::add) {
-    TRY_ASSIGN(auto added, addedUnderlay(document, options, outcome.report, progress));
+    TRY_ASSIGN(auto added, readUnderlay(document, options, outcome.report, progress));
     outcome.answer.placed = underlayRow(added);
     outcome.description = fmt::format("Added underlay {}: {} points", added.name, added.points);
     underlays.push_back(std::make_shared<const Underlay>(std::move(added)));

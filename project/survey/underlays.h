@@ -24,6 +24,8 @@ Underlays underlaysFrom(const nlohmann::json& part, const std::filesystem::path&
 
 // Of the cloud in the model's file frame.
 Bounds boundsInFile(const Underlay& underlay);
+// Of the imported model, or where the project has none, of its clouds; file frame.
+Bounds siteInFile(const Document& document);
 
 // The same place as the cloud's file and as the model's has it.
 struct PlacePair {
@@ -71,6 +73,10 @@ struct UnderlayOptions : RegisterRequest {  // for `fit`
 };
 const Fields<UnderlayOptions>& underlayFields();
 
+// Reads the cloud to be added and finds its place among what the document has; the name is one that is free there.
+Result<Underlay> readUnderlay(const Document& document, const UnderlayOptions& options, Report& report,
+                              Progress& progress);
+
 struct UnderlayRow {
   std::string name, file;  // absolute
   bool file_there = false;
@@ -82,6 +88,7 @@ struct UnderlayRow {
   bool visible = true;
 };
 const AnswerFields<UnderlayRow>& answerFields(const UnderlayRow*);
+UnderlayRow underlayRow(const Underlay& underlay);
 struct UnderlayAnswer {
   std::optional<UnderlayRow> placed;               // what was added
   std::optional<UnderlayRegistration> registered;  // what was registered

@@ -16,6 +16,7 @@
 #include "project/answers.h"
 #include "project/storage/project_files.h"
 #include "project/storage/session.h"
+#include "project/survey/underlays.h"
 
 namespace standpoint {
 
@@ -47,7 +48,7 @@ ProjectInfo projectInfo(const Document& document) {
     info.triangles_imported = sceneTriangleCount(*document.imported);
     info.triangles = sceneTriangleCount(*document.environment());
     const Eigen::Vector3d shift = document.georeference ? document.georeference->shift_m : Eigen::Vector3d::Zero();
-    info.bounds_m = fileBounds(bounds(*document.environment()), shift);
+    info.bounds_m = document.hasModel() ? fileBounds(bounds(*document.environment()), shift) : siteInFile(document);
   }
   if (document.simplified) info.max_deviation_m = document.simplified->all.max_deviation_m;
   if (document.collision) {

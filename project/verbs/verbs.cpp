@@ -28,14 +28,20 @@ Verb carriedOver(Verb verb, Document (*how)(const Document&, const Document&, co
   return verb;
 }
 
+Verb withoutModel(Verb verb) {
+  verb.without_model = true;
+  return verb;
+}
+
 // The table: a new verb is a typed function in its room with a table of its fields, and one entry here. Command
 // line, help, job files and the editor's forms follow from it.
 const std::vector<Verb>& table() {
   static const std::vector<Verb> verbs = {
       verbOf("import",
-             "Import models (IFC, glTF, OBJ, PLY, STL) as a new project, or update a project from a changed model",
+             "Import models (IFC, glTF, OBJ, PLY, STL) or point clouds as a new project, or update it from a changed "
+             "model",
              S::creates, importFields(), runImport),
-      verbOf("add", "Add models to the environment", S::changes, addFields(), runAdd),
+      withoutModel(verbOf("add", "Add models to the environment", S::changes, addFields(), runAdd)),
       verbOf("optimize", "Optimize the model to a triangle budget and measure the deviation", S::changes,
              optimizeFields(), runOptimize),
       verbOf("treat", "Set or list the treatment of single products: excluded, kept, or simplified within own limits",
@@ -44,19 +50,21 @@ const std::vector<Verb>& table() {
              collideFields(), runCollide),
       verbOf("materials", "Assign materials by rule and review open findings", S::changes, materialsFields(),
              runMaterials),
-      verbOf("georeference", "Show or set the model's position on Earth", S::changes, georeferenceFields(),
-             runGeoreference),
+      withoutModel(verbOf("georeference", "Show or set the model's position on Earth", S::changes, georeferenceFields(),
+                          runGeoreference)),
       verbOf("station",
              "Add, move, remove or list stations; without --at or --on at the place that adds most to what is seen",
              S::changes, stationFields(), runStation),
       verbOf("target", "Add, remove or list targets, and list the stations that can measure them", S::changes,
              targetFields(), runTarget),
-      verbOf("bookmark", "Add, rename, remove or list named views of the model", S::changes, bookmarkFields(),
-             runBookmark),
-      verbOf("underlay", "Add point clouds as underlays of the model, or list them; the points stay in their files",
-             S::changes, underlayFields(), runUnderlay),
-      verbOf("measure", "Measure distances, heights, angles, areas and planes between points, or list the measurements",
-             S::changes, measureFields(), runMeasure),
+      withoutModel(verbOf("bookmark", "Add, rename, remove or list named views of the model", S::changes,
+                          bookmarkFields(), runBookmark)),
+      withoutModel(verbOf("underlay",
+                          "Add point clouds as underlays of the model, or list them; the points stay in their files",
+                          S::changes, underlayFields(), runUnderlay)),
+      withoutModel(verbOf(
+          "measure", "Measure distances, heights, angles, areas and planes between points, or list the measurements",
+          S::changes, measureFields(), runMeasure)),
       verbOf("verify", "Compare the assigned materials with the intensities of an underlay", S::changes, verifyFields(),
              runVerify),
       verbOf("plan", "Forecast what the stations would see: coverage, overlap, points, time, holes, the next place",

@@ -88,7 +88,8 @@ Pose placeCloud(const CloudPlace& cloud, const Georeference& model, const Bounds
       return by_map;
     }
   }
-  report.note(cloud.name, "placed by its coordinates in the model's file frame");
+  report.note(cloud.name, model_file_m.empty() ? "placed by its coordinates"
+                                               : "placed by its coordinates in the model's file frame");
   if (as_is_m > kFarFromModel_m)
     report.warn(cloud.name,
                 fmt::format("the cloud is {:.1f} km from the model: specify its origin with --at X,Y,Z, or set the "
