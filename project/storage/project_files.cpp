@@ -138,23 +138,36 @@ Result<Environment> loadEnvironment(const fs::path& file, const Environment& rec
   return environment;
 }
 
+Result<fs::path> partOf(const fs::path& geometry, const json& name) {
+  const auto file = geometry / name.get<std::string>();
+  std::error_code ignored;
+  if (!fs::exists(file, ignored))
+    return failure(ErrorKind::file_system, "a part of the project is missing: put it back from a copy of the project",
+                   file.string());
+  return file;
+}
+
 Result<Document> fromJson(const json& project, const fs::path& folder, Report& report, Progress& progress) {
   const auto geometry = folder / "geometry";
-  TRY_ASSIGN(auto records, readJson(geometry / project.at("products").get<std::string>()));
+  TRY_ASSIGN(const auto records_file, partOf(geometry, project.at("products")));
+  TRY_ASSIGN(auto records, readJson(records_file));
   Environment named = recordsFrom(records);
-  TRY_ASSIGN(auto imported, loadEnvironment(geometry / project.at("imported").get<std::string>(), named, progress));
+  TRY_ASSIGN(const auto imported_file, partOf(geometry, project.at("imported")));
+  TRY_ASSIGN(auto imported, loadEnvironment(imported_file, named, progress));
   Document d = documentFrom(project);
   d.imported = std::make_shared<const Environment>(std::move(imported));
   TRY_ASSIGN(auto georeference, georeferenceFrom(project.at("georeference")));
   d.georeference = std::make_shared<const Georeference>(std::move(georeference));
   if (project.contains("lightening")) {
     const auto& part = project.at("lightening");
-    TRY_ASSIGN(auto light, loadEnvironment(geometry / part.at("geometry").get<std::string>(), named, progress));
+    TRY_ASSIGN(const auto file, partOf(geometry, part.at("geometry")));
+    TRY_ASSIGN(auto light, loadEnvironment(file, named, progress));
     d.simplified = simplificationFrom(part, std::make_shared<const Environment>(std::move(light)));
   }
   if (project.contains("collision")) {
     const auto& part = project.at("collision");
-    TRY_ASSIGN(auto shapes, readEnvironmentGlb(geometry / part.at("geometry").get<std::string>(), progress));
+    TRY_ASSIGN(const auto file, partOf(geometry, part.at("geometry")));
+    TRY_ASSIGN(auto shapes, readEnvironmentGlb(file, progress));
     d.collision = collisionFrom(part, shapes);
   }
   if (project.contains("verification")) {
@@ -262,6 +275,28 @@ bool isEmptyProjectFolder(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder / "geometry", error))
     if (!isOurs(entry.path().filename().string())) return false;
   return true;
+}
+
+fs::path projectMissing(const fs::path& file) {
+  std::error_code ignored;
+  const auto geometry = file.parent_path();
+  const bool part = geometry.filename() == "geometry" && isOurs(file.filename().string()) &&
+                    fs::exists(geometry.parent_path() / kProjectFile, ignored) && !fs::exists(file, ignored);
+  return part ? geometry.parent_path() : fs::path();
+}
+
+Result<void> restorePart(const fs::path& missing, const fs::path& found) {
+  TRY_ASSIGN(const auto text, readText(found));
+  const auto stem = missing.stem().string();
+  if (found.extension() != missing.extension() || !stem.ends_with(fmt::format("-{:016x}", contentHash(text))))
+    return failure(ErrorKind::unusable,
+                   fmt::format("this is another file: the content is not that of {}; look for it in a copy of the "
+                               "project",
+                               missing.filename().string()),
+                   found.string());
+  std::error_code error;
+  fs::create_directories(missing.parent_path(), error);
+  return writeWholeText(missing, text);
 }
 
 Result<std::string> projectText(const fs::path& folder) { return readText(folder / kProjectFile); }

@@ -32,4 +32,10 @@ Result<std::string> projectText(const std::filesystem::path& folder);
 // `report`: what could be read without, and is dropped.
 Result<Document> loadProject(const std::filesystem::path& folder, Progress& progress, Report* report = nullptr);
 
+// Puts a part of the project back that is missing: `found` is a copy of it, which is checked by the name that parts
+// have by their content.
+Result<void> restorePart(const std::filesystem::path& missing, const std::filesystem::path& found);
+// Is `file` missing from the geometry of a project? Its folder then; else empty.
+std::filesystem::path projectMissing(const std::filesystem::path& file);
+
 }  // namespace standpoint

@@ -10,6 +10,7 @@
 #include "project/model/optimize_verb.h"
 #include "project/model/treatments.h"
 #include "project/survey/assess_verb.h"
+#include "project/survey/locate_verb.h"
 #include "project/survey/measure_verb.h"
 #include "project/survey/register_verb.h"
 #include "project/survey/survey_verbs.h"
@@ -62,6 +63,8 @@ const std::vector<Verb>& table() {
       withoutModel(verbOf("underlay",
                           "Add point clouds as underlays of the model, or list them; the points stay in their files",
                           S::changes, underlayFields(), runUnderlay)),
+      withoutModel(verbOf("locate", "List the scan and cloud files of a project, or point it at the new place of some",
+                          S::changes, locateFields(), runLocate)),
       withoutModel(verbOf(
           "measure", "Measure distances, heights, angles, areas and planes between points, or list the measurements",
           S::changes, measureFields(), runMeasure)),

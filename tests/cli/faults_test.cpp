@@ -70,6 +70,7 @@ std::vector<Writer> writers() {
        {"measure", "p", "--add", "M1", "--kind", "distance", "--points", "500001,5600001,0", "500002,5600001,0"},
        {project}},
       {"underlay", "", {"underlay", "p", "--add", "s.e57"}, {project}},
+      {"locate", "", {"locate", "p", "--to", "moved.e57"}, {project}},
       {"verify", "", {"verify", "p", "--allow-loss"}, {project}},
       {"scan", "e57", with(scan, {"-o", "o.e57"}), {project, "o.e57"}},
       {"scan", "las", with(scan, {"-o", "o.las"}), {project, "o.las"}},
@@ -158,6 +159,7 @@ class Faults : public ::testing::TestWithParam<Writer> {
     if (writer().verb == std::string("verify")) {
       ASSERT_EQ(run({"underlay", "p", "--add", "s.e57"}, base.path()), 0);
     }
+    if (writer().verb == std::string("locate")) fs::rename(base.path() / "s.e57", base.path() / "moved.e57");
     if (!writer().makes_its_place)
       for (const auto& file : writer().files)
         if (file.rfind("p/", 0) != 0) put(base.path() / file, kOld);

@@ -39,6 +39,7 @@ class Workshop {
       if (!done) throw std::runtime_error(std::string(verb) + ": " + describe(done.error()));
       d = done->document;
     }
+    fs::copy_file(folder() / "cloud.e57", folder() / "copy.e57");
     if (!saveProject(d, original(), progress)) throw std::runtime_error("cannot save");
   }
   const fs::path& folder() const { return folder_.path(); }
@@ -76,6 +77,7 @@ const std::map<std::string, Words>& writingVerbs() {
       {"measure",
        {"measure", "PROJECT", "--add", "M1", "--kind", "distance", "--points", "500001,5600001,0", "500002,5600001,0"}},
       {"underlay", {"underlay", "PROJECT", "--remove", "cloud"}},
+      {"locate", {"locate", "PROJECT", "--file", "cloud.e57", "--to", "FOLDER/copy.e57"}},
       {"verify", {"verify", "PROJECT"}},
       {"scan",
        {"scan", "PROJECT", "--instrument", "faro-focus-s350", "--set", "resolution=1/32", "quality=4x", "-o",

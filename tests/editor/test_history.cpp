@@ -96,6 +96,7 @@ std::map<std::string, std::vector<json>> samplesOfVerbs(const fs::path& folder) 
         {{"rename", "T1"}, {"name", "T9"}},
         {{"remove", "T1"}}}},
       {"underlay", {{{"add", scan}}, {{"hide", "S1"}}, {{"remove", "S1"}}}},
+      {"locate", {{{"file", "S1.e57"}, {"to", (folder / "internal" / "moved.e57").string()}}}},
       {"plan", {json::object()}},
       {"bookmark", {{{"add", "Stair"}}, {{"rename", "Door"}, {"name", "Entrance"}}, {{"remove", "Door"}}}},
       {"measure",
@@ -144,6 +145,7 @@ TEST(UndoNames, OfEveryVerbAreInPlainWords) {
     ASSERT_TRUE(done) << verb << ": " << describe(done.error());
     house = done->document;
   }
+  fs::copy_file(folder.path() / "internal" / "S1.e57", folder.path() / "internal" / "moved.e57");
   for (const auto& verb : allVerbs()) {
     if (verb.scope != VerbScope::creates && verb.scope != VerbScope::changes) continue;
     const auto asked = samples.find(verb.name);
