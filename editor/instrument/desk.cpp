@@ -183,9 +183,19 @@ void takeFieldWork(InstrumentDesk& desk, const Session& session, std::string_vie
   }
 }
 
+// For the start after a crash. Their setup enters the project only when the device has stored it, so none is resumed.
+std::vector<LeftJob> jobsOf(InstrumentDesk& desk) {
+  auto* const host = desk.running();
+  auto* const task = host != nullptr ? host->task() : nullptr;
+  if (task == nullptr) return {};
+  auto& progress = task->progress();
+  return {{task->title(), {}, static_cast<int>(100 * progress.fraction()), {}, nlohmann::json::object()}};
+}
+
 }  // namespace
 
 void connect(InstrumentDesk& desk, Session& session) {
+  session.runs_elsewhere = [&] { return jobsOf(desk); };
   session.forbids = [&](std::string_view verb) { return whyForbidden(desk, session, verb); };
   session.done = [&](const Verb& verb, const nlohmann::json& options) {
     takeFieldWork(desk, session, verb.name, options);

@@ -84,7 +84,8 @@ void followProject(InstrumentDesk& desk, Editor& editor);
 void advance(InstrumentDesk& desk, Editor& editor);
 
 // From now on an exercise has a say in what happens to the session's document, and what is done there in the survey
-// belongs to the exercise that runs or is recorded. The desk must live as long as the session has something to do.
+// belongs to the exercise that runs or is recorded; the session can say what the device works on. The desk must live as
+// long as the session has something to do.
 void connect(InstrumentDesk& desk, Session& session);
 
 void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercise);

@@ -13,6 +13,7 @@
 #include "editor/desktop/file_list.h"
 #include "editor/model/option_form.h"
 #include "editor/recovery/left_work.h"
+#include "project/task.h"
 
 namespace standpoint {
 
@@ -56,6 +57,12 @@ struct PaletteState {
   } found;
 };
 
+// Of a recovery copy with the project that it is a copy of.
+struct RecoveryComparison {
+  std::filesystem::path folder;  // of the work that was left
+  std::unique_ptr<Task<std::vector<std::string>>> task;
+};
+
 struct DialogStates {
   FileDialogState file;
   VerbDialogState verb;
@@ -64,9 +71,10 @@ struct DialogStates {
   bool about = false;
   bool preferences = false;
   bool unsaved = false;
-  std::function<void()> after_unsaved;   // what the user was about to do
-  std::function<void()> after_save;      // once the save that the prompt started has gone well
-  std::vector<LeftWork> recovery;        // found at the start, offered one by one
+  std::function<void()> after_unsaved;  // what the user was about to do
+  std::function<void()> after_save;     // once the save that the prompt started has gone well
+  std::vector<LeftWork> recovery;       // found at the start, offered one by one
+  RecoveryComparison comparison;
   std::optional<LeftJob> resume;         // a scan to go on with once its project is open
   bool bare = false;                     // what a bare start is, is being said
   std::function<void()> start_as_usual;  // after a bare start; empty: it was none

@@ -24,6 +24,8 @@ std::vector<LeftJob> jobsOf(const Session& session) {
     jobs.push_back({task->title(), task->progress().stageName(), static_cast<int>(100 * task->progress().fraction()),
                     std::string(verb), task->options()});
   }
+  if (session.runs_elsewhere)
+    for (auto& job : session.runs_elsewhere()) jobs.push_back(std::move(job));
   return jobs;
 }
 

@@ -81,6 +81,9 @@ class Session {
   // "" when a verb may start now, else the reason to show.
   std::string whyNot(std::string_view verb) const;
   std::string whyNotUndo() const;
+  // What works for the document outside of its tasks, such as the scan of an emulated instrument; empty: nothing does.
+  std::function<std::vector<LeftJob>()> runs_elsewhere;
+
   std::string whyNotRedo() const;
   std::string whyNotSave() const;
   std::string whyNotAdopt() const;

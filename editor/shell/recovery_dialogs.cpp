@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/shell/recovery_dialogs.h"
 
+#include <algorithm>
+#include <memory>
 #include <utility>
 
 #include <imgui.h>
 
+#include "editor/recovery/differences.h"
 #include "editor/shell/editor.h"
 #include "editor/widgets/modal.h"
 #include "editor/widgets/widgets.h"
@@ -28,6 +31,29 @@ Result<ScanVerbOptions> resumed(const Session& session, const LeftJob& job) {
 std::string whyNotOpen(const Editor& editor, const LeftWork& left) {
   if (left.project.empty() && left.mark.saved_in.empty()) return "The project was never saved, and nothing was kept";
   return editor.session.whyNot("open-project");
+}
+
+void beginComparison(Editor& editor, const LeftWork& left) {
+  auto work = [project = std::filesystem::path(left.mark.saved_in), copy = left.project](Progress& progress) {
+    return differencesOf(project, copy, progress);
+  };
+  editor.dialogs.comparison = {
+      left.folder, std::make_unique<Task<std::vector<std::string>>>("Compare", std::move(work), editor.wake)};
+}
+
+void drawComparison(Editor& editor, const LeftWork& left) {
+  const auto& comparison = editor.dialogs.comparison;
+  if (!comparison.task || comparison.folder != left.folder) return;
+  ui::gap(editor, 6);
+  if (!comparison.task->done()) return ui::dimText("Comparing the copy with the project …");
+  const auto& lines = comparison.task->result();
+  if (!lines) return ui::wrapped(trf("They cannot be compared: {}", describe(lines.error())));
+  if (lines->empty()) return ui::wrapped("The copy and the project hold the same.");
+  const float row = ImGui::GetTextLineHeightWithSpacing();
+  constexpr float kMostRows = 10;
+  ImGui::BeginChild("differences", {0, row * std::min(static_cast<float>(lines->size()) + 0.5F, kMostRows)});
+  for (const auto& line : *lines) ui::wrapped(line);
+  ImGui::EndChild();
 }
 
 }  // namespace
@@ -55,16 +81,18 @@ void drawBareStart(Editor& editor) {
 
 void drawRecovery(Editor& editor) {
   auto& found = editor.dialogs.recovery;
-  if (!ui::beginModal(editor, "Recover unsaved work###recovery", !found.empty(), 520)) return;
+  if (!ui::beginModal(editor, "Recover unsaved work###recovery", !found.empty(), 640)) return;
   const LeftWork left = found.front();
   const LeftJob* scan = leftScan(left);
   for (const auto& sentence : sentencesOf(left)) ui::wrapped(sentence);
   if (!left.mark.saved_in.empty()) ui::dimWrapped(trf("Saved in {}", left.mark.saved_in));
-  ui::gap(editor, 6);
   const bool copy = !left.project.empty();
+  drawComparison(editor, left);
+  ui::gap(editor, 6);
   const auto why = whyNotOpen(editor, left);
   const auto close = [&] {
     found.erase(found.begin());
+    editor.dialogs.comparison = {};
     ImGui::CloseCurrentPopup();
   };
   const auto open = [&](bool resume) {
@@ -83,6 +111,11 @@ void drawRecovery(Editor& editor) {
     done = scan != nullptr ? ui::button(opens, why, {editor.px(120), 0})
                            : ui::primaryButton(opens, why, {editor.px(120), 0});
     if (done) open(false);
+  }
+  if (!done && copy && !left.mark.saved_in.empty()) {
+    ImGui::SameLine();
+    if (ui::button("Compare###compare", {}, {editor.px(90), 0}, "What differs between the copy and the project"))
+      beginComparison(editor, left);
   }
   if (ImGui::SameLine(),
       !done && (ImGui::Button(ui::Label("Later###later"), {editor.px(80), 0}) || ui::modalCancelled(true))) {

@@ -7,7 +7,9 @@
 
 #include "demo_verbs.h"
 #include "editor/model/recovery_keeper.h"
+#include "editor/recovery/differences.h"
 #include "item_probe.h"
+#include "project/storage/project_files.h"
 #include "project/storage/project_lock.h"
 #include "tests/project/support.h"
 
@@ -126,6 +128,69 @@ TEST_F(Recovery, NotesWhatRunsUntilItEnds) {
   EXPECT_EQ(noted()["jobs"].size(), 0U) << "and never its own copying: " << noted();
   EXPECT_EQ(noted()["changes"], 1);
   EXPECT_EQ(keeper.problem(), "");
+}
+
+TEST_F(Recovery, NotesWhatAnEmulatedDeviceWorksOn) {
+  Session session(verbsWithDemo(), [] {});
+  session.runs_elsewhere = [] { return std::vector<LeftJob>{{"RTC360: Setup 1 at S1", {}, 40, {}, json::object()}}; };
+  const auto left = recoveryFolder(root, kGone);
+  RecoveryKeeper keeper(left);
+  keeper.keep(session);
+  std::ifstream in(left / "owner.json");
+  auto mark = json::parse(in);
+  mark["process_start"] = "another boot 7";
+  write(fs::path(std::to_string(kGone)) / "owner.json", mark.dump());
+  const auto found = findLeftWork(root);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_THAT(sentencesOf(found[0]), testing::Contains("RTC360: Setup 1 at S1 stopped at 40 %."));
+  EXPECT_EQ(leftScan(found[0]), nullptr) << "the device has not stored it: there is nothing to resume";
+}
+
+TEST(Differences, BetweenAProjectAndItsCopyAreInWordsAndFigures) {
+  Document project = twoStoreyDocument();
+  const auto with = [](const Document& d, const char* verb, const json& options) {
+    const auto done = standpoint::run(verb, d, options);
+    EXPECT_TRUE(done) << describe(done.error());
+    return done ? done->document : d;
+  };
+  project = with(project, "station", {{"add", "S1"}, {"on", {500002, 5600002, 0}}});
+  project = with(project, "station", {{"add", "S2"}, {"on", {500002, 5600002, 3}}});
+  project = with(project, "measure", {{"add", "M1"}, {"points", {"500001,5600001,0", "500002,5600001,0"}}});
+  EXPECT_TRUE(differences(project, project).empty());
+  auto copy = with(project, "station", {{"move", "S1"}, {"on", {500002.25, 5600002, 0}}});
+  copy = with(copy, "station", {{"remove", "S2"}});
+  copy = with(copy, "target", {{"add", "T1"}, {"at", {500001, 5600001, 1.5}}});
+  copy = with(copy, "georeference", {{"crs", "EPSG:25832"}});
+  copy = with(copy, "treat", {{"products", {"table"}}, {"as", "excluded"}});
+  EXPECT_THAT(
+      differences(project, copy),
+      ElementsAre("Triangles of the model: 144 in the project, 132 in the copy",
+                  "Treatments: 0 in the project, 1 in the copy", "CRS: none in the project, EPSG:25832 in the copy",
+                  "Station S1: moved by 0.250 m", "Station S2: only in the project", "Target T1: only in the copy"));
+}
+
+TEST_F(Recovery, ComparesACopyWithItsProjectAtTheButton) {
+  Progress progress;
+  const auto project = folder.path() / "house", left = recoveryFolder(root, kGone);
+  const auto copy = standpoint::run("bookmark", twoStoreyDocument(), {{"add", "Stair"}});
+  ASSERT_TRUE(copy);
+  ASSERT_TRUE(saveProject(twoStoreyDocument(), project, progress));
+  ASSERT_TRUE(writeSessionMark(left, {.name = "house", .saved_in = project.string(), .changes = 1}));
+  ASSERT_TRUE(saveProject(copy->document, left / "copy", progress));
+  Editor editor(verbsWithDemo(), [] {});
+  editor.dialogs.recovery = findLeftWork(root);
+  ASSERT_EQ(editor.dialogs.recovery.size(), 1U);
+  GuiDriver gui(editor);
+  gui.frames(3);
+  ASSERT_TRUE(gui.click("###compare"));
+  editor.dialogs.comparison.task->wait();
+  itemProbe().listens = true;
+  gui.frames(2);
+  itemProbe().listens = false;
+  EXPECT_THAT(itemProbe().texts, testing::Contains("Bookmark Stair: only in the copy"));
+  ASSERT_NE(gui.find("###open"), nullptr) << "and the offer stays";
+  ASSERT_TRUE(gui.click("###later"));
+  EXPECT_FALSE(editor.dialogs.comparison.task);
 }
 
 TEST_F(Recovery, SaysWhereNothingCanBeKept) {
