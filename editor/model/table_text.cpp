@@ -11,11 +11,14 @@ namespace {
 using nlohmann::json;
 
 // A tab or a break would begin another field.
-std::string fieldOf(const json& value) {
-  std::string text = value.is_string() ? value.get<std::string>() : value.is_null() ? "" : value.dump();
+std::string fieldOf(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == '\t' || c == '\n' || c == '\r'; }, ' ');
   return text;
+}
+
+std::string fieldOf(const json& value) {
+  return fieldOf(value.is_string() ? value.get<std::string>() : value.is_null() ? std::string() : value.dump());
 }
 
 bool isTable(const json& value) {
@@ -46,6 +49,13 @@ std::string tableText(const json& figures) {
     else
       singles += key + '\t' + fieldOf(value) + '\n';
   return singles + tables;
+}
+
+std::string rowsText(const TableRows& rows) {
+  std::string text;
+  for (const auto& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) text += fieldOf(row[i]) + (i + 1 == row.size() ? '\n' : '\t');
+  return text;
 }
 
 }  // namespace standpoint

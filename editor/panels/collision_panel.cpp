@@ -52,12 +52,32 @@ void beginRow(int id) {
   ImGui::TableNextColumn();
 }
 
+std::string stateOf(const Door& door) {
+  if (door.closed) return tr("closed");
+  if (!door.floor) return tr("no floor");
+  return door.passable && !door.led_through ? tr("not connected") : trf("{:.2f} m clear", door.clear_width_m);
+}
+
+std::string stateOf(const Model& model, const Room& room) {
+  if (room.tight_place) return tightPlaceName(*room.tight_place, model.walker);
+  return room.reached ? tr("reached") : room.walkable_m2 > 0 ? tr("not reachable") : tr("no floor");
+}
+
+template <class Row, class State>
+TableRows tableOf(const Model& model, const char* title, const std::vector<Row>& rows, const State& state) {
+  TableRows table = {{tr(title), tr("State")}};
+  for (const auto& row : rows) table.push_back({productLabel(model.environment()->products[row.product]), state(row)});
+  return table;
+}
+
 void drawDoors(const Model& model, CollisionState& state, Actions& actions, const CollideResult& result) {
   ui::heading(model, "Doors");
   if (result.doors.empty()) {
     ui::dimText("The model has no doors.");
     return;
   }
+  ui::copyTable("doors",
+                [&] { return tableOf(model, "Door", result.doors, [](const auto& d) { return stateOf(d); }); });
   if (!beginRows(model, "doors", "Door", result.doors.size())) return;
   for (std::size_t i = 0; i < result.doors.size(); ++i) {
     const auto& door = result.doors[i];
@@ -99,6 +119,8 @@ void drawTightPlace(const Model& model, Actions& actions, const TightPlace& plac
 void drawRooms(const Model& model, Actions& actions, const CollideResult& result) {
   if (result.rooms.empty()) return;
   ui::heading(model, "Rooms");
+  ui::copyTable("rooms",
+                [&] { return tableOf(model, "Room", result.rooms, [&](const auto& r) { return stateOf(model, r); }); });
   if (!beginRows(model, "rooms", "Room", result.rooms.size())) return;
   for (std::size_t i = 0; i < result.rooms.size(); ++i) {
     const auto& room = result.rooms[i];

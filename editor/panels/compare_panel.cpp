@@ -82,12 +82,11 @@ std::string changeText(const Row& row) {
   return fmt::format("{:+.1f} %", (row.b / row.a - 1) * 100);
 }
 
-std::string tableText(const std::vector<Row>& rows, const std::string& a, const std::string& b) {
-  std::string text = fmt::format("{}\t{}\tA: {}\tB: {}\t{}\n", tr("Figure"), tr("Unit"), a, b, tr("B against A"));
+TableRows tableOf(const std::vector<Row>& rows, const std::string& a, const std::string& b) {
+  TableRows table = {{tr("Figure"), tr("Unit"), "A: " + a, "B: " + b, tr("B against A")}};
   for (const auto& row : rows)
-    text += fmt::format("{}\t{}\t{}\t{}\t{}\n", row.name, row.unit, number(row.a, row.decimals),
-                        number(row.b, row.decimals), changeText(row));
-  return text;
+    table.push_back({row.name, row.unit, number(row.a, row.decimals), number(row.b, row.decimals), changeText(row)});
+  return table;
 }
 
 // Both as bars, to the longer of them.
@@ -145,9 +144,9 @@ void drawAnswer(const Model& model, const CompareState& state, const CompareAnsw
   const auto a = nameOf(clouds, state.shown_a), b = nameOf(clouds, state.shown_b);
   auto rows = rowsOf(answer);
   const auto materials = materialRows(answer);
-  if (ui::iconButton(ICON_COPY "###copy-compare", "Copy the figures as a table")) {
+  if (ui::iconButton(ICON_COPY "###copy-compare", "Copy table")) {
     rows.insert(rows.end(), materials.begin(), materials.end());
-    ImGui::SetClipboardText(tableText(rows, a, b).c_str());
+    ImGui::SetClipboardText(rowsText(tableOf(rows, a, b)).c_str());
     rows.resize(rows.size() - materials.size());
   }
   ImGui::SameLine();

@@ -47,6 +47,16 @@ void draw(const Model& model, HistoryState& state, Actions& actions) {
     ui::dimText("No steps. Each change appears here; click a step to go back to it.");
     return;
   }
+  ui::heading(model, "History");
+  ui::copyTable("steps", [&] {
+    TableRows table = {{"n", tr("Step"), tr("State")}};
+    for (std::size_t i = 0; i < history.size(); ++i)
+      table.push_back({std::to_string(i), trSentence(history.description(i)),
+                       i > history.position() ? tr("(undone)")
+                       : history.isSaved(i)   ? tr("saved")
+                                              : std::string()});
+    return table;
+  });
   if (!ImGui::BeginTable("steps", 4, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) return;
   ImGui::TableSetupColumn("current", ImGuiTableColumnFlags_WidthFixed, model.px(18));
   ImGui::TableSetupColumn("number", ImGuiTableColumnFlags_WidthFixed, model.px(34));

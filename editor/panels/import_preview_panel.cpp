@@ -101,6 +101,12 @@ void drawClasses(const Model& model, float height) {
   const auto& facts = model.preview.facts();
   heading(model,
           trf("{} products, {} triangles", groupedDigits(facts.products), groupedDigits(facts.triangles)).c_str());
+  ui::copyTable("preview-classes", [&] {
+    TableRows table = {{tr("Class"), tr("Products"), tr("Triangles")}};
+    for (const auto& row : facts.classes)
+      table.push_back({row.ifc_class, std::to_string(row.products), std::to_string(row.triangles)});
+    return table;
+  });
   const auto flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoPadOuterX;
   if (!ImGui::BeginTable("preview-classes", 3, flags, {0, height})) return;
   ImGui::TableSetupColumn("class", ImGuiTableColumnFlags_WidthStretch);

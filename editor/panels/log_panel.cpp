@@ -51,7 +51,7 @@ void drawHead(const Model& model, LogState& state, Actions& actions) {
   ui::filterButton(model, "log", ICON_WARNING, "warnings", warnings, tone::kWarning, filter.warnings);
   ui::filterButton(model, "log", ICON_INFO, "notes", notes, tone::kDim, filter.notes);
   if (any_follows) ui::listEach("log", filter.each);
-  const float clear = ImGui::GetFrameHeight() + model.px(8);
+  const float clear = 2 * ImGui::GetFrameHeight() + model.px(16);
   const float room = ImGui::GetContentRegionMax().x - ImGui::GetCursorPosX() - clear;
   const float search = std::clamp(room, model.px(60), model.px(230));
   ImGui::SameLine(std::max(ImGui::GetCursorPosX(), ImGui::GetContentRegionMax().x - search - clear));
@@ -60,6 +60,12 @@ void drawHead(const Model& model, LogState& state, Actions& actions) {
   ImGui::EndChild();
   ImGui::SameLine();
   if (ui::iconButton(ICON_TRASH "###log-clear", "Clear log")) actions.clearLog();
+  ui::copyTable("log", [&] {
+    TableRows table = {{tr("Time"), tr("Source"), tr("Message")}};
+    for (const auto& e : model.session.log())
+      if (passes(e, filter)) table.push_back({e.time, e.source, trSentence(e.message)});
+    return table;
+  });
 }
 
 void drawEntry(const Model& model, Actions& actions, const LogEntry& entry, int i) {

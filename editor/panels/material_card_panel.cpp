@@ -163,6 +163,15 @@ std::string reading(const ExpectedReturn& expected) {
 void drawReported(const Model& model, MaterialCardState& state, const PhysicalMaterial& m) {
   ui::heading(model, "Reported by scanners");
   auto& degrees = state.incidence_deg;
+  ui::copyTable("reported", [&] {
+    TableRows table = {{tr("Instrument"), "nm"}};
+    for (const double range : kCardRanges_m) table[0].push_back(fmt::format("{:.0f} m", range));
+    for (const auto& row : reportedOf(m, model.catalogue().instruments, degrees * kRadPerDeg)) {
+      table.push_back({row.instrument, fmt::format("{:.0f}", row.wavelength_nm)});
+      for (const auto& expected : row.at) table.back().push_back(reading(expected));
+    }
+    return table;
+  });
   ImGui::AlignTextToFramePadding();
   ui::dimText("Incidence");
   ImGui::SameLine();

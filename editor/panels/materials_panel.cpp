@@ -79,6 +79,33 @@ std::string reflectanceText(const Model& model, const PhysicalMaterial& material
                          : fmt::format("{:.0f} %", atWavelength(material.reflectance, model.view.wavelength_nm) * 100);
 }
 
+TableRows usesTable(const Model& model, const MaterialResult& result) {
+  TableRows table = {{tr("Material"), "m²", fmt::format("{:.0f} nm", model.view.wavelength_nm), tr("Products")}};
+  for (const auto& use : result.report.uses) {
+    const auto* material = use.material.empty() ? nullptr : materialById(result.assignment, use.material);
+    table.push_back({use.material.empty()  ? tr("Unassigned")
+                     : material != nullptr ? material->label
+                                           : use.material,
+                     fmt::format("{:.3f}", use.area_m2),
+                     material != nullptr ? reflectanceText(model, *material) : std::string(),
+                     std::to_string(use.products.size())});
+  }
+  return table;
+}
+
+bool isSearched(const MaterialsState& state, const PhysicalMaterial& material) {
+  Product searched;
+  searched.name = material.label + " " + material.id;
+  return matchesFilter(searched, state.filter);
+}
+
+TableRows libraryTable(const Model& model, const MaterialsState& state) {
+  TableRows table = {{tr("Material"), "id", fmt::format("{:.0f} nm", model.view.wavelength_nm)}};
+  for (const auto& material : model.offeredMaterials())
+    if (isSearched(state, material)) table.push_back({material.label, material.id, reflectanceText(model, material)});
+  return table;
+}
+
 void drawUses(const Model& model, Actions& actions, const MaterialResult& result, float height) {
   const auto flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX;
   if (!ImGui::BeginTable("uses", 4, flags, {0, height})) return;
@@ -124,9 +151,7 @@ void drawLibrary(const Model& model, MaterialsState& state, Actions& actions, fl
   ImGui::TableSetupColumn(ui::Label("Material"), ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("share", ImGuiTableColumnFlags_WidthFixed, model.px(40));
   for (const auto& material : model.offeredMaterials()) {
-    Product searched;
-    searched.name = material.label + " " + material.id;
-    if (!matchesFilter(searched, state.filter)) continue;
+    if (!isSearched(state, material)) continue;
     ImGui::PushID(material.id.c_str());
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -179,6 +204,8 @@ void draw(const Model& model, MaterialsState& state, Actions& actions) {
   drawMaterialButtons(model, actions);
   ui::gap(model, 2);
   drawListSwitch(state);
+  ui::copyTable("materials",
+                [&] { return state.whole_library ? libraryTable(model, state) : usesTable(model, choice->result); });
   const float bulk = ImGui::GetFrameHeightWithSpacing() * (state.bulk.empty() ? 1 : 2) + model.px(2);
   const float height = ImGui::GetContentRegionAvail().y - bulk;
   if (state.whole_library)

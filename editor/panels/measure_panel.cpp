@@ -47,6 +47,11 @@ void drawList(const Model& model, Actions& actions, const Measurements& measurem
     ui::dimWrapped("Choose what to measure, then click in the view: on the model, or on points of a scan.");
     return;
   }
+  ui::copyTable("measured", [&] {
+    TableRows table = {{tr("Name"), tr("Kind"), tr("Result")}};
+    for (const auto& m : measurements) table.push_back({m.name, rowOf(m.kind).name, figureText(figuresOf(m)[0])});
+    return table;
+  });
   if (!ImGui::BeginTable("measurements", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
   ImGui::TableSetupColumn(ui::Label("Name"), ImGuiTableColumnFlags_WidthStretch, 1.2F);
   ImGui::TableSetupColumn(ui::Label("Kind"), ImGuiTableColumnFlags_WidthStretch, 0.8F);

@@ -56,16 +56,25 @@ void drawHistogram(const Model& model, Actions& actions) {
   const auto& area = both->histogram.area_m2;
   double sum = 0, most = 0;
   for (const double a : area) sum += a, most = std::max(most, a);
-  if (!(sum > 0) || !ImGui::BeginTable("histogram", 3)) return;
+  if (!(sum > 0)) return;
+  const auto upTo = [&](std::size_t i) {
+    return i + 1 == area.size() ? trf("over {}", lengthText(DeviationHistogram::kLimits_m[i - 1]))
+                                : trf("to {}", lengthText(DeviationHistogram::kLimits_m[i]));
+  };
+  ui::copyTable("histogram", [&] {
+    TableRows table = {{tr("Surface deviation"), "m²", "%"}};
+    for (std::size_t i = 0; i < area.size(); ++i)
+      table.push_back({upTo(i), fmt::format("{:.3f}", area[i]), fmt::format("{:.3f}", area[i] / sum * 100)});
+    return table;
+  });
+  if (!ImGui::BeginTable("histogram", 3)) return;
   ImGui::TableSetupColumn("to", ImGuiTableColumnFlags_WidthFixed, model.px(86));
   ImGui::TableSetupColumn("bar", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("share", ImGuiTableColumnFlags_WidthFixed, model.px(58));
   for (std::size_t i = 0; i < area.size(); ++i) {
-    const bool last = i + 1 == area.size();
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ui::dimText(last ? trf("over {}", lengthText(DeviationHistogram::kLimits_m[i - 1]))
-                     : trf("to {}", lengthText(DeviationHistogram::kLimits_m[i])));
+    ui::dimText(upTo(i));
     ImGui::TableNextColumn();
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
@@ -100,6 +109,16 @@ void drawWorst(const Model& model, Actions& actions, const SimplifiedModel& ligh
                       return light.products[a].max_deviation_m > light.products[b].max_deviation_m;
                     });
   ui::heading(model, "Largest deviations");
+  ui::copyTable("worst", [&] {
+    TableRows table = {{tr("Product"), "mm", tr("Triangles"), tr("Original")}};
+    for (std::size_t i = 0; i < shown; ++i) {
+      const auto& loss = light.products[order[i]];
+      table.push_back({productLabel(model.environment()->products[order[i]]),
+                       fmt::format("{:.3f}", loss.max_deviation_m * 1000), std::to_string(loss.triangles_after),
+                       std::to_string(loss.triangles_before)});
+    }
+    return table;
+  });
   if (!ImGui::BeginTable("worst", 3, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn(ui::Label("Product"), ImGuiTableColumnFlags_WidthStretch);

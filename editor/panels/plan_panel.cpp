@@ -81,6 +81,13 @@ void drawCoverage(const Model& model, const PlanAnswer& answer) {
 
 void drawStations(const Model& model, const PlanAnswer& answer) {
   ui::heading(model, "Stations");
+  ui::copyTable("planned", [&] {
+    TableRows table = {{tr("Station"), tr("Sees") + ", m²", tr("Points"), tr("File") + ", MB"}};
+    for (const auto& s : answer.stations)
+      table.push_back({s.station, fmt::format("{:.2f}", s.seen_m2), std::to_string(s.points),
+                       fmt::format("{:.1f}", static_cast<double>(s.bytes) / 1e6)});
+    return table;
+  });
   if (!ImGui::BeginTable("planned", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
   for (const char* title : {"Station", "Sees", "Points", "File"}) ImGui::TableSetupColumn(ui::Label(title));
   ImGui::TableHeadersRow();

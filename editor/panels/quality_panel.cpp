@@ -108,7 +108,17 @@ void drawRow(const Model& model, Actions& actions, const AssessRow& row, int ind
   ImGui::PopID();
 }
 
+TableRows tableOf(const std::vector<AssessRow>& rows) {
+  TableRows table = {{tr("Figure"), tr("Value"), tr("Limit"), tr("State")}};
+  for (const auto& row : rows)
+    if (!row.good_text.empty())
+      table.push_back({tr(row.label), valueText(row), row.good_text, tr(signOf(row.verdict).word)});
+  return table;
+}
+
 void drawRows(const Model& model, Actions& actions, const std::vector<AssessRow>& rows) {
+  ui::heading(model, "Figures");
+  ui::copyTable("figures", [&] { return tableOf(rows); });
   if (!ImGui::BeginTable("figures", 5, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, model.px(16));
   ImGui::TableSetupColumn(ui::Label("Figure"), ImGuiTableColumnFlags_WidthStretch);

@@ -58,12 +58,23 @@ void drawStationRow(const Model& model, Actions& actions, const Station& station
   ImGui::PopID();
 }
 
+std::vector<std::string> placeRow(const std::string& name, const Eigen::Vector3d& p) {
+  return {name, fmt::format("{:.4f}", p.x()), fmt::format("{:.4f}", p.y()), fmt::format("{:.4f}", p.z())};
+}
+
 void drawStations(const Model& model, Actions& actions, const Job& job) {
   ui::heading(model, trf("Stations  {}", job.stations.size()).c_str());
   if (job.stations.empty()) {
     ui::dimWrapped("No stations. Choose Add station, then click the floor.");
     return;
   }
+  ui::copyTable("stations", [&] {
+    TableRows table = {{tr("Name"), "X", "Y", "Z", tr("Scans")}};
+    for (const auto& s : job.stations) table.push_back(placeRow(s.name, s.true_pose.translation + model.shift_m()));
+    for (std::size_t i = 0; i < job.stations.size(); ++i)
+      table[i + 1].push_back(std::to_string(job.stations[i].scans.size()));
+    return table;
+  });
   const float height = std::min(
       model.px(26) + ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(job.stations.size()), model.px(260));
   if (!ImGui::BeginTable("stations", 3, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg, {0, height})) return;
@@ -79,6 +90,15 @@ void drawStations(const Model& model, Actions& actions, const Job& job) {
 
 void drawTargets(const Model& model, Actions& actions, const Job& job) {
   ui::heading(model, trf("Targets  {}", job.targets.size()).c_str());
+  if (!job.targets.empty())
+    ui::copyTable("survey-targets", [&] {
+      TableRows table = {{tr("Name"), "X", "Y", "Z", tr("Kind")}};
+      for (const auto& t : job.targets) {
+        table.push_back(placeRow(t.name, t.centre + model.shift_m()));
+        table.back().push_back(t.kind == TargetKind::sphere ? "sphere" : "checkerboard");
+      }
+      return table;
+    });
   for (int i = 0; i < static_cast<int>(job.targets.size()); ++i) {
     const auto& target = job.targets[static_cast<std::size_t>(i)];
     ImGui::PushID(i);

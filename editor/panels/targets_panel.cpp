@@ -50,7 +50,7 @@ void drawRegister(const Model& model, TargetsState& state, Actions& actions, con
     ImGui::SameLine();
     ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
     ImGui::SameLine();
-    ui::fitted(problem, ImGui::GetContentRegionAvail().x);
+    ui::fitted(problem, ImGui::GetContentRegionAvail().x - 2 * ImGui::GetFrameHeight());
   }
 }
 
@@ -106,7 +106,28 @@ void drawRow(const Model& model, Actions& actions, const TargetRow& row, int ind
   ImGui::PopID();
 }
 
+TableRows tableOf(const Job& job, const std::vector<TargetRow>& rows) {
+  TableRows table = {{tr("Target"), tr("Kind"), tr("From"), tr("Distance") + ", m", tr("Points"),
+                      tr("Residual") + ", mm", "σ, mm", tr("State")}};
+  for (const auto& row : rows) {
+    if (row.target >= job.targets.size() || row.station >= job.stations.size()) continue;
+    const auto& target = job.targets[row.target];
+    const auto millimetres = [](double value_m) { return fmt::format("{:.3f}", value_m * 1000); };
+    table.push_back({target.name,
+                     target.kind == TargetKind::sphere ? trf("sphere {:.0f} mm", target.size_m * 1000)
+                                                       : trf("plate {:.0f} mm", target.size_m * 1000),
+                     job.stations[row.station].name, fmt::format("{:.3f}", row.sight.distance_m),
+                     row.fit            ? std::to_string(row.fit->points)
+                     : row.sight.points ? fmt::format("~ {:.0f}", *row.sight.points)
+                                        : std::string(),
+                     row.fit ? millimetres(row.fit->residual_m) : "",
+                     row.fit ? millimetres(row.fit->sigma_m().norm()) : "", standingOf(row).text});
+  }
+  return table;
+}
+
 void drawTable(const Model& model, Actions& actions, const std::vector<TargetRow>& rows) {
+  ui::copyTable("targets", [&] { return tableOf(*model.session.document().job, rows); });
   const auto flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX;
   if (!ImGui::BeginTable("targets", 8, flags)) return;
   ImGui::TableSetupScrollFreeze(0, 1);

@@ -65,6 +65,13 @@ void drawTasksPanel(const Model& model, PanelStates&, Actions&) {
     ui::dimText("No tasks. Running tasks appear here with progress and a cancel button.");
     return;
   }
+  ui::heading(model, "Tasks");
+  ui::copyTable("tasks", [&] {
+    TableRows table = {{tr("Time"), tr("Task"), tr("Result"), "s"}};
+    for (const auto& task : model.session.finished())
+      table.push_back({task.time, task.title, trSentence(task.text), fmt::format("{:.1f}", task.seconds)});
+    return table;
+  });
   if (!ImGui::BeginTable("tasks", 4, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) return;
   ImGui::TableSetupColumn("state", ImGuiTableColumnFlags_WidthFixed, model.px(18));
   ImGui::TableSetupColumn("title", ImGuiTableColumnFlags_WidthStretch, 0.34F);

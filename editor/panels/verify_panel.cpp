@@ -129,6 +129,14 @@ void drawMaterial(const Model& model, VerifyState& state, Actions& actions, cons
 
 void drawMaterials(const Model& model, VerifyState& state, Actions& actions, const VerificationView& view) {
   ui::heading(model, "Measured minus expected");
+  ui::copyTable("off", [&] {
+    TableRows table = {{tr("Material"), tr("Points"), "5 %, dB", "25 %, dB", "50 %, dB", "75 %, dB", "95 %, dB"}};
+    for (const auto& m : view.materials) {
+      table.push_back({labelOf(model, m.material), std::to_string(m.points)});
+      for (const double db : m.off_db) table.back().push_back(fmt::format("{:+.2f}", db));
+    }
+    return table;
+  });
   const auto flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX;
   if (!ImGui::BeginTable("off", 3, flags)) return;
   ImGui::TableSetupColumn(ui::Label("Material"), ImGuiTableColumnFlags_WidthStretch, 1.1F);

@@ -155,6 +155,12 @@ void heading(const Style& style, const char* text) {
   if (style.fonts.bold != nullptr) ImGui::PopFont();
 }
 
+void copyTable(const char* id, const std::function<TableRows()>& table) {
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::GetFrameHeight());
+  if (iconButton(fmt::format("{}###copy-{}", ICON_COPY, id).c_str(), "Copy table"))
+    ImGui::SetClipboardText(rowsText(table()).c_str());
+}
+
 void dimText(const Text& text) { ImGui::TextDisabled("%s", text.c_str()); }
 
 void wrapped(const Text& text) {

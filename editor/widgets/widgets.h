@@ -3,12 +3,14 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include <imgui.h>
 
 #include "core/environment.h"
 #include "core/number_text.h"
+#include "editor/model/table_text.h"
 #include "editor/words/words.h"
 
 namespace standpoint {
@@ -78,6 +80,9 @@ bool beginProperties(const char* id, float label_fraction = 0.40F);
 void property(const Text& label, const Text& value);
 void propertyLabel(const Text& label);  // then draw a widget in the value's column
 void endProperties();
+
+// Copies a table as a spreadsheet takes it in: an icon at the end of the line that was drawn last.
+void copyTable(const char* id, const std::function<TableRows()>& table);
 
 void meter(const Style& style, double fraction, ImU32 tone, float width = 0);  // 0 = all there is
 void swatch(const Style& style, const Colour& colour);

@@ -20,5 +20,10 @@ TEST(TableText, BearsWhatIsNoTable) {
   EXPECT_EQ(tableText({{"bounds", {1, 2}}, {"none", json::array()}}), "bounds\t[1,2]\nnone\t[]\n");
 }
 
+TEST(TableText, OfRowsHasAFieldForEachCellWhateverIsInIt) {
+  EXPECT_EQ(rowsText({{"Name", "X"}, {"S1\tnew", "1.5"}, {"two\nlines", ""}}), "Name\tX\nS1 new\t1.5\ntwo lines\t\n");
+  EXPECT_EQ(rowsText({}), "");
+}
+
 }  // namespace
 }  // namespace standpoint
