@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -6,6 +7,7 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <thread>
 #include <unistd.h>
 #include <vector>
 
@@ -112,31 +114,35 @@ int fail(const Error& error) {
   }
 }
 
-// One folder is a project; files are models that make one environment, and clouds that lie under it. Who names them on
-// the command line has chosen already: there is no preview.
+// One folder is a project; files are models that make one environment, and clouds that lie under it or are looked at
+// alone. Who names them on the command line has chosen already: there is no preview.
 void openAll(Editor& editor, const std::vector<std::string>& paths) {
-  std::vector<std::filesystem::path> models;
+  std::vector<std::filesystem::path> files;
+  bool clouds_alone = true;
   for (const auto& path : paths) {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored) || std::filesystem::path(path).filename() == "project.json") {
       openPath(editor, path);
       return;
     }
-    if (readableCloudFormat(path) != nullptr)
-      editor.waiting_clouds.emplace_back(path);
-    else
-      models.push_back(path);
+    clouds_alone = clouds_alone && readableCloudFormat(path) != nullptr;
+    files.emplace_back(path);
   }
-  if (models.empty()) return;
-  const auto title = models.size() == 1 ? "Import " + models.front().filename().string() : "Import models";
-  if (editor.session.start(ImportVerbOptions{{.files = models}}, title) && models.size() == 1)
-    editor.settings.remember(models.front());
+  if (files.empty()) return;
+  if (clouds_alone) editor.workspace = Workspace::inspect;
+  const auto title = files.size() == 1 ? "Import " + files.front().filename().string() : "Import models";
+  if (editor.session.start(ImportVerbOptions{{.files = files}}, title) && files.size() == 1)
+    editor.settings.remember(files.front());
 }
 
 // Without a display.
 Result<void> openIn(Editor& editor, Offscreen& offscreen, const std::vector<std::string>& paths) {
   openAll(editor, paths);
   editor.session.wait();
+  if (!editor.session.errors().empty()) return tl::unexpected<Error>(editor.session.errors().front().error);
+  // The clouds, too: nobody waits for them in front of a window.
+  for (editor.update(); editor.readingCloud() || !editor.underlays.reading().empty(); editor.update())
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
   if (!editor.session.errors().empty()) return tl::unexpected<Error>(editor.session.errors().front().error);
   offscreen.adopt(editor);
   return {};

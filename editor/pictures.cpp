@@ -249,6 +249,8 @@ Result<std::vector<std::filesystem::path>> drawPictures(Editor& editor, Offscree
     editor.update();
   }
   editor.picker.wait();
+  if (!editor.session.document().hasModel())
+    return failure(ErrorKind::usage, "--pictures is a tour of a model; take the picture of a cloud with --picture");
   std::vector<std::filesystem::path> written;
   for (const auto& picture : kPictures) {
     if (!only.empty() && std::find(only.begin(), only.end(), picture.name) == only.end()) continue;

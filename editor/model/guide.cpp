@@ -26,6 +26,11 @@ GuideStep environmentStep(const Model& model) {
   if (!document.imported) return step;
   step.state = State::done;
   step.advice = "";
+  if (!document.hasModel()) {
+    step.status = trn("{} point cloud, no model", "{} point clouds, no model", document.underlays.size(),
+                      document.underlays.size());
+    return step;
+  }
   step.status = trf("{} products, {} triangles", groupedDigits(document.imported->products.size()),
                     groupedDigits(triangleCount(*document.imported)));
   const auto losses = document.import_report
@@ -40,10 +45,19 @@ GuideStep environmentStep(const Model& model) {
   return step;
 }
 
+// Of a project of point clouds alone.
+GuideStep needsModel(GuideStep step) {
+  step.state = State::optional;
+  step.status = "Needs a model";
+  step.advice = "";
+  return step;
+}
+
 GuideStep optimiseStep(const Model& model) {
   GuideStep step{Workspace::optimise, "Optimise", State::optional, "", "Choose a budget", "optimise"};
   const auto& document = model.session.document();
   if (!document.imported) return step;
+  if (!document.hasModel()) return needsModel(std::move(step));
   const auto triangles = sceneTriangleCount(*document.imported);
   if (document.simplified) {
     step.state = State::done;
@@ -61,6 +75,7 @@ GuideStep optimiseStep(const Model& model) {
 
 GuideStep materialStep(const Model& model) {
   GuideStep step{Workspace::materials, "Materials", State::open, "Not assigned", "Assign materials", "material"};
+  if (const auto& d = model.session.document(); d.imported && !d.hasModel()) return needsModel(std::move(step));
   const auto& document = model.session.document();
   if (!document.materials) return step;
   const auto findings = materialFindings(document);
@@ -86,6 +101,7 @@ GuideStep georeferenceStep(const Model& model) {
 
 GuideStep surveyStep(const Model& model) {
   GuideStep step{Workspace::survey, "Survey", State::open, "No stations", "Add a station", "scan"};
+  if (const auto& d = model.session.document(); d.imported && !d.hasModel()) return needsModel(std::move(step));
   const auto& job = model.session.document().job;
   if (!job || job->stations.empty()) return step;
   const auto unscanned =
@@ -104,6 +120,10 @@ GuideStep instrumentStep(const Model&) {
 
 GuideStep inspectStep(const Model& model) {
   GuideStep step{Workspace::inspect, "Inspect", State::open, "Not assessed", "Assess the survey", "quality"};
+  if (const auto& d = model.session.document(); d.imported && !d.hasModel()) {
+    step = {Workspace::inspect, "Inspect", State::optional, "Colour, measure and cut the points", "", "points"};
+    return step;
+  }
   const auto* last = model.session.lastOf("assess");
   const auto* answer = last == nullptr ? nullptr : answerAs<AssessAnswer>(last->answer);
   if (answer == nullptr) return step;

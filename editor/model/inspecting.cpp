@@ -18,16 +18,23 @@ PointPlaces placesOf(const Cloud& cloud) {
 
 }  // namespace
 
-std::optional<Eigen::Vector3d> Model::measurableAt(const ViewRay& ray, double reach_px) const {
+std::optional<Model::MeasurablePlace> Model::measurableAt(const ViewRay& ray, double reach_px) const {
   const double at_target = view.camera.heightAtTarget_m() / std::max(1.0, view.size.y()) * reach_px;
   SightCone cone{ray.origin, ray.direction};
   if (view.camera.orthographic)
     cone.radius_m = at_target;
   else
     cone.per_metre = at_target / view.camera.distance_m;
-  std::optional<Eigen::Vector3d> best;
-  const auto offer = [&](const Eigen::Vector3d& place) {
-    if (!best || (place - ray.origin).dot(ray.direction) < (*best - ray.origin).dot(ray.direction)) best = place;
+  std::optional<MeasurablePlace> best;
+  const auto offer = [&](const Eigen::Vector3d& place, const std::string& cloud) {
+    if (!best || (place - ray.origin).dot(ray.direction) < (best->position - ray.origin).dot(ray.direction))
+      best = {place, cloud};
+  };
+  const auto clouds = inspectedClouds(session.document());
+  const auto nameOf = [&](const Cloud& cloud) {
+    const auto* listed = standpoint::cloudOf(clouds, cloud.file);
+    if (listed != nullptr) return listed->label;
+    return cloud.file.empty() ? tr("Scan") : cloud.file.filename().string();
   };
   const auto tryCloud = [&](const Cloud& cloud, const Eigen::Matrix4d& local_from_cloud) {
     const Eigen::Matrix3d turn = local_from_cloud.topLeftCorner<3, 3>();
@@ -43,7 +50,7 @@ std::optional<Eigen::Vector3d> Model::measurableAt(const ViewRay& ray, double re
     };
     if (const auto i = firstPoint(places, there, counts)) {
       const float* p = places.first + *i * places.stride;
-      offer(turn * Eigen::Vector3d(p[0], p[1], p[2]) + shift);
+      offer(turn * Eigen::Vector3d(p[0], p[1], p[2]) + shift, nameOf(cloud));
     }
   };
   if (cloud_) {
@@ -54,7 +61,7 @@ std::optional<Eigen::Vector3d> Model::measurableAt(const ViewRay& ray, double re
   }
   const ViewState state = viewState();
   for (const auto& u : state.underlays) tryCloud(*u.cloud, u.local_from_cloud);
-  if (const auto hit = picker.pick(ray, state)) offer(hit->position);
+  if (const auto hit = picker.pick(ray, state)) offer(hit->position, {});
   return best;
 }
 

@@ -6,8 +6,10 @@
 
 #include "editor/model/station_steps.h"
 #include "editor/words/words.h"
+#include "project/model/import_verb.h"
 #include "project/model/product_match.h"
 #include "project/model/treatments.h"
+#include "project/survey/locate_verb.h"
 #include "project/survey/underlays.h"
 #include "survey/registration/underlay_placing.h"
 
@@ -20,10 +22,10 @@ Model::Model(std::vector<Verb> verbs, std::function<void()> wake_up)
       expected(wake_up),
       scan_outlook(wake_up),
       target_list(wake_up),
-      wake(std::move(wake_up)) {}
-
       wall(wake_up),
       panorama(wake_up),
+      wake(std::move(wake_up)) {}
+
 const Document& Model::shownDocument() const {
   return preview.outcome() != nullptr ? preview.outcome()->document : session.document();
 }
@@ -197,13 +199,15 @@ void Model::update() {
     view.refused_place.reset();
     chooseWantedStation();
     adoptDocument();
+    followOnlyCloud();
+    followLocated();
   }
   followPointColours();
   followWalking(*this);
   followStationView(*this);
   followPreview();
   startWaitingCloud();
-  underlays.follow(session.document(), wake);
+  if (only_cloud_.empty()) underlays.follow(session.document(), wake);  // else it would be read twice
   if (const auto asked = std::exchange(previewed, std::nullopt); asked && session.document().imported)
     budget_preview.want(session.document(), *asked);
   else
@@ -244,9 +248,9 @@ void Model::startWaitingCloud() {
   if (waiting_clouds.empty() || preview.isOpen()) return;
   if (!session.document().imported) {
     if (!session.running().empty()) return;  // perhaps the model
-    session.errors().push_back({"A point cloud is shown as an underlay of a model",
-                                {ErrorKind::usage, "Import a model first, then drop the point cloud again",
-                                 waiting_clouds.front().filename().string()}});
+    session.start(ImportVerbOptions{{.files = {waiting_clouds.begin(), waiting_clouds.end()}}},
+                  waiting_clouds.size() > 1 ? std::string("Open point clouds")
+                                            : trf("Open {}", waiting_clouds.front().filename().string()));
     waiting_clouds.clear();
     return;
   }
@@ -285,6 +289,14 @@ bool Model::followModel(const Environment& before, const Environment& after) {
   return true;
 }
 
+// A cloud that is shown from where it was is shown from where it is.
+void Model::followLocated() {
+  const auto* answer = session.lastAnswer<LocateAnswer>("locate");
+  if (answer == nullptr || session.lastOf("locate")->revision != session.revision() || !cloud_) return;
+  for (const auto& located : answer->located)
+    if (located.from == cloud_->file) return showClouds({located.to});
+}
+
 void Model::chooseWantedStation() {
   const auto& job = session.document().job;
   const auto name = std::exchange(survey_wanted, {});
@@ -316,6 +328,21 @@ void Model::adoptDocument() {
   outliner = {imported_ ? Outliner(*imported_) : Outliner(), outliner.made + 1, {}};
   if (imported_) look(view.camera, StandardView::corner);
   view.frame_wanted = imported_ != nullptr;
+  only_cloud_.clear();
+}
+
+// A cloud that is all there is has its colours, panorama and walls at once, and goes to the others when some come.
+void Model::followOnlyCloud() {
+  const auto& document = session.document();
+  const bool one = document.imported && !document.hasModel() && document.underlays.size() == 1;
+  const std::filesystem::path wanted =
+      one && document.underlays[0]->visible ? document.underlays[0]->file : std::string();
+  const auto before = std::exchange(only_cloud_, wanted);
+  if (before == wanted) return;
+  if (!wanted.empty())
+    showClouds({wanted});
+  else if (cloud_ && cloud_->file == before)
+    showClouds({});
 }
 
 ViewState Model::viewState() const {

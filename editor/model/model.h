@@ -129,6 +129,7 @@ struct ViewportState {
   Measuring measuring;
   bool measurements = true;                    // kept ones are drawn
   std::optional<Eigen::Vector3d> measured_at;  // under the pointer while a tool measures: of a cloud, or the model
+  std::string measured_cloud;                  // that it is a point of; "": of the model
   bool dragging = false;
   Camera camera_before_drag;  // which Esc brings back
   bool dragged = false;
@@ -214,7 +215,8 @@ struct Model : Style {
   ScanReadiness scan_readiness;
   TargetList target_list;
   bool wants_deviation = false;                      // a panel shows it
-  std::deque<std::filesystem::path> waiting_clouds;  // dropped, each to become an underlay when the document is free
+  std::deque<std::filesystem::path> waiting_clouds;  // dropped, to become underlays when the document is free, or
+                                                     // a project of their own where there is none
 
   SurveyChoice survey;
   std::string survey_wanted;   // the station of this name, as soon as it is there
@@ -277,7 +279,11 @@ struct Model : Style {
   bool jobRuns() const;  // a bar moves
   // The first point of the clouds that are shown, or place of the model, that the ray meets; within `reach_px` pixels
   // of it for points.
-  std::optional<Eigen::Vector3d> measurableAt(const ViewRay& ray, double reach_px) const;
+  struct MeasurablePlace {
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+    std::string cloud;  // what lists call the one that it is a point of; "": it is of the model
+  };
+  std::optional<MeasurablePlace> measurableAt(const ViewRay& ray, double reach_px) const;
   // The cloud in which a wall is measured; null with the reason in `why_not`.
   std::optional<InspectedCloud> wallCloud(std::string* why_not = nullptr) const;
   void showPanorama(const InspectedCloud& cloud, std::optional<std::size_t> scan = {});
@@ -307,6 +313,8 @@ struct Model : Style {
   void adoptDocument();
   void followPointColours();
   void chooseWantedStation();
+  void followOnlyCloud();
+  void followLocated();
   void followPreview();
   void startWaitingCloud();
   void followLiveScan();
@@ -324,6 +332,7 @@ struct Model : Style {
   std::optional<Camera> camera_before_preview_;
   CloudLoader cloud_loader_;
   std::shared_ptr<const Cloud> read_, cloud_;  // as its file has it, and as it is shown
+  std::filesystem::path only_cloud_;           // of a project of clouds alone that has one; else empty
   std::shared_ptr<const Job> solved_by_;       // that cloud_ is moved by; null: it is not
   std::shared_ptr<const Underlay> placed_as_;  // that cloud_ is; null: none, or it is not turned yet
   std::vector<std::filesystem::path> missing_clouds_;

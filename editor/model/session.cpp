@@ -123,10 +123,13 @@ Result<Answered<ProjectAnswer>> runOpenRecovery(const Document&, const OpenRecov
 
 std::vector<Verb> fileVerbs() {
   using S = VerbScope;
-  return {verbOf("save-project", "Save the project", S::reads, saveFields(), runSave),
-          verbOf("save-recovery", "Save recovery copy", S::reads, folderFields<SaveRecoveryOptions>(), runSaveRecovery),
-          verbOf("open-project", "Open a project", S::creates, folderFields<OpenOptions>(), runOpen),
-          verbOf("open-recovery", "Open a recovery copy", S::creates, openRecoveryFields(), runOpenRecovery)};
+  std::vector<Verb> verbs = {
+      verbOf("save-project", "Save the project", S::reads, saveFields(), runSave),
+      verbOf("save-recovery", "Save recovery copy", S::reads, folderFields<SaveRecoveryOptions>(), runSaveRecovery),
+      verbOf("open-project", "Open a project", S::creates, folderFields<OpenOptions>(), runOpen),
+      verbOf("open-recovery", "Open a recovery copy", S::creates, openRecoveryFields(), runOpenRecovery)};
+  for (auto& verb : verbs) verb.without_model = true;
+  return verbs;
 }
 
 bool writesDocument(const Verb& verb) { return verb.scope == VerbScope::creates || verb.scope == VerbScope::changes; }
@@ -135,6 +138,12 @@ bool writesDocument(const Verb& verb) { return verb.scope == VerbScope::creates 
 bool holdsDocument(const Verb& verb) { return writesDocument(verb) || std::string_view(verb.name) == "save-project"; }
 
 }  // namespace
+
+std::string whyNoModel(const Document& document) {
+  if (document.hasModel()) return {};
+  return document.imported ? "This project has point clouds only; add a model first (Ctrl+I)"
+                           : "Import a model first (Ctrl+I)";
+}
 
 Session::Session(std::vector<Verb> table, std::function<void()> wake)
     : verbs_(std::move(table)), wake_(std::move(wake)) {
@@ -151,8 +160,9 @@ std::string Session::name() const {
 std::string Session::whyNot(std::string_view name) const {
   const Verb* wanted = verb(name);
   if (wanted == nullptr) return trf("'{}' is not available in this build", name);
-  const bool needs_model = wanted->scope == VerbScope::changes || wanted->scope == VerbScope::reads;
-  if (needs_model && !document().imported) return "Import a model first (Ctrl+I)";
+  const bool takes_document = wanted->scope == VerbScope::changes || wanted->scope == VerbScope::reads;
+  if (takes_document && !(wanted->without_model && document().imported))
+    if (auto why = whyNoModel(document()); !why.empty()) return why;
   if (auto why = whyForbidden(name); !why.empty()) return why;
   return holdsDocument(*wanted) ? whyHeld() : std::string();
 }

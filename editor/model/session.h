@@ -60,6 +60,9 @@ class VerbTask : public Task<Outcome> {
   nlohmann::json options_;
 };
 
+// "" where it has one, else what to do first.
+std::string whyNoModel(const Document& document);
+
 // One open project: its history, what runs on it, and what was said about it. Knows neither ImGui nor a window.
 // Everything that changes the document is a verb that runs as a task on a snapshot; poll() brings its result in.
 class Session {
@@ -78,12 +81,12 @@ class Session {
   // Told of every verb that was done, with its options, after its result came in.
   std::function<void(const Verb& verb, const nlohmann::json& options)> done;
 
-  // "" when a verb may start now, else the reason to show.
-  std::string whyNot(std::string_view verb) const;
-  std::string whyNotUndo() const;
   // What works for the document outside of its tasks, such as the scan of an emulated instrument; empty: nothing does.
   std::function<std::vector<LeftJob>()> runs_elsewhere;
 
+  // "" when a verb may start now, else the reason to show.
+  std::string whyNot(std::string_view verb) const;
+  std::string whyNotUndo() const;
   std::string whyNotRedo() const;
   std::string whyNotSave() const;
   std::string whyNotAdopt() const;

@@ -101,7 +101,8 @@ class Actions {
   virtual void openForm(const VerbOptions& filled) = 0;
   virtual void askForFile(FileDialogState::Purpose purpose, std::string title, std::string accept,
                           std::vector<std::string> extensions, std::string name, WhenChosen done) = 0;
-  virtual bool drawInstrument() = 0;  // the emulated device; false: this build has none
+  virtual void locate(const std::filesystem::path& missing) = 0;  // of the document's files: asks where it is now
+  virtual bool drawInstrument() = 0;                              // the emulated device; false: this build has none
 };
 
 }  // namespace standpoint

@@ -213,6 +213,10 @@ void draw(const Model& model, OutlinerState& state, Actions& actions) {
   ui::searchField("outliner-filter", "Name, class, id, material", state.filter);
   if (state.filter.empty()) drawUnderlays(model, actions);
   const auto rows = model.outliner.tree.rows(*environment, state.filter);
+  if (rows.empty() && !model.session.document().hasModel()) {
+    ui::emptyState(model, ICON_CUBE, "No model", "This project has point clouds only. Import a model to add it.");
+    return;
+  }
   if (rows.empty()) {
     ui::emptyState(model, ICON_SEARCH, "No matches",
                    "No product matches all words in name, class, ID, storey or materials.");

@@ -24,7 +24,8 @@ using Files = std::vector<std::filesystem::path>;
 
 std::string whyNotBy(const Model& model, ColourBy colour) {
   if (!model.cloud()) return "Show the points of a scan first";
-  if (colour == ColourBy::deviation && !model.environment()) return "Import a model first";
+  if (colour == ColourBy::deviation)
+    if (auto why = whyNoModel(model.session.document()); !why.empty()) return why;
   return whyNotColoured(colour, model.cloud()->header);
 }
 
@@ -49,9 +50,12 @@ void drawCloud(const Model& model, Actions& actions, const InspectedCloud& cloud
   const bool there = std::filesystem::is_regular_file(cloud.file, ignored);
   const std::string gone = there ? std::string() : trf("The file is missing: {}", cloud.file.string());
   const bool shown = model.cloud() && model.cloud()->file == cloud.file;
+  const bool over_model = model.session.document().hasModel();
   ui::fitted(cloud.label, ImGui::GetContentRegionAvail().x);
   if (ui::iconButton(shown ? ICON_EYE_OFF "###show-points" : ICON_EYE "###show-points",
-                     shown ? "Return to the model" : "Show its points instead of the model", gone, shown))
+                     shown ? (over_model ? "Return to the model" : "Return to all clouds")
+                           : (over_model ? "Show its points instead of the model" : "Show only its points"),
+                     gone, shown))
     actions.showScans(shown ? Files() : Files{cloud.file});
   ImGui::SameLine();
   if (ui::iconButton(ICON_GLOBE "###show-panorama", "Panorama: what its station saw", gone)) {
@@ -64,6 +68,11 @@ void drawCloud(const Model& model, Actions& actions, const InspectedCloud& cloud
   const std::string missing = !cloudCompareProgram().empty() ? gone : "CloudCompare is not installed";
   if (ui::iconButton(ICON_EXPORT "###cloud-compare", "Open with CloudCompare", missing))
     actions.openInCloudCompare(cloud.file);
+  if (there) return;
+  ImGui::SameLine();
+  if (ui::button(ICON_SEARCH "  Locate…###locate", model.session.whyNot("locate"), {0, 0},
+                 "Choose where the file is now"))
+    actions.locate(cloud.file);
 }
 
 // The newest scan of each station.

@@ -122,6 +122,12 @@ void drawAge(const Model& model, Actions& actions, const std::string& age, bool 
     actions.run("scan");
 }
 
+void drawLocate(const Model& model, Actions& actions, const std::filesystem::path& missing) {
+  if (ui::button(ICON_SEARCH "  Locate…###locate", model.session.whyNot("locate"), {-FLT_MIN, 0},
+                 "Choose where the file is now"))
+    actions.locate(missing);
+}
+
 void drawScans(const Model& model, Actions& actions, const Station& station) {
   if (station.scans.empty()) return;
   const auto& targets = model.session.document().job->targets;
@@ -151,6 +157,7 @@ void drawScans(const Model& model, Actions& actions, const Station& station) {
       if (ui::button(ICON_EYE "  Show points###show-scan",
                      there ? std::string() : trf("The file is missing: {}", scan.file), {-FLT_MIN, 0}))
         actions.showScans({file});
+      if (!there) drawLocate(model, actions, file);
       ImGui::TreePop();
     }
     ImGui::PopID();
@@ -333,6 +340,12 @@ void drawUnderlay(const Model& model, SurveyEdit& edit, Actions& actions, const 
     ui::endProperties();
   }
   drawProblem(edit);
+  if (std::error_code ignored; !std::filesystem::is_regular_file(underlay.file, ignored)) {
+    ImGui::PushStyleColor(ImGuiCol_Text, tone::kWarning);
+    ui::wrapped(trf("The file is missing: {}", underlay.file));
+    ImGui::PopStyleColor();
+    drawLocate(model, actions, underlay.file);
+  }
   underlayButtons(model, actions, underlay, why);
 }
 

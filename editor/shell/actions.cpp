@@ -27,7 +27,8 @@
 
 namespace standpoint {
 
-std::string whyNoModel(const Editor& e) { return e.environment() ? "" : "Import a model first (Ctrl+I)"; }
+std::string whyNothingOpen(const Editor& e) { return e.environment() ? "" : whyNoModel(e); }
+std::string whyNoModel(const Editor& e) { return whyNoModel(e.session.document()); }
 
 namespace {
 
@@ -138,7 +139,7 @@ std::string whyScanNot(const Editor& e) { return e.session.whyNot("scan"); }
 const std::array kOwn = {
     Action{"new", "New project", ICON_FILE_NEW, {'N', true}, newProject, whyOpenNot},
     Action{"open", "Open project…", ICON_FOLDER_OPEN, {'O', true}, openProject, whyOpenNot},
-    Action{"import", "Import model…", ICON_IMPORT, {'I', true}, importModel, whyImportNot},
+    Action{"import", "Import model or point cloud…", ICON_IMPORT, {'I', true}, importModel, whyImportNot},
     Action{"sample", "Open sample house", ICON_BUILDING, {}, openSampleHouse, whyImportNot},
     Action{"first-steps", "First steps in the sample house", ICON_FLAG, {}, beginTour, whyImportNot},
     Action{"update", "Update from a changed model…", "", {}, askForChangedModel, whyUpdateNot},
@@ -146,10 +147,10 @@ const std::array kOwn = {
     Action{"save-as", "Save as…", "", {'S', true, true}, askWhereToSave, whySaveNot},
     Action{"recover", "Recover unsaved work…", "", {}, recoverLeftWork, whyNoLeftWork},
     Action{"export", "Export…", ICON_EXPORT, {'E', true}, askForExport, whyExportNot},
-    Action{"picture", "Save picture of the view…", "", {}, openShots<ShotKind::picture>, whyNoModel},
-    Action{"panorama", "Save 360° panorama…", "", {}, openShots<ShotKind::panorama>, whyNoModel},
-    Action{"turntable", "Save turntable film…", "", {}, openShots<ShotKind::turntable>, whyNoModel},
-    Action{"walk-through", "Save walk-through film…", "", {}, openShots<ShotKind::walk_through>, whyNoModel},
+    Action{"picture", "Save picture of the view…", "", {}, openShots<ShotKind::picture>, whyNothingOpen},
+    Action{"panorama", "Save 360° panorama…", "", {}, openShots<ShotKind::panorama>, whyNothingOpen},
+    Action{"turntable", "Save turntable film…", "", {}, openShots<ShotKind::turntable>, whyNothingOpen},
+    Action{"walk-through", "Save walk-through film…", "", {}, openShots<ShotKind::walk_through>, whyNothingOpen},
     Action{"quit", "Quit", "", {'Q', true}, quit, nullptr},
     Action{"undo", "Undo", ICON_UNDO, {'Z', true}, [](Editor& e) { e.session.undo(); }, whyUndoNot},
     Action{"redo", "Redo", ICON_REDO, {'Y', true}, [](Editor& e) { e.session.redo(); }, whyRedoNot},

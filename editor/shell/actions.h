@@ -29,6 +29,7 @@ std::span<const Action> actions();
 const Action* findAction(const char* id);
 std::string whyNot(const Action& action, const Editor& editor);
 bool invoke(Editor& editor, const char* id);
+std::string whyNothingOpen(const Editor& editor);  // neither a model nor clouds
 std::string whyNoModel(const Editor& editor);
 std::string shortcutText(const Shortcut& shortcut);  // "Ctrl+Shift+S"
 

@@ -16,6 +16,11 @@ void askForModel(Editor& editor);
 void askForChangedModel(Editor& editor);
 void askForExport(Editor& editor);
 void askWhereToSave(Editor& editor);
+// A file that is missing, as filesOf() of the document has it, or a missing part of a project that could not be opened:
+// where it is now.
+void askToLocate(Editor& editor, const std::filesystem::path& missing);
+// `file` where the document uses it and it is not there; else empty.
+std::filesystem::path projectFileOf(const Editor& editor, const std::filesystem::path& file);
 // A file browser of our own; `done` gets what was chosen.
 void askForFile(Editor& editor, FileDialogState::Purpose purpose, std::string title, std::string accept,
                 std::vector<std::string> extensions, std::string name,

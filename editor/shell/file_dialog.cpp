@@ -21,6 +21,8 @@
 #include "importers/importers.h"
 #include "pointclouds/formats.h"
 #include "project/model/import_verb.h"
+#include "project/storage/project_files.h"
+#include "project/survey/locate_verb.h"
 
 namespace standpoint {
 
@@ -255,7 +257,7 @@ void askForProject(Editor& editor) {
 }
 
 void askForModel(Editor& editor) {
-  askForFile(editor, Purpose::openFile, "Import model or point-cloud underlay", "Open", modelAndCloudExtensions(), "",
+  askForFile(editor, Purpose::openFile, "Import model or point cloud", "Open", modelAndCloudExtensions(), "",
              [&editor](const std::filesystem::path& file) { openFiles(editor, {file}); });
 }
 
@@ -265,6 +267,29 @@ void askForChangedModel(Editor& editor) {
                ImportVerbOptions options{{.files = {file}}};
                options.update = true;
                editor.session.start(options, trf("Update from {}", file.filename().string()));
+             });
+}
+
+std::filesystem::path projectFileOf(const Editor& editor, const std::filesystem::path& file) {
+  for (const auto& used : filesOf(editor.session.document()))
+    if (used.file == file && !used.there) return used.file;
+  return {};
+}
+
+void askToLocate(Editor& editor, const std::filesystem::path& missing) {
+  const auto project = projectMissing(missing);
+  const std::string name = missing.filename().string();
+  askForFile(editor, Purpose::openFile, trf("Locate {}", name), "Use this file", {missing.extension().string()}, "",
+             [&editor, missing, project, title = trf("Locate {}", name)](const std::filesystem::path& file) {
+               if (project.empty()) {
+                 LocateOptions options{.file = missing};
+                 options.to = file;
+                 editor.session.start(options, title);
+               } else if (const auto restored = restorePart(missing, file); !restored) {
+                 editor.session.errors().push_back({title, restored.error()});
+               } else if (editor.session.open(project)) {
+                 editor.settings.remember(project);
+               }
              });
 }
 

@@ -37,7 +37,10 @@ void openFiles(Editor& editor, const std::vector<std::filesystem::path>& files) 
     else
       models.push_back(file);
   }
-  if (!models.empty()) editor.preview.open(std::move(models), *editor.session.verb("import"), editor.wake);
+  if (!models.empty())
+    editor.preview.open(std::move(models), *editor.session.verb("import"), editor.wake);
+  else if (!editor.session.document().imported)
+    editor.workspace = Workspace::inspect;  // they are looked at alone
 }
 
 void acceptPreview(Editor& editor) {

@@ -14,7 +14,7 @@ namespace standpoint {
 
 namespace {
 
-std::string whyNothingShown(const Editor& e) { return e.cloud() ? "" : whyNoModel(e); }
+std::string whyNothingShown(const Editor& e) { return e.cloud() ? "" : whyNothingOpen(e); }
 std::string whyMeasureNot(const Editor& e) {
   if (auto why = whyNothingShown(e); !why.empty()) return why;
   return e.session.whyNot("measure");
@@ -35,7 +35,8 @@ void measureKind(Editor& e) {
 template <ColourBy by>
 std::string whyColourNot(const Editor& e) {
   if (!e.cloud()) return "Show the points of a scan first";
-  if (by == ColourBy::deviation && !e.environment()) return whyNoModel(e);
+  if (by == ColourBy::deviation)
+    if (auto why = whyNoModel(e); !why.empty()) return why;
   return whyNotColoured(by, e.cloud()->header);
 }
 
@@ -218,7 +219,7 @@ const std::array kInspectActions = {
            ICON_CUT,
            {'C', false, false, true},
            [](Editor& e) { e.clipAroundSelection(); },
-           whyNoModel},
+           whyNothingOpen},
     Action{"clip-none",
            "Clear clip box and section",
            ICON_CLOSE,
@@ -230,10 +231,10 @@ const std::array kInspectActions = {
            ICON_CUT,
            {'X', false, false, true},
            [](Editor& e) { e.view.tool = Tool::pickSection; },
-           whyNoModel},
-    Action{"section-x", "Section across X", ICON_CUT, {}, sectionAcross<0>, whyNoModel},
-    Action{"section-y", "Section across Y", ICON_CUT, {}, sectionAcross<1>, whyNoModel},
-    Action{"section-z", "Level section", ICON_CUT, {}, sectionAcross<2>, whyNoModel},
+           whyNothingOpen},
+    Action{"section-x", "Section across X", ICON_CUT, {}, sectionAcross<0>, whyNothingOpen},
+    Action{"section-y", "Section across Y", ICON_CUT, {}, sectionAcross<1>, whyNothingOpen},
+    Action{"section-z", "Level section", ICON_CUT, {}, sectionAcross<2>, whyNothingOpen},
     Action{"clip-look",
            "Look along the section",
            ICON_EYE,

@@ -119,11 +119,13 @@ void followInspectTools(Editor& editor, ImVec2 origin, bool hovered) {
     return;
   }
   if (!view.dragging) {
-    view.measured_at.reset();
     const ImVec2 p = ImGui::GetIO().MousePos;
-    if (hovered)
-      view.measured_at = editor.measurableAt(rayThrough(view.camera, {p.x - origin.x, p.y - origin.y}, view.size),
-                                             editor.px(kReach_px));
+    const auto place = hovered
+                           ? editor.measurableAt(rayThrough(view.camera, {p.x - origin.x, p.y - origin.y}, view.size),
+                                                 editor.px(kReach_px))
+                           : std::nullopt;
+    view.measured_at = place ? std::optional(place->position) : std::nullopt;
+    view.measured_cloud = place ? place->cloud : std::string();
   }
   if (view.tool != Tool::measure || ImGui::GetIO().WantTextInput ||
       ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId))

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,6 +21,7 @@
 #include "editor/widgets/widgets.h"
 #include "editor/words/sentences.h"
 #include "editor/words/words.h"
+#include "project/storage/project_files.h"
 
 namespace standpoint {
 
@@ -39,10 +42,16 @@ const char* remedy(const Error& error) {
   return "";
 }
 
-void drawError(Editor& editor) {
-  auto& errors = editor.session.errors();
-  if (!ui::beginModal(editor, "Error###error", !errors.empty(), 520)) return;
-  const ShownError shown = errors.front();
+// What the user can point to where an error names it: a file of the project, or a part of one that was to be opened.
+std::filesystem::path missingFile(const Editor& editor, const Error& error) {
+  const std::filesystem::path file = error.source;
+  if (error.kind != ErrorKind::file_system || file.empty()) return {};
+  return projectMissing(file).empty() ? projectFileOf(editor, file) : file;
+}
+
+// The file that is to be located by the press of its button; else empty.
+std::filesystem::path drawOneError(Editor& editor, const ShownError& shown, std::size_t index) {
+  ImGui::PushID(static_cast<int>(index));
   ImGui::TextColored(colour(tone::kBad), "%s", ICON_WARNING);
   ImGui::SameLine();
   if (editor.fonts.bold != nullptr) ImGui::PushFont(editor.fonts.bold);
@@ -53,17 +62,47 @@ void drawError(Editor& editor) {
   if (!shown.error.source.empty()) ui::dimWrapped(trf("in {}", shown.error.source));
   ui::gap(editor, 2);
   ui::wrapped(remedy(shown.error));
+  const auto missing = missingFile(editor, shown.error);
+  const bool pressed = !missing.empty() &&
+                       ui::button(ICON_SEARCH "  Locate…###locate-missing", {}, {0, 0}, "Choose where the file is now");
+  ImGui::PopID();
+  return pressed ? missing : std::filesystem::path();
+}
+
+// All that wait: what was not read of one may explain the other.
+void drawErrors(Editor& editor) {
+  auto& errors = editor.session.errors();
+  if (!ui::beginModal(editor, "Error###error", !errors.empty() && !editor.dialogs.file.open, 520)) return;
+  constexpr std::size_t kMostAtOnce = 3;  // more are scrolled
+  const bool many = errors.size() > kMostAtOnce;
+  if (many) {
+    ui::dimText(trf("{} errors", errors.size()));
+    ImGui::BeginChild("errors", {0, std::min(editor.px(340), ImGui::GetIO().DisplaySize.y * 0.6F)});
+  }
+  std::optional<std::pair<std::size_t, std::filesystem::path>> located;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    if (i > 0) {
+      ui::gap(editor, 4);
+      ImGui::Separator();
+      ui::gap(editor, 4);
+    }
+    if (auto file = drawOneError(editor, errors[i], i); !file.empty()) located.emplace(i, std::move(file));
+  }
+  if (many) ImGui::EndChild();
   ui::gap(editor, 6);
-  if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || ui::modalCancelled()) {
-    errors.pop_front();
-    ImGui::CloseCurrentPopup();
-  }
+  const bool closed = ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || ui::modalCancelled();
   ImGui::SameLine();
-  if (ui::button("Copy text")) ImGui::SetClipboardText((shown.title + "\n" + describe(shown.error)).c_str());
-  if (errors.size() > 1) {
-    ImGui::SameLine();
-    ui::dimText(trf("{} more", errors.size() - 1));
+  if (ui::button("Copy text")) {
+    std::string text;
+    for (const auto& shown : errors) text += (text.empty() ? "" : "\n\n") + shown.title + "\n" + describe(shown.error);
+    ImGui::SetClipboardText(text.c_str());
   }
+  if (closed) errors.clear();
+  if (!closed && located) {
+    errors.erase(errors.begin() + static_cast<std::ptrdiff_t>(located->first));
+    askToLocate(editor, located->second);
+  }
+  if (closed || located) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
 }
 
@@ -291,7 +330,7 @@ void drawMessages(Editor& editor) {
   drawAbout(editor);
   drawAnswer(editor);
   takePlaceRefusals(editor);
-  drawError(editor);
+  drawErrors(editor);
 }
 
 }  // namespace standpoint

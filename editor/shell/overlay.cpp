@@ -10,6 +10,7 @@
 #include "editor/model/station_steps.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/coverage_overlay.h"
+#include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/expected_overlay.h"
 #include "editor/shell/moving.h"
@@ -172,12 +173,17 @@ void cloudChip(Editor& editor) {
   }
   if (!editor.cloud()) return;
   const auto& cloud = *editor.cloud();
+  const auto& document = editor.session.document();
+  const std::string name = cloud.file.empty() ? tr("Scan") : cloud.file.filename().string();
   beside(editor, editor.px(150));
-  if (ImGui::Button(trf("{}  Return to model###cloud", ICON_CUBE).c_str())) {
+  if (!document.hasModel() && document.underlays.size() == 1) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(name.c_str());
+  } else if (ImGui::Button(document.hasModel() ? trf("{}  Return to model###cloud", ICON_CUBE).c_str()
+                                               : trf("{}  Return to all clouds###cloud", ICON_CUBE).c_str())) {
     editor.showClouds({});
     return;
   }
-  const std::string name = cloud.file.empty() ? tr("Scan") : cloud.file.filename().string();
   ui::tooltip(
       trf("{}: {} of {} points shown", name, groupedDigits(cloud.points.size()), groupedDigits(cloud.points_in_file)));
   if (!editor.showsLiveScan()) return;
@@ -186,11 +192,23 @@ void cloudChip(Editor& editor) {
   ImGui::TextUnformatted(trf("{:.1f} million points loaded", static_cast<double>(cloud.points_in_file) / 1e6).c_str());
 }
 
+// The way on where a cloud that is shown is no longer there.
+void locateChip(Editor& editor) {
+  if (editor.missingClouds().empty()) return;
+  beside(editor, editor.px(90));
+  const auto missing = editor.missingClouds().front();
+  const auto file = projectFileOf(editor, missing);
+  if (file.empty()) return;
+  if (ui::button(ICON_SEARCH "  Locate…###locate-cloud", editor.session.whyNot("locate"), {0, 0},
+                 "Choose where the file is now"))
+    askToLocate(editor, file);
+}
+
 // What has become of the clouds that are shown; mostly "".
 std::string cloudTrouble(const Editor& editor) {
   const auto& missing = editor.missingClouds();
   if (!missing.empty())
-    return trf("{} is no longer there: put it back to see all of it. What has been read stays on view.",
+    return trf("{} is no longer there: put it back or locate it to see all of it. What has been read stays on view.",
                missing.front().filename().string());
   const std::string why = editor.scene != nullptr ? editor.scene->trouble() : "";
   return why.empty() ? why : trf("Some points cannot be read: {}. What has been read stays on view.", why);
@@ -352,6 +370,7 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   sideChip(editor);
   cutChip(editor);
   cloudChip(editor);
+  locateChip(editor);
   beside(editor, editor.px(5 * 33));  // they stay together
   drawTogglePlate(editor);
   toggle(editor, ICON_CUBE, "edges", editor.view.edges);

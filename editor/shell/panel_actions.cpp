@@ -137,6 +137,7 @@ void PanelActions::askForFile(FileDialogState::Purpose purpose, std::string titl
                            done(later, chosen);
                          });
 }
+void PanelActions::locate(const std::filesystem::path& missing) { askToLocate(editor_, missing); }
 bool PanelActions::drawInstrument() {
   if (editor_.draw_instrument) editor_.draw_instrument(editor_);
   return editor_.draw_instrument != nullptr;

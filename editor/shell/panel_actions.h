@@ -78,6 +78,7 @@ class PanelActions final : public Actions {
   void openForm(const VerbOptions& filled) override;
   void askForFile(FileDialogState::Purpose purpose, std::string title, std::string accept,
                   std::vector<std::string> extensions, std::string name, WhenChosen done) override;
+  void locate(const std::filesystem::path& missing) override;
   bool drawInstrument() override;
 
  private:

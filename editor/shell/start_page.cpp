@@ -73,12 +73,12 @@ void startButton(Editor& editor, const char* command, const char* icon, const ch
 void drawBegin(Editor& editor) {
   ui::heading(editor, "Start");
   ui::gap(editor, 4);
-  startButton(editor, "import", ICON_IMPORT, "Import model…", true);
+  startButton(editor, "import", ICON_IMPORT, "Import model or point cloud…", true);
   startButton(editor, "open", ICON_FOLDER_OPEN, "Open project…", false);
   startButton(editor, "first-steps", ICON_FLAG, "First steps (3 minutes)", false);
   startButton(editor, "workspace-instrument", ICON_TABLET, "Rehearse on a device", false);
   ui::gap(editor, 6);
-  ui::dimWrapped("Or drop a file here: IFC, glTF, OBJ, PLY, STL, or a project folder.");
+  ui::dimWrapped("Or drop a file here: IFC, glTF, OBJ, PLY, STL, a point cloud, or a project folder.");
 }
 
 void drawRecent(Editor& editor) {

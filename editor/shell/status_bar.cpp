@@ -10,6 +10,7 @@
 
 #include "editor/shell/actions.h"
 #include "editor/shell/editor.h"
+#include "editor/shell/inspect_tools.h"
 #include "editor/shell/shell.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/job_progress.h"
@@ -20,13 +21,21 @@ namespace standpoint {
 
 namespace {
 
+std::string placeText(const Eigen::Vector3d& place) {
+  return fmt::format("{:.3f}  {:.3f}  {:.3f} m", place.x(), place.y(), place.z());
+}
+
+// What a tool measures there, else the product under the pointer.
 std::string hoverText(const Editor& editor) {
-  const auto& hover = editor.view.hover;
+  const auto& view = editor.view;
+  if (measures(editor) && view.measured_at && !view.measured_cloud.empty())
+    return trf("Point of {}   {}", view.measured_cloud, placeText(*view.measured_at + editor.shift_m()));
+  const auto& hover = view.hover;
+  if (measures(editor) && (editor.cloud() || !view.measured_at)) return {};  // the model is not what is measured
   if (!hover || !editor.environment() || hover->product >= editor.environment()->products.size()) return {};
   const auto& product = editor.environment()->products[hover->product];
-  const Eigen::Vector3d p = hover->position + editor.shift_m();
-  return fmt::format("{}   {}   {:.3f}  {:.3f}  {:.3f} m", tr(readableClass(product.ifc_class)), productLabel(product),
-                     p.x(), p.y(), p.z());
+  return fmt::format("{}   {}   {}", tr(readableClass(product.ifc_class)), productLabel(product),
+                     placeText(hover->position + editor.shift_m()));
 }
 
 // A task, else the scan or the underlay that is being read to be shown.
@@ -98,6 +107,11 @@ void drawStatusBar(Editor& editor) {
     ImGui::TextColored(colour(tone::kWarning), "%s  %s", ICON_INFO, editor.notice.text.c_str());
   } else if (!hover.empty()) {
     ImGui::TextUnformatted(hover.c_str());
+  } else if (const auto& clouds = editor.session.document().underlays;
+             editor.environment() && !clouds.empty() && !editor.session.document().hasModel()) {
+    std::uint64_t points = 0;
+    for (const auto& underlay : clouds) points += underlay->points;
+    ui::dimText(trf("{} points", groupedDigits(points)));
   } else if (const auto& environment = editor.environment()) {
     std::string text = trf("{} products   {} triangles", groupedDigits(environment->products.size()),
                            groupedDigits(editor.triangles()));

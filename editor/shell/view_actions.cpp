@@ -98,13 +98,15 @@ void chooseTheme(Editor& e) {
 }
 
 const std::array kView = {
-    Action{"frame", "Frame selection", ICON_EXPAND, {'F'}, [](Editor& e) { e.frameSelection(); }, whyNoModel},
-    Action{"frame-all", "Frame whole model", "", {kKeyHome}, frameAll, whyNoModel},
-    Action{"view-front", "Front view", "", {'1'}, [](Editor& e) { lookFrom(e, StandardView::front); }, whyNoModel},
-    Action{"view-back", "Back view", "", {'1', true}, [](Editor& e) { lookFrom(e, StandardView::back); }, whyNoModel},
-    Action{"view-right", "Right view", "", {'3'}, [](Editor& e) { lookFrom(e, StandardView::right); }, whyNoModel},
-    Action{"view-left", "Left view", "", {'3', true}, [](Editor& e) { lookFrom(e, StandardView::left); }, whyNoModel},
-    Action{"view-top", "Top view", "", {'7'}, [](Editor& e) { lookFrom(e, StandardView::top); }, whyNoModel},
+    Action{"frame", "Frame selection", ICON_EXPAND, {'F'}, [](Editor& e) { e.frameSelection(); }, whyNothingOpen},
+    Action{"frame-all", "Frame whole model", "", {kKeyHome}, frameAll, whyNothingOpen},
+    Action{"view-front", "Front view", "", {'1'}, [](Editor& e) { lookFrom(e, StandardView::front); }, whyNothingOpen},
+    Action{
+        "view-back", "Back view", "", {'1', true}, [](Editor& e) { lookFrom(e, StandardView::back); }, whyNothingOpen},
+    Action{"view-right", "Right view", "", {'3'}, [](Editor& e) { lookFrom(e, StandardView::right); }, whyNothingOpen},
+    Action{
+        "view-left", "Left view", "", {'3', true}, [](Editor& e) { lookFrom(e, StandardView::left); }, whyNothingOpen},
+    Action{"view-top", "Top view", "", {'7'}, [](Editor& e) { lookFrom(e, StandardView::top); }, whyNothingOpen},
     Action{"view-plan",
            "Floor plan (again: next storey)",
            ICON_MAP,
@@ -116,7 +118,7 @@ const std::array kView = {
            ICON_HOME,
            {'0'},
            [](Editor& e) { lookFrom(e, StandardView::corner); },
-           whyNoModel},
+           whyNothingOpen},
     Action{"view-parallel",
            "Parallel projection",
            "",
@@ -147,7 +149,7 @@ const std::array kView = {
              e.visibility.showAll();
              e.visibility.cut_height_m.reset();
            },
-           whyNoModel},
+           whyNothingOpen},
     Action{"exclude",
            "Exclude from the scene",
            ICON_BAN,
@@ -215,7 +217,7 @@ const std::array kView = {
            ICON_PLANE,
            {'U'},
            [](Editor& e) { e.view.tool == Tool::fly ? startWalking(e) : startFlying(e); },
-           whyNoModel},
+           whyNothingOpen},
     Action{"door",
            "Open or close the door ahead (E)",
            "",
@@ -241,7 +243,7 @@ const std::array kView = {
            ICON_BOOKMARK,
            {'B', true},
            [](Editor& e) { addBookmark(e); },
-           [](const Editor& e) { return e.environment() ? e.session.whyNot("bookmark") : whyNoModel(e); }},
+           [](const Editor& e) { return e.environment() ? e.session.whyNot("bookmark") : whyNothingOpen(e); }},
     Action{"shapes",
            "Collision shapes",
            ICON_CUBES,

@@ -54,8 +54,9 @@ void startDrag(Editor& editor, ImVec2 origin) {
   std::optional<Eigen::Vector3d> under;
   if (view.hover)
     under = view.hover->position;
-  else if (editor.cloud())
-    under = editor.measurableAt(rayThrough(view.camera, pointer(origin), view.size), kReach_px);
+  else if (editor.cloud() || !editor.session.document().hasModel())
+    if (const auto place = editor.measurableAt(rayThrough(view.camera, pointer(origin), view.size), kReach_px))
+      under = place->position;
   view.pivot = under.value_or(view.camera.target);
   view.pivot_depth_m = std::max(0.1, (view.pivot - view.camera.eye()).dot(view.camera.forward()));
 }

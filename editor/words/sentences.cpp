@@ -13,7 +13,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr std::array<std::string_view, 91> kSentences = {
+constexpr std::array<std::string_view, 95> kSentences = {
     // what verbs have done
     "Accepted {}",
     "Added material {}",
@@ -38,8 +38,12 @@ constexpr std::array<std::string_view, 91> kSentences = {
     "Exported {}",
     "Hid underlay {}",
     "Imported {}: {} products, {} triangles",
+    "Imported {}: {} points",
+    "Imported {}: {} points of {} clouds",
     "Keep unchanged: {}",
     "Keep unchanged: {} products",
+    "Located {}",
+    "Located {} files",
     "Moved station {} by {} m",
     "Moved target {} by {} m",
     "Moved underlay {} by {} m",
