@@ -206,7 +206,8 @@ const Fields<ScanVerbOptions>& scanFields() {
        {.minimum = 0, .maximum = 1}},
       {"field-fault", &O::field_fault,
        "faults in the field, at a fraction of the columns or of the turn: until=FRACTION ends the scan, "
-       "tripod_moved=FRACTION, passer_by=FRACTION, operator_in_view=FRACTION; noise=FACTOR of the range noise"},
+       "tripod_moved=FRACTION, passer_by=FRACTION, operator_in_view=FRACTION with operator_distance=METRES, "
+       "operator_from=FRACTION, operator_until=FRACTION; noise=FACTOR of the range noise"},
       {"note", &O::notes, "key=text for the file's record of each scan, such as operator=NAME"},
       {"panorama", &O::panorama, "take a panorama at each station and colour the points from it"},
       {"panorama-size",

@@ -14,7 +14,7 @@ namespace standpoint {
 namespace {
 
 constexpr double kTripodMove_m = 0.004, kTripodMove_rad = 0.05 * kRadPerDeg;
-constexpr double kPasserBy_m = 2, kOperator_m = 0.9;
+constexpr double kPasserBy_m = 2;
 
 // Passes points on, with their truth moved by `to_from`.
 class TruthMoved final : public PointSink {
@@ -44,13 +44,25 @@ class TruthMoved final : public PointSink {
 // Puts a person in front of what lies behind, over the directions that a body covers.
 class Person final : public PointSink {
  public:
-  Person(PointSink& sink, double away_m, double azimuth_rad)  // azimuths go clockwise
-      : sink_(sink), away_m_(away_m), towards_(std::cos(azimuth_rad), -std::sin(azimuth_rad)) {}
+  struct Place {
+    double away_m = 0, azimuth_rad = 0;                         // azimuths go clockwise
+    std::uint32_t from_column = 0, until_column = 0xFFFFFFFFU;  // while the laser measures these
+  };
+  struct Label {
+    std::uint32_t product = 0, material = 0;
+  };
+  Person(PointSink& sink, const Place& place, const Label& label)
+      : sink_(sink),
+        away_m_(place.away_m),
+        towards_(std::cos(place.azimuth_rad), -std::sin(place.azimuth_rad)),
+        place_(place),
+        label_(label) {}
   Result<void> begin(const ScanHeader& header) override { return sink_.begin(header); }
   Result<void> write(const PointBlock& block) override {
     PointBlock crossed = block;
     auto& t = crossed.truth;
     for (std::size_t i = 0; i < crossed.size(); ++i) {
+      if (crossed.column[i] < place_.from_column || crossed.column[i] >= place_.until_column) continue;
       const Eigen::Vector2d flat(crossed.x_m[i], crossed.y_m[i]);
       const double away = flat.norm();
       if (away <= away_m_) continue;
@@ -61,6 +73,7 @@ class Person final : public PointSink {
       const double z = crossed.z_m[i] * scale;
       if (z < -kEyeHeight_m || z > kTall_m - kEyeHeight_m) continue;
       for (auto* axis : {&crossed.x_m, &crossed.y_m, &crossed.z_m}) (*axis)[i] = static_cast<float>((*axis)[i] * scale);
+      if (!crossed.product.empty()) crossed.product[i] = label_.product, crossed.material[i] = label_.material;
       if (t.flags.empty()) continue;
       t.x_m[i] = crossed.x_m[i], t.y_m[i] = crossed.y_m[i], t.z_m[i] = crossed.z_m[i];
       t.range_m[i] = static_cast<float>(t.range_m[i] * scale);
@@ -76,6 +89,8 @@ class Person final : public PointSink {
   PointSink& sink_;
   double away_m_;
   Eigen::Vector2d towards_;
+  Place place_;
+  Label label_;
 };
 
 std::uint32_t columnAt(double fraction, std::uint32_t columns) {
@@ -104,13 +119,22 @@ Result<FieldFault> fieldFaultFrom(const std::vector<std::string>& pairs) {
       field_fault.passer_by_at_fraction = value;
     else if (key == "operator_in_view" && fraction)
       field_fault.operator_at_fraction = value;
+    else if (key == "operator_from" && fraction)
+      field_fault.operator_from_fraction = value;
+    else if (key == "operator_until" && fraction)
+      field_fault.operator_until_fraction = value;
+    else if (key == "operator_distance" && number && value >= FieldFault::kNearest_m &&
+             value <= FieldFault::kFarthest_m)
+      field_fault.operator_m = value;
     else if (key == "noise" && number && value >= 1 && value <= 100)
       field_fault.noise_factor = value;
     else
       return failure(ErrorKind::usage,
                      fmt::format("invalid field fault '{}': use until=FRACTION, tripod_moved=FRACTION, "
-                                 "passer_by=FRACTION, operator_in_view=FRACTION (0 to 1) or noise=FACTOR (1 to 100)",
-                                 pair));
+                                 "passer_by=FRACTION, operator_in_view=FRACTION, operator_from=FRACTION, "
+                                 "operator_until=FRACTION (0 to 1), operator_distance=METRES ({:g} to {:g}) or "
+                                 "noise=FACTOR (1 to 100)",
+                                 pair, FieldFault::kNearest_m, FieldFault::kFarthest_m));
   }
   return field_fault;
 }
@@ -122,9 +146,15 @@ std::vector<std::string> pairsOf(const FieldFault& fault) {
   if (fault.noise_factor != 1) say("noise", fault.noise_factor);
   if (fault.tripod_moved_at_fraction) say("tripod_moved", *fault.tripod_moved_at_fraction);
   if (fault.passer_by_at_fraction) say("passer_by", *fault.passer_by_at_fraction);
-  if (fault.operator_at_fraction) say("operator_in_view", *fault.operator_at_fraction);
+  if (!fault.operator_at_fraction) return pairs;
+  say("operator_in_view", *fault.operator_at_fraction);
+  if (fault.operator_m != FieldFault::kOperator_m) say("operator_distance", fault.operator_m);
+  if (fault.operator_from_fraction > 0) say("operator_from", fault.operator_from_fraction);
+  if (fault.operator_until_fraction < 1) say("operator_until", fault.operator_until_fraction);
   return pairs;
 }
+
+LabelledProduct personLabel() { return {"", "", "Person", "a person in the field"}; }
 
 Pose tripodMoved(const Pose& pose) {
   Pose moved = pose;
@@ -140,10 +170,15 @@ Result<ScanCount> scanWithFieldFault(const RayScene& scene, const MaterialAssign
   const auto azimuth = [&](double fraction) {
     return std::lerp(settings.azimuth_from_rad, settings.azimuth_to_rad, fraction);
   };
+  const Person::Label person{static_cast<std::uint32_t>(scene.environment().products.size() + 1),
+                             static_cast<std::uint32_t>(assignment.materials.size())};
   if (field_fault.operator_at_fraction) {
     FieldFault others = field_fault;
     others.operator_at_fraction.reset();
-    Person beside(sink, kOperator_m, azimuth(*field_fault.operator_at_fraction));
+    const Person::Place place{field_fault.operator_m, azimuth(*field_fault.operator_at_fraction),
+                              columnAt(field_fault.operator_from_fraction, settings.columns),
+                              columnAt(field_fault.operator_until_fraction, settings.columns)};
+    Person beside(sink, place, person);
     return scanWithFieldFault(scene, assignment, instrument, settings, pose, options, others, beside, progress);
   }
   if (field_fault.passer_by_at_fraction) {
@@ -151,7 +186,7 @@ Result<ScanCount> scanWithFieldFault(const RayScene& scene, const MaterialAssign
     others.passer_by_at_fraction.reset();
     if (settings.passes > 1)
       return scanWithFieldFault(scene, assignment, instrument, settings, pose, options, others, sink, progress);
-    Person passer_by(sink, kPasserBy_m, azimuth(*field_fault.passer_by_at_fraction));
+    Person passer_by(sink, {kPasserBy_m, azimuth(*field_fault.passer_by_at_fraction)}, person);
     return scanWithFieldFault(scene, assignment, instrument, settings, pose, options, others, passer_by, progress);
   }
   if (!field_fault.any()) return scan(scene, assignment, instrument, settings, standing(pose), options, sink, progress);

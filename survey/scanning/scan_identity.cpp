@@ -98,6 +98,10 @@ std::string guidOf(std::uint64_t world_fingerprint, const Station& station, cons
     a = mix(a, fmt::format("{} {} {} {} {} {}", kFieldFault, m.until_fraction, m.noise_factor,
                            m.tripod_moved_at_fraction.value_or(-1), m.passer_by_at_fraction.value_or(-1),
                            m.operator_at_fraction.value_or(-1)));
+  if (const auto& m = request.field_fault;
+      m.operator_at_fraction &&
+      (m.operator_m != FieldFault::kOperator_m || m.operator_from_fraction > 0 || m.operator_until_fraction < 1))
+    a = mix(a, fmt::format("operator {} {} {}", m.operator_m, m.operator_from_fraction, m.operator_until_fraction));
   for (const auto& note : request.notes) a = mix(a, note);
   std::uint64_t b = mix(mix(a, world_fingerprint), station.true_pose);
   b = mix(b, believed);

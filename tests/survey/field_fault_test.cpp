@@ -19,7 +19,9 @@ struct Points final : PointSink {
   PointBlock all;
   std::string guid;
   std::string description;
+  std::vector<LabelledProduct> products;
   Result<void> begin(const ScanHeader& header) override {
+    products = header.products;
     guid = header.guid;
     description = header.description;
     return {};
@@ -28,6 +30,7 @@ struct Points final : PointSink {
     const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
     append(all.x_m, block.x_m), append(all.y_m, block.y_m), append(all.z_m, block.z_m);
     append(all.row, block.row), append(all.column, block.column), append(all.truth.flags, block.truth.flags);
+    append(all.product, block.product);
     return {};
   }
   Result<void> end() override { return {}; }
@@ -86,6 +89,28 @@ TEST_F(AWalkerInTheScan, StandsTwoMetresAwayWhereTheLaserLooksAtThatShareOfTheTu
             0);
 }
 
+TEST_F(AWalkerInTheScan, IsLabelledAsAPersonAndNothingElseIs) {
+  const auto walked = scanned({{"field-fault", {"passer_by=0.5"}}}), empty = scanned({});
+  EXPECT_EQ(walked.products.back().ifc_class, "Person");
+  EXPECT_NE(empty.products.back().ifc_class, "Person") << "a scan without one is as it was";
+  for (std::size_t i = 0; i < walked.all.size(); ++i)
+    ASSERT_EQ(walked.products[walked.all.product[i]].ifc_class == "Person",
+              (walked.all.truth.flags[i] & point_flag::kMoving) != 0);
+}
+
+TEST_F(AWalkerInTheScan, StandsAsFarAwayAndAsLongAsIsSaid) {
+  const auto stood = scanned({{"field-fault", {"operator_in_view=0.5", "operator_distance=1.5", "operator_from=0.5"}}});
+  const auto columns = *std::max_element(stood.all.column.begin(), stood.all.column.end()) + 1;
+  std::size_t moving = 0;
+  for (std::size_t i = 0; i < stood.all.size(); ++i) {
+    if ((stood.all.truth.flags[i] & point_flag::kMoving) == 0) continue;
+    ++moving;
+    EXPECT_NEAR(std::hypot(stood.all.x_m[i] + 1.5, stood.all.y_m[i]), 0.25, 0.02);
+    EXPECT_GE(stood.all.column[i] + 1, columns / 2) << "came when the laser was half round";
+  }
+  EXPECT_GT(moving, 500U);
+}
+
 TEST_F(AWalkerInTheScan, IsNotSeenWhereAWallIsNearer) {
   document_ = run("station", twoStoreyDocument(), {{"add", "S1"}, {"at", {500001.0, 5600002, 1.6}}})
                   ->document;  // the wall is 1 m away
@@ -132,8 +157,9 @@ TEST_F(AWalkerInTheScan, NotesGoIntoTheFilesRecord) {
 }
 
 TEST(FieldFault, IsReadAndWhatItIsNotIsRefused) {
-  const auto read = FieldValue<FieldFault>::read(
-      {"passer_by=0.25", "operator_in_view=0.75", "until=0.5", "tripod_moved=0", "noise=2"});
+  const auto read =
+      FieldValue<FieldFault>::read({"passer_by=0.25", "operator_in_view=0.75", "until=0.5", "tripod_moved=0", "noise=2",
+                                    "operator_distance=2.5", "operator_until=0.25"});
   ASSERT_TRUE(read);
   EXPECT_EQ(read->passer_by_at_fraction, 0.25);
   EXPECT_EQ(read->operator_at_fraction, 0.75);
