@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,8 @@ struct ScanHeader {
   std::string sensor_vendor, sensor_model, sensor_serial;
   std::string description;
   Pose file_from_scanner;  // with the global shift already added: the frame that the user's file had
+  // Where it truly stood, in the same frame: with the truth of a scan whose crew believed that it stands elsewhere.
+  std::optional<Pose> true_file_from_scanner;
   std::uint32_t rows = 0, columns = 0;
   double intensity_min = 0, intensity_max = 1;  // the sensor's possible range
   bool has_colour = false;
@@ -74,6 +77,11 @@ struct ScanHeader {
   bool has_returns = false;
   bool has_truth = false;
 };
+
+// What takes a point's true place into the file's frame.
+inline const Pose& truePose(const ScanHeader& header) {
+  return header.true_file_from_scanner ? *header.true_file_from_scanner : header.file_from_scanner;
+}
 
 // A picture that the station took.
 struct StationPicture {

@@ -22,7 +22,7 @@ Result<Document> openDocument(const std::filesystem::path& path);
 // `otherwise`.
 double real(const Element* element, double otherwise);
 // The pose that a scan or a picture has; what is missing or senseless of it is mended with a warning.
-Pose readPose(const Element& holder, const std::string& source, Report& report);
+Pose readPose(const Element& holder, const std::string& source, Report& report, std::string_view name = "pose");
 std::string text(const Element& parent, std::string_view name);
 
 }  // namespace standpoint::e57

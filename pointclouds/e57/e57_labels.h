@@ -17,12 +17,15 @@ namespace standpoint::e57 {
 // that XML cannot carry as \xNN. As Python: products = [line.split("\t") for line in text.split("\n")[:-1]].
 // What else is known of a point because it was simulated (core/points.h, PointTruth) stands in the fields of
 // kTruthFields, all of them or none: single floats in the scanner's frame, metres, radians and decibels, and an integer
-// of flags.
+// of flags. `gt:truePose` of a data3D, a pose as E2807 has it, is where a scanner truly stood whose crew believed that
+// it stands elsewhere: at the standard's `pose`.
 inline constexpr const char* kLabelNamespace = "urn:standpoint:e57:ground-truth:1";
 inline constexpr const char* kLabelPrefix = "gt";
 
 inline constexpr std::array<const char*, 7> kTruthFields = {"trueX",     "trueY",         "trueZ", "trueRange",
                                                             "incidence", "receivedPower", "flags"};
+
+inline constexpr const char* kTruePose = "truePose";
 
 std::string productsText(const std::vector<LabelledProduct>& products);
 std::string materialsText(const std::vector<std::string>& materials);

@@ -17,8 +17,8 @@ const Element* childOf(const Element* parent, std::string_view name) { return pa
 
 }  // namespace
 
-Pose readPose(const Element& holder, const std::string& source, Report& report) {
-  const Element* const pose = holder.child("pose");
+Pose readPose(const Element& holder, const std::string& source, Report& report, std::string_view name) {
+  const Element* const pose = holder.child(name);
   const Element* const q = childOf(pose, "rotation");
   const Element* const t = childOf(pose, "translation");
   if (pose && (!q || !t)) report.warn(source, "incomplete pose: the missing part is set to identity");
@@ -187,6 +187,8 @@ ScanPlan planScan(const Element& root, const Element& scan, const std::vector<St
   readLimits(scan, fields, plan);
   readGrid(scan, fields, plan, report);
   readChannels(root, fields, plan, report);
+  if (const auto name = plan.prefix + kTruePose; header.has_truth && scan.child(name) != nullptr)
+    header.true_file_from_scanner = readPose(scan, plan.source, report, name);
   readLabels(root, scan, fields, plan, report);
   listUnread(fields, plan, report);
   return plan;

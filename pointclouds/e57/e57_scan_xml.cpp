@@ -76,13 +76,13 @@ void appendSensor(XmlWriter& xml, const ScanHeader& header) {
 
 }  // namespace
 
-void appendPose(XmlWriter& xml, const Pose& pose) {
+void appendPose(XmlWriter& xml, const Pose& pose, std::string_view name) {
   // E2807 8.4.9: |q| within 10 * 2^-53 of 1 and w not negative; long double keeps the norm's rounding out of it.
   using Quaternion = Eigen::Quaternion<long double>;
   Quaternion q = pose.rotation.cast<long double>();
   if (std::abs(q.norm() - 1) > 0x5p-53L) q.normalize();  // else as it is: a pose comes back to the last bit
   if (q.w() < 0) q.coeffs() = -q.coeffs();
-  xml.open("pose", kStructure);
+  xml.open(name, kStructure);
   xml.open("rotation", kStructure);
   xml.real("w", static_cast<double>(q.w()));
   xml.real("x", static_cast<double>(q.x()));
@@ -94,7 +94,7 @@ void appendPose(XmlWriter& xml, const Pose& pose) {
   xml.real("y", pose.translation.y());
   xml.real("z", pose.translation.z());
   xml.close("translation");
-  xml.close("pose");
+  xml.close(name);
 }
 
 Field floatField(std::string name) { return {std::move(name), "type=\"Float\" precision=\"single\"", 32}; }
@@ -117,6 +117,8 @@ void appendScan(XmlWriter& xml, const WrittenScan& scan) {
   xml.string("name", scan.header.name);
   appendSensor(xml, scan.header);
   appendPose(xml, scan.header.file_from_scanner);
+  if (scan.header.has_truth && scan.header.true_file_from_scanner)
+    appendPose(xml, *scan.header.true_file_from_scanner, std::string(kLabelPrefix) + ":" + kTruePose);
   appendBounds(xml, scan);
   appendLimits(xml, scan.header);
   if (scan.label_table)

@@ -45,7 +45,7 @@ struct WrittenScan {
 };
 
 void appendScan(XmlWriter& xml, const WrittenScan& scan);
-void appendPose(XmlWriter& xml, const Pose& pose);
+void appendPose(XmlWriter& xml, const Pose& pose, std::string_view name = "pose");
 void appendTime(XmlWriter& xml, std::string_view name, double gps_s);
 
 }  // namespace standpoint::e57

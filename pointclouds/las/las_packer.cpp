@@ -63,7 +63,7 @@ void RecordPacker::putReturn(const PointBlock& b, std::size_t i, std::uint8_t* r
 void RecordPacker::putTruth(const PointBlock& b, std::size_t i, std::uint8_t* record) {
   const ExtraPlaces& at = layout_.extras;
   const PointTruth& t = b.truth;
-  const Eigen::Vector3d p = header_.file_from_scanner * Eigen::Vector3d(t.x_m[i], t.y_m[i], t.z_m[i]);
+  const Eigen::Vector3d p = truePose(header_) * Eigen::Vector3d(t.x_m[i], t.y_m[i], t.z_m[i]);
   for (std::size_t k = 0; k < 3; ++k) {
     const std::int32_t value = step(p[static_cast<int>(k)], k);
     beyond_truth += std::abs(static_cast<double>(value)) >= 2147483647.0;

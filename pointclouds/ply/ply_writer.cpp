@@ -82,7 +82,7 @@ void Writer::putPoint(const PointBlock& b, std::size_t i) {
   if (header_->has_returns) append(bytes_, b.return_number[i]), append(bytes_, b.return_count[i]);
   if (!header_->has_truth) return;
   const PointTruth& t = b.truth;
-  const Eigen::Vector3d true_place = header_->file_from_scanner * Eigen::Vector3d(t.x_m[i], t.y_m[i], t.z_m[i]);
+  const Eigen::Vector3d true_place = truePose(*header_) * Eigen::Vector3d(t.x_m[i], t.y_m[i], t.z_m[i]);
   for (int axis = 0; axis < 3; ++axis) append(bytes_, true_place[axis]);
   append(bytes_, t.range_m[i]), append(bytes_, t.incidence_rad[i]), append(bytes_, t.received_db[i]),
       append(bytes_, t.flags[i]);

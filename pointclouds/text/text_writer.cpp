@@ -102,7 +102,7 @@ void Writer::appendColumns(const PointBlock& b, std::size_t i) {
   if (h.has_returns) next(unsigned{b.return_number[i]}), next(unsigned{b.return_count[i]});
   if (!h.has_truth) return;
   const PointTruth& t = b.truth;
-  const Eigen::Vector3d p = h.file_from_scanner * Eigen::Vector3d(t.x_m[i], t.y_m[i], t.z_m[i]);
+  const Eigen::Vector3d p = truePose(h) * Eigen::Vector3d(t.x_m[i], t.y_m[i], t.z_m[i]);
   for (int axis = 0; axis < 3; ++axis) text_ += ',', appendFixed(text_, p[axis], kPlaceDecimals);
   next(t.range_m[i]), next(t.incidence_rad[i]), next(t.received_db[i]), next(unsigned{t.flags[i]});
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/points.h"
@@ -29,10 +30,12 @@ Result<std::shared_ptr<const ScanPreparation>> prepareScan(const Document& docum
                                                            std::shared_ptr<const RayScene> of_model,
                                                            Progress& progress);
 
-// Whom a scan is made for: what was prepared for it, and who watches its points beside the file. Both may be null.
+// Whom a scan is made for: what was prepared for it, who watches its points beside the file, and where its crew
+// believes that it stands. Each may be missing.
 struct ScanSurroundings {
   std::shared_ptr<const ScanPreparation> preparation;
   std::shared_ptr<PointSink> watcher;
+  std::optional<Pose> believed;  // of every station, local frame: else where it stands, as levelled by the compensator
 };
 
 // The verb `scan` with company.

@@ -65,6 +65,7 @@ ScanHeader headerOf(const Document& document, const ScanWorld& world, const Stat
     if (const auto crs = findCrs(g.crs)) h.coordinate_metadata = crs->wkt;
   for (const auto& p : world.environment->products) h.products.push_back({p.id, p.global_id, p.ifc_class, p.name});
   h.products.push_back({"", "", "Nothing", "no surface"});  // the label of a drop, or of the receiver's own noise
+  if (request.field_fault.anybody()) h.products.push_back(personLabel());
   for (const auto& m : world.assignment.materials) h.materials.push_back(m.id);
   h.materials.emplace_back("unassigned");  // the label of a point whose surface has no material
   return h;
@@ -164,6 +165,7 @@ class ScanRun {
         scene_(*company.preparation->scene),
         watcher_(company.watcher.get()),
         believed_(std::move(believed)),
+        company_believes_(company.believed.has_value()),
         fingerprint_(company.preparation->fingerprint),
         parts_(request.output),
         job_(*document.job) {}
@@ -240,7 +242,13 @@ class ScanRun {
   ScanHeader header(std::size_t k, const std::string& guid) const {
     const double start = kFirstStart_gps_s + static_cast<double>(request_.stations[k]) *
                                                  (request_.settings.scan_seconds + request_.settings.imaging_seconds);
-    return headerOf(document_, world_, job_.stations[request_.stations[k]], believed_[k], guid, request_, start);
+    const auto& station = job_.stations[request_.stations[k]];
+    auto made = headerOf(document_, world_, station, believed_[k], guid, request_, start);
+    if (company_believes_ && made.has_truth) {
+      made.true_file_from_scanner = station.true_pose;
+      made.true_file_from_scanner->translation += document_.georeference->shift_m;
+    }
+    return made;
   }
 
   // Of a station that was finished before.
@@ -306,6 +314,7 @@ class ScanRun {
   const RayScene& scene_;
   PointSink* watcher_;
   std::vector<Pose> believed_;
+  bool company_believes_ = false;
   std::uint64_t fingerprint_ = 0;
   ScanParts parts_;
   Job job_;
@@ -361,7 +370,7 @@ Result<Answered<ScanAnswer>> runScan(const Document& document, const ScanVerbOpt
   for (const auto index : request.stations) {
     TRY_ASSIGN(auto pose,
                believedPose(document.job->stations[index], request.instrument, request.levelling, outcome.report));
-    believed.push_back(pose);
+    believed.push_back(company.believed.value_or(pose));
   }
   noteDefaultRules(document, outcome.report);
   ScanSurroundings at_hand = company;

@@ -11,6 +11,7 @@
 #include "project/survey/station_row.h"
 #include "project/survey/survey_verbs.h"
 #include "survey/instruments.h"
+#include "survey/scene/bodies.h"
 #include "survey/stations/levelling.h"
 #include "survey/stations/placement.h"
 #include "survey/stations/station_places.h"
@@ -111,12 +112,22 @@ Result<Eigen::Vector3d> centreFrom(const RayScene& scene, const Georeference& g,
   const double x = on.x_m - g.shift_m.x();
   const double y = on.y_m - g.shift_m.y();
   const auto floors = floorsAt(scene, x, y, height);
+  const auto z = on.z_m ? std::optional(*on.z_m - g.shift_m.z()) : std::nullopt;
+  auto chosen =
+      floors.empty() ? Result<double>(failure(ErrorKind::unusable, "")) : chosenFloor(floors, on.z_m, g.shift_m.z());
+  if (!chosen)
+    if (const auto blocked = blockedFloorAt(scene, x, y, height, z))
+      return failure(ErrorKind::unusable,
+                     fmt::format("no room for the tripod at ({}, {}): {} is in the way, {:.2f} m above the floor at "
+                                 "{:.2f}; {:.2f} m are needed; choose another place",
+                                 on.x_m, on.y_m, productText(scene.environment().products[blocked->product]),
+                                 blocked->free_m, blocked->floor_m + g.shift_m.z(), height + kRoomAbove_m));
   if (floors.empty())
     return failure(ErrorKind::unusable,
                    fmt::format("no floor at ({}, {}) with {:.2f} m of free height for the tripod; choose another "
                                "place, or specify the instrument centre with --at X,Y,Z",
                                on.x_m, on.y_m, height + kRoomAbove_m));
-  TRY_ASSIGN(const auto floor, chosenFloor(floors, on.z_m, g.shift_m.z()));
+  TRY_ASSIGN(const auto floor, chosen);
   return Eigen::Vector3d(x, y, floor + height);
 }
 
