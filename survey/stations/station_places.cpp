@@ -27,6 +27,7 @@ void addPlacesAround(const Bounds& b, int count, std::vector<Eigen::Vector3d>& p
   }
 }
 
+constexpr double kFloorSearch_m = 0.5;            // how far a stated height of a floor may be off
 constexpr double kNoFloor_rad = 60 * kRadPerDeg;  // a wall; whether it is too steep a floor, StationPlacement says
 
 std::vector<double> heightsBelow(const RayScene& scene, double x, double y) {
@@ -84,20 +85,31 @@ std::vector<double> floorsAt(const RayScene& scene, double x_m, double y_m, doub
   return floors;
 }
 
+std::optional<BlockedFloor> blockedFloorAt(const RayScene& scene, double x_m, double y_m, double instrument_height_m,
+                                           std::optional<double> z_m) {
+  const auto heights = heightsBelow(scene, x_m, y_m);  // falling
+  for (auto h = heights.rbegin(); h != heights.rend(); ++h) {
+    if (z_m && std::abs(*z_m - *h) > kFloorSearch_m) continue;
+    if (const auto above =
+            scene.intersect({x_m, y_m, *h + 1e-3}, Eigen::Vector3d::UnitZ(), instrument_height_m + kRoomAbove_m))
+      return BlockedFloor{*h, above->range_m, above->product};
+  }
+  return std::nullopt;
+}
+
 bool isRoomAbove(const RayScene& scene, const Eigen::Vector3d& floor, double instrument_height_m) {
   return !scene.intersect(floor + Eigen::Vector3d(0, 0, 1e-3), Eigen::Vector3d::UnitZ(),
                           instrument_height_m + kRoomAbove_m);
 }
 
 Result<double> chosenFloor(const std::vector<double>& floors, std::optional<double> z_file_m, double shift_z_m) {
-  constexpr double kSearch_m = 0.5;  // how far a stated height may be off
   if (!z_file_m) return floors.front();
   const double z = *z_file_m - shift_z_m;
   const double nearest = *std::min_element(floors.begin(), floors.end(),
                                            [z](double a, double b) { return std::abs(a - z) < std::abs(b - z); });
-  if (std::abs(nearest - z) <= kSearch_m) return nearest;
+  if (std::abs(nearest - z) <= kFloorSearch_m) return nearest;
   return failure(ErrorKind::unusable, fmt::format("no floor within {} m of height {}; the nearest floor is at {:.3f}",
-                                                  kSearch_m, *z_file_m, nearest + shift_z_m));
+                                                  kFloorSearch_m, *z_file_m, nearest + shift_z_m));
 }
 
 std::vector<std::vector<Eigen::Vector3d>> groundsToTry(const Job& job, const RayScene& scene,

@@ -19,6 +19,14 @@ constexpr double kRoomAbove_m = 0.3;  // of the tilting axis, for a height to co
 // Where a tripod of that height can stand at (x, y): upward faces below which the beam from above ends, with room for
 // the instrument; a suspended ceiling bears none. Heights of the floor in the local frame, ascending.
 std::vector<double> floorsAt(const RayScene& scene, double x_m, double y_m, double instrument_height_m);
+// The lowest floor there that something is above too low for the instrument, or the one within 0.5 m of a stated
+// height, and what that is; nothing: there is no such floor.
+struct BlockedFloor {
+  double floor_m = 0, free_m = 0;  // local frame; between floor and what is above it
+  std::uint32_t product = 0;
+};
+std::optional<BlockedFloor> blockedFloorAt(const RayScene& scene, double x_m, double y_m, double instrument_height_m,
+                                           std::optional<double> z_m);
 bool isRoomAbove(const RayScene& scene, const Eigen::Vector3d& floor, double instrument_height_m);
 // Of these floors the lowest, or the one at a stated height of the file's frame. Refused where it is farther than 0.5
 // m.

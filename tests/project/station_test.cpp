@@ -36,6 +36,10 @@ TEST(Station, IsRefusedWhereTheInstrumentDoesNotFit) {
   EXPECT_NE(in_table.error().message.find("table"), std::string::npos);
   EXPECT_FALSE(run("station", d, {{"add", "S1"}, {"on", {600000, 5600002}}})) << "no floor there";
   EXPECT_FALSE(run("station", d, {{"add", "S1"}, {"on", {500002, 5600002, 1.5}}})) << "no floor at that height";
+  const auto under_table = run("station", d, {{"add", "S1"}, {"on", {500004.05, 5600003, 0}}});
+  ASSERT_FALSE(under_table);
+  EXPECT_NE(under_table.error().message.find("table"), std::string::npos) << under_table.error().message;
+  EXPECT_NE(under_table.error().message.find("is in the way"), std::string::npos) << under_table.error().message;
   EXPECT_FALSE(run("station", d, {{"add", "S1"}, {"on", {500002, 5600002, 0}}, {"height", 2.9}})) << "no head-room";
   EXPECT_FALSE(run("station", d, {{"add", "a/b"}, {"on", {500002, 5600002}}})) << "its name becomes a file's";
 }
