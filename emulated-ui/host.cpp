@@ -18,6 +18,7 @@
 #include "pointclouds/filters/cleaning.h"
 #include "pointclouds/formats.h"
 #include "project/survey/register_verb.h"
+#include "project/survey/scan_preparation.h"
 #include "project/survey/survey_verbs.h"
 #include "project/verbs/file_verbs.h"
 #include "survey/stations/levelling.h"
@@ -114,13 +115,27 @@ Result<void> copyFiles(const TransferOrder& order, const fs::path& folder, Progr
   return {};
 }
 
-FieldFault faultsOf(const ScanOrder& order) {
+// Of the turn: where the operator stands; nothing where the scan does not look.
+std::optional<double> operatorAt(const ScanOrder& order, const Instrument& instrument) {
+  if (!order.operator_in_view) return std::nullopt;
+  const auto settings = resolveSettings(instrument, order.settings);
+  if (!order.operator_place.azimuth_deg || !settings) return 0.5;
+  const double from = settings->azimuth_from_rad / kRadPerDeg, to = settings->azimuth_to_rad / kRadPerDeg;
+  const double behind = *order.operator_place.azimuth_deg - from;
+  const double fraction = (behind - 360 * std::floor(behind / 360)) / (to - from);
+  return fraction <= 1 ? std::optional(fraction) : std::nullopt;
+}
+
+FieldFault faultsOf(const ScanOrder& order, const Instrument& instrument) {
   FieldFault fault;
   fault.until_fraction = order.until_fraction;
   fault.noise_factor = std::max(1.0, order.noise_factor);
   fault.tripod_moved_at_fraction = order.tripod_moved_at_fraction;
   fault.passer_by_at_fraction = order.passer_by_at_fraction;
-  if (order.operator_in_view) fault.operator_at_fraction = 0.5;
+  fault.operator_at_fraction = operatorAt(order, instrument);
+  fault.operator_m = order.operator_place.away_m;
+  fault.operator_from_fraction = order.operator_from_fraction;
+  fault.operator_until_fraction = order.operator_until_fraction;
   return fault;
 }
 
@@ -131,11 +146,11 @@ const Scan* lastScanOf(const Document& document, const std::string& station_name
 
 // Scans what was ordered. The device's own filters take their points out of the file before it is stored.
 Result<Scan> scanned(const Document& document, const ScanOrder& order, const ScanVerbOptions& wanted,
-                     Progress& progress) {
+                     const ScanSurroundings& company, Progress& progress) {
   ScanVerbOptions options = wanted;
   const fs::path& file = wanted.output;
   if (!order.filters.empty()) options.output = file.parent_path() / (file.stem().string() + ".raw.e57");
-  TRY_ASSIGN(const auto outcome, runScan(document, options, progress));
+  TRY_ASSIGN(const auto outcome, runScan(document, options, company, progress));
   const auto* last = lastScanOf(outcome.document, order.station);
   if (last == nullptr) return failure(ErrorKind::usage, "unknown station", order.station);
   Scan scan = *last;
@@ -219,17 +234,33 @@ void DeviceHost::startScan(const ScanOrder& order, const Document& document, con
   options.output = file_;
   options.panorama = order.panorama;
   options.compensator = order.compensator ? Switch::on : Switch::off;
-  options.field_fault = faultsOf(order);
+  options.field_fault = faultsOf(order, device_.type().instrument);
   options.truth = truth;
   options.notes = notes_;
+  Document leans = leaning(document, order.station);
+  ScanSurroundings company;
+  if (const auto* station = stationOf(leans, order.station); station != nullptr && order.orientation) {
+    auto pose = believedBy(*order.orientation, *station, order.compensator, document);
+    if (!pose) return device_.orderFailed(describe(pose.error()));
+    company.believed = *std::move(pose);
+  }
   startTask(fmt::format("{}: {} at {}", device_.type().definition.title, order.name, order.station),
-            [order, options, d = leaning(document, order.station)](Progress& p) -> Result<Delivery> {
-              auto scan = scanned(d, order, options, p);
+            [order, options, company, d = std::move(leans)](Progress& p) -> Result<Delivery> {
+              auto scan = scanned(d, order, options, company, p);
               if (!scan) return failure(scan.error());
               return [order, scan = *std::move(scan)](DeviceHost& host, const Document& now) {
                 host.takeScan(order, scan, now);
               };
             });
+}
+
+// Of a scan from there: by the station set-up, levelled as far as the compensator helped it and helps the scan.
+Result<Pose> DeviceHost::believedBy(const StationOrientation& orientation, const Station& station, bool compensator,
+                                    const Document& document) const {
+  TRY_ASSIGN(const auto level,
+             levelledFromScanner(station, device_.type().instrument, compensator && orientation.compensator, seed));
+  if (orientation.local) return Pose{level, -document.georeference->shift_m};  // its centre is the origin of the file
+  return Pose{orientation.pose.rotation * level, orientation.pose.translation};
 }
 
 // The station leans as the device does: what its hands and the ground made of it.
@@ -262,9 +293,9 @@ void DeviceHost::start(const Order& order, const Document& document, const fs::p
       options.start_offset = StartOffset{link->shift_x_m, link->shift_y_m, link->turn_deg};
     startTask("Link", [document, options](Progress& p) -> Result<Delivery> {
       TRY_ASSIGN(const auto outcome, runRegister(document, options, p));
-      return [link = linkFrom(outcome.answer, outcome.document)](DeviceHost& host, const Document&) {
-        host.device_.linkDone(link);
-      };
+      auto result = linkFrom(outcome.answer, outcome.document);
+      result.to = options.files.front().string();
+      return [link = std::move(result)](DeviceHost& host, const Document&) { host.device_.linkDone(link); };
     });
   } else if (const auto* targets = std::get_if<TargetOrder>(&order)) {
     startTask("Targets", [document, file = targets->file, s = seed](Progress& p) -> Result<Delivery> {
@@ -282,13 +313,15 @@ void DeviceHost::start(const Order& order, const Document& document, const fs::p
   } else if (const auto* sight = std::get_if<SightOrder>(&order)) {
     std::error_code ignored;
     fs::create_directories(scans_folder, ignored);
-    startTask(
-        "Target",
-        [document, order = *sight, file = scans_folder / "target.e57", s = seed](Progress& p) -> Result<Delivery> {
-          auto target = sightTarget(document, order, file, s, p);
-          if (!target) return failure(target.error());
-          return [target = *std::move(target)](DeviceHost& host, const Document&) { host.device_.sightDone(target); };
-        });
+    startTask("Target",
+              [document = leaning(document, sight->station), order = *sight, file = scans_folder / "target.e57",
+               s = seed](Progress& p) -> Result<Delivery> {
+                auto target = sightTarget(document, order, file, s, p);
+                if (!target) return failure(target.error());
+                return [target = *std::move(target)](DeviceHost& host, const Document&) {
+                  host.device_.sightDone(target);
+                };
+              });
   } else if (const auto* transfer = std::get_if<TransferOrder>(&order)) {
     startTask("Transfer",
               [order = *transfer, folder = scans_folder.parent_path() / kCopies](Progress& p) -> Result<Delivery> {
@@ -310,7 +343,11 @@ void DeviceHost::takeScan(const ScanOrder& order, const Scan& scan, const Docume
   s.bytes = static_cast<double>(s.points) * device_.type().definition.body.bytes_per_point;
   s.instrument_seconds = scan.instrument_seconds;
   s.notes = notes_;
-  if (const auto* station = stationOf(document, order.station)) putOnPlan(s, station->true_pose);
+  if (const auto* station = stationOf(document, order.station)) {
+    putOnPlan(s, station->true_pose);
+    if (order.orientation && !order.orientation->local) s.placed = errorOf(order.orientation->pose, station->true_pose);
+  }
+  s.operator_in_view = order.operator_in_view;
   station_ = order.station;
   finished_ = scan;
   device_.scanDone(std::move(s));
@@ -320,11 +357,12 @@ void DeviceHost::takeScan(const ScanOrder& order, const Scan& scan, const Docume
 Result<Outcome> DeviceHost::oriented(const Document& document, const StationOrientation& orientation) const {
   const auto* station = stationOf(document, orientation.station);
   if (station == nullptr) return failure(ErrorKind::usage, "unknown station", orientation.station);
-  TRY_ASSIGN(const auto level, levelledFromScanner(*station, device_.type().instrument, orientation.compensator, seed));
+  const Document leans = leaning(document, orientation.station);
+  TRY_ASSIGN(const auto pose,
+             believedBy(orientation, *stationOf(leans, orientation.station), orientation.compensator, document));
   Job job = *document.job;
   for (auto& s : job.stations)
-    if (s.name == orientation.station)
-      s.solved_pose = Pose{orientation.pose.rotation * level, orientation.pose.translation};
+    if (s.name == orientation.station) s.solved_pose = pose;
   Outcome outcome{document, json::object(), {}, {}, {}};
   outcome.document.job = std::make_shared<const Job>(std::move(job));
   outcome.description = fmt::format("Oriented {} with {}", orientation.station, device_.type().definition.title);
@@ -404,6 +442,8 @@ std::optional<Outcome> DeviceHost::goOn(const Document& document, const fs::path
   if (!clockStands()) device_.tick(seconds * time_factor);
   if (!may_store) return std::nullopt;
   if (const auto orientation = device_.takeOriented()) {
+    if (const auto* station = stationOf(document, orientation->station))
+      device_.orientationErred(errorOf(orientation->pose, station->true_pose));
     if (auto done = oriented(document, *orientation)) return *std::move(done);
     device_.note("failed", "orientation");
   }

@@ -61,6 +61,8 @@ class DeviceHost {
   void start(const Order& order, const Document& document, const std::filesystem::path& scans_folder);
   void startScan(const ScanOrder& order, const Document& document, const std::filesystem::path& scans_folder);
   Document leaning(Document document, const std::string& station) const;
+  Result<Pose> believedBy(const StationOrientation& orientation, const Station& station, bool compensator,
+                          const Document& document) const;
   void startTask(std::string title, Task<Delivery>::Work work);
   void collect(const Document& document);
   Result<Outcome> oriented(const Document& document, const StationOrientation& orientation) const;

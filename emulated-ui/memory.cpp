@@ -50,11 +50,12 @@ json toJson(const LinkResult& l) {
           {"overlap", l.overlap},
           {"true_error_m", l.true_error_m},
           {"true_error_deg", l.true_error_deg},
-          {"error", toJson(l.error)}};
+          {"error", toJson(l.error)},
+          {"to", l.to}};
 }
 LinkResult linkFrom(const json& j) {
-  return {j.at("joined"),       j.at("error_m"),        j.at("overlap"),
-          j.at("true_error_m"), j.at("true_error_deg"), poseFrom(j.at("error"))};
+  return {j.at("joined"),         j.at("error_m"),         j.at("overlap"),  j.at("true_error_m"),
+          j.at("true_error_deg"), poseFrom(j.at("error")), j.value("to", "")};
 }
 
 json toJson(const FittedTarget& t) {
@@ -77,6 +78,9 @@ FittedTarget targetFrom(const json& j) {
   return t;
 }
 
+json toJson(const PlaceError& e) { return {e.plan_m, e.height_m, e.turn_rad}; }
+PlaceError placeErrorFrom(const json& j) { return {j.at(0), j.at(1), j.at(2)}; }
+
 json toJson(const StoredSetup& s) {
   json j = {{"file", s.file},
             {"number", s.number},
@@ -91,6 +95,8 @@ json toJson(const StoredSetup& s) {
             {"notes", s.notes}};
   for (const auto& t : s.targets) j["targets"].push_back(toJson(t));
   if (s.link) j["link"] = toJson(*s.link);
+  if (s.operator_in_view) j["operator_in_view"] = true;
+  if (s.placed) j["placed"] = toJson(*s.placed);
   return j;
 }
 // The rest of it is what the project holds.
@@ -104,6 +110,8 @@ void recallSetup(const json& j, StoredSetup& s) {
   s.targets.clear();
   for (const auto& t : j.value("targets", json::array())) s.targets.push_back(targetFrom(t));
   if (j.contains("link")) s.link = linkFrom(j["link"]);
+  s.operator_in_view = j.value("operator_in_view", false);
+  if (j.contains("placed")) s.placed = placeErrorFrom(j["placed"]);
 }
 
 json toJson(const std::vector<ControlPlace>& places) {
@@ -134,6 +142,8 @@ json toJson(const StationOrientation& o) {
             {"rms_m", o.rms_m},       {"compensator", o.compensator}, {"local", o.local},
             {"accepted", o.accepted}, {"targets", json::array()}};
   for (const auto& t : o.targets) j["targets"].push_back({{"id", t.id}, {"residual_m", t.residual_m}});
+  if (o.carried_away) j["carried_away"] = true;
+  if (o.error) j["error"] = toJson(*o.error);
   return j;
 }
 StationOrientation orientationFrom(const json& j) {
@@ -141,6 +151,8 @@ StationOrientation orientationFrom(const json& j) {
   o.method = j.at("method"), o.station = j.at("station"), o.pose = poseFrom(j.at("pose")), o.rms_m = j.at("rms_m");
   o.compensator = j.at("compensator"), o.local = j.at("local"), o.accepted = j.at("accepted");
   for (const auto& t : j.at("targets")) o.targets.push_back({t.at("id"), t.at("residual_m")});
+  o.carried_away = j.value("carried_away", false);
+  if (j.contains("error")) o.error = placeErrorFrom(j["error"]);
   return o;
 }
 
@@ -227,6 +239,10 @@ void recallState(const json& m, const DeviceType& type, DeviceState& s) {
   s.around.station = station;
   for (const auto& t : m.at("sighted")) s.sighted.push_back(sightFrom(t));
   if (m.contains("orientation")) s.orientation = orientationFrom(m["orientation"]);
+  if (m.contains("accepted"))
+    s.accepted = orientationFrom(m["accepted"]);
+  else if (s.orientation && s.orientation->accepted)
+    s.accepted = s.orientation;  // of a version that kept one
 }
 
 }  // namespace
@@ -249,6 +265,7 @@ json deviceMemory(const Device& device, const fs::path& scans_folder) {
   for (const auto& p : s.projects) m["projects"].push_back(toJson(p));
   for (const auto& t : s.sighted) m["sighted"].push_back(toJson(t));
   if (s.orientation) m["orientation"] = toJson(*s.orientation);
+  if (s.accepted) m["accepted"] = toJson(*s.accepted);
   return json::parse(replaced(dumped(m), inJson(scans_folder), kScans));
 }
 

@@ -394,7 +394,7 @@ void Device::sightDone(const FittedTarget& target) {
     std::erase_if(all, [&](const SightedTarget& s) { return s.id == id; });
     const auto height = fact("entry.target_height");
     all.push_back({id, target.levelled_m, numberIn(height->text).value_or(0), target.residual_m, target.points, true});
-    state_.orientation.reset();
+    if (state_.orientation && !state_.orientation->accepted) state_.orientation.reset();  // a check changes nothing
   }
   fire(target.found ? Event::sighted : Event::not_sighted);
 }
@@ -409,8 +409,13 @@ void Device::acceptOrientation() {
       std::erase_if(open->carried, [&](const ControlPlace& c) { return c.name == s.id; });
       open->carried.push_back({s.id, o.pose * s.place_m - Eigen::Vector3d(0, 0, s.height_m)});
     }
+  state_.accepted = o;
   note("oriented", o.method);
   if (!o.local) oriented_ = o;
+}
+
+void Device::orientationErred(const PlaceError& error) {
+  if (state_.accepted) state_.accepted->error = error;
 }
 
 void Device::previewDone(const std::string& file, const std::shared_ptr<const ScanPreview>& preview) {

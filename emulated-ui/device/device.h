@@ -81,6 +81,7 @@ class Device {
   std::optional<StoredSetup> takeView();
   // A station set-up that was accepted, once: from then on the station has coordinates.
   std::optional<StationOrientation> takeOriented();
+  void orientationErred(const PlaceError& error);  // the accepted one, against the truth
   // Known places, as they are copied to the device.
   void know(ControlList control) { state_.control = std::move(control); }
   // What the project already holds of this instrument's work: the card's content.

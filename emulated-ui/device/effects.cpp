@@ -77,6 +77,7 @@ void beginScan(Device& device) {
   if (s.around.passer_by) order.passer_by_at_fraction = 0.5;
   s.around.passer_by = false;
   order.operator_in_view = s.around.operator_in_view;
+  order.operator_place = s.around.operator_place;
   if (type.program.prepare != nullptr) type.program.prepare(device, order);
   s.moved = false;
   s.scanned_s = s.laser_s = 0;
@@ -105,26 +106,55 @@ void dropScan(Device& device) {
   device.takeBack();
 }
 
-void markMoved(Device& device) {
+namespace {
+
+// Of the sweep: what the laser has measured.
+double swept(const Device& device) {
+  return std::clamp(device.state().laser_s / std::max(1.0, device.expected().scan_seconds), 0.0, 1.0);
+}
+
+// What was simulated so far did not know of it.
+template <class Change>
+void changeRunning(Device& device, Change change) {
   auto& s = device.change();
-  s.moved = true;
   if (!s.running) return;
   ScanOrder order = *s.running;
-  order.tripod_moved_at_fraction = std::clamp(s.laser_s / std::max(1.0, device.expected().scan_seconds), 0.0, 1.0);
-  device.takeBack();  // what was simulated so far did not know of the push
+  change(order);
+  device.takeBack();
   s.running = order;
   device.give(order);
 }
 
+}  // namespace
+
+void markMoved(Device& device) {
+  device.change().moved = true;
+  changeRunning(device, [&](ScanOrder& order) { order.tripod_moved_at_fraction = swept(device); });
+}
+
+void operatorComes(Device& device) {
+  changeRunning(device, [&](ScanOrder& order) {
+    if (!order.operator_in_view) order.operator_from_fraction = swept(device);
+    order.operator_in_view = true;
+    order.operator_until_fraction = 1;
+    order.operator_place = device.state().around.operator_place;
+  });
+}
+
+void operatorGoes(Device& device) {
+  changeRunning(device, [&](ScanOrder& order) { order.operator_until_fraction = swept(device); });
+}
+
+void somebodyWalksBy(Device& device) {
+  constexpr double kAhead = 0.02;  // of the sweep: where the laser looks next
+  changeRunning(device, [&](ScanOrder& order) { order.passer_by_at_fraction = std::min(swept(device) + kAhead, 1.0); });
+}
+
 void keepPartial(Device& device) {
-  auto& s = device.change();
-  if (!s.running) return;
-  ScanOrder order = *s.running;
-  order.until_fraction = std::clamp(s.laser_s / std::max(1.0, device.expected().scan_seconds), 0.01, 1.0);
-  order.panorama = false;
-  device.takeBack();
-  s.running = order;
-  device.give(order);
+  changeRunning(device, [&](ScanOrder& order) {
+    order.until_fraction = std::max(swept(device), 0.01);
+    order.panorama = false;
+  });
 }
 
 double falseStart(const Device& device) { return device.number("value.false_start"); }
@@ -139,7 +169,10 @@ void orderLink(Device& device) {
   const auto* project = device.project();
   if (project == nullptr || project->setups.size() < 2) return;
   const auto& setups = project->setups;
-  const auto &newer = setups[setups.size() - 1], &older = setups[setups.size() - 2];
+  orderLinkTo(device, setups[setups.size() - 1], setups[setups.size() - 2]);
+}
+
+void orderLinkTo(Device& device, const StoredSetup& newer, const StoredSetup& older) {
   LinkOrder order{newer.file, older.file};
   // Compasses tell a room's two sides apart.
   if (!hasReading(newer, "compass") || !hasReading(older, "compass")) order.turn_deg = falseStart(device);

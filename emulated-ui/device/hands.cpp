@@ -3,8 +3,12 @@
 #include <cmath>
 #include <cstdlib>
 
+#include <fmt/format.h>
+
 #include "emulated-ui/device/device.h"
 #include "emulated-ui/device/effects.h"
+#include "emulated-ui/device/numbers.h"
+#include "survey/scanning/field_fault.h"
 
 namespace standpoint {
 
@@ -123,6 +127,7 @@ Result<void> standAt(Device& d, const std::string& station) {
   a.station = station;
   d.change().sighted.clear();
   d.change().orientation.reset();
+  if (auto& accepted = d.change().accepted) accepted->carried_away = true;
   d.change().entries.erase("pointer");
   d.fire(Event::set_down);
   return {};
@@ -140,13 +145,34 @@ Result<void> clearView(Device& d, const std::string&) {
   return {};
 }
 
-// Beside the scanner, or behind it.
-Result<void> standInView(Device& d, const std::string&) {
+// "2.5,90": metres from the scanner and degrees, clockwise from the zero of its circle; nothing: beside it.
+Result<OperatorPlace> operatorPlace(const std::string& value) {
+  OperatorPlace place;
+  if (value.empty()) return place;
+  const auto comma = std::min(value.find(','), value.size());
+  const auto away = numberIn(std::string_view(value).substr(0, comma));
+  place.azimuth_deg = comma < value.size() ? numberIn(std::string_view(value).substr(comma + 1)) : std::nullopt;
+  const bool whole = away && *away >= FieldFault::kNearest_m && *away <= FieldFault::kFarthest_m &&
+                     (comma == value.size() || (place.azimuth_deg && std::abs(*place.azimuth_deg) <= 360));
+  if (!whole)
+    return failure(ErrorKind::usage,
+                   fmt::format("must be a distance of {:g} to {:g} m, with a direction in degrees behind it: 2.5,90",
+                               FieldFault::kNearest_m, FieldFault::kFarthest_m));
+  place.away_m = *away;
+  return place;
+}
+
+// Beside the scanner, or behind it: also while it scans.
+Result<void> standInView(Device& d, const std::string& value) {
+  TRY_ASSIGN(const auto place, operatorPlace(value));
   d.change().around.operator_in_view = true;
+  d.change().around.operator_place = place;
+  if (laserTurns(d)) operatorComes(d);
   return {};
 }
 Result<void> stepBehind(Device& d, const std::string&) {
   d.change().around.operator_in_view = false;
+  if (laserTurns(d)) operatorGoes(d);
   return {};
 }
 
@@ -184,7 +210,8 @@ const std::vector<HandRow>& handRows() {
       {"clear_view", "around", "", clearView},
       {"go_near", "around", "", goNear},
       {"step_behind", "around", "", stepBehind},
-      {"stand_in_view", "around", "", standInView},
+      {"stand_in_view", "around", "distance in metres, and the direction in degrees behind a comma; or nothing",
+       standInView},
   };
   return rows;
 }
@@ -248,7 +275,11 @@ const std::vector<TroubleRow>& troubleRows() {
       {"target_hidden", [](Device& d) { d.change().around.targets_visible = false; }},
       {"symmetrical_room", [](Device& d) { d.change().values["false_start"] = "180"; }},  // degrees
       {"registration_fails", [](Device& d) { d.change().around.registration_fails = true; }},
-      {"passer_by", [](Device& d) { d.change().around.passer_by = true; }},
+      {"passer_by",
+       [](Device& d) {
+         if (laserTurns(d) && d.state().running) return somebodyWalksBy(d);
+         d.change().around.passer_by = true;
+       }},
       {"cover_open", [](Device& d) { d.change().around.cover_open = true; }},
       {"too_near", [](Device& d) { d.change().around.nearest_m = 0.3; }},
   };

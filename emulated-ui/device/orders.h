@@ -9,11 +9,18 @@
 #include <vector>
 
 #include "core/survey.h"
+#include "emulated-ui/device/orientation.h"
 #include "scanners/instruments/instrument.h"
 
 namespace standpoint {
 
 // What a device asks of whoever hosts it, and what comes back. A device has at most one order running.
+
+// Where who scans stands, if in view.
+struct OperatorPlace {
+  double away_m = 0.9;                // from the instrument's axis
+  std::optional<double> azimuth_deg;  // clockwise from the zero of the circle; nothing: the middle of what is scanned
+};
 
 // Scan from where the tripod stands.
 struct ScanOrder {
@@ -32,9 +39,14 @@ struct ScanOrder {
   std::optional<double> tripod_moved_at_fraction;  // the tripod was pushed then
   std::optional<double> passer_by_at_fraction;     // somebody walks by then
   bool operator_in_view = false;                   // who scans stays beside the scanner
-  double tilt_x_deg = 0, tilt_y_deg = 0;           // of the standing axis when it began
-  std::vector<std::string> sensors;                // ids of the definition's that are on and leave a reading
-  SettingValues notes;  // key and text: what goes into the file's record, such as who measured
+  OperatorPlace operator_place;
+  double operator_from_fraction = 0, operator_until_fraction = 1;  // of the columns: while these are measured
+  // Of a device that gives its scans coordinates: the station set-up that was in force when it began, without one the
+  // scanner's own frame.
+  std::optional<StationOrientation> orientation;
+  double tilt_x_deg = 0, tilt_y_deg = 0;  // of the standing axis when it began
+  std::vector<std::string> sensors;       // ids of the definition's that are on and leave a reading
+  SettingValues notes;                    // key and text: what goes into the file's record, such as who measured
 };
 
 // How a setup joins an earlier one: cloud to cloud.
@@ -49,7 +61,8 @@ struct LinkResult {
   double overlap = 0;       // share of the newer cloud
   double true_error_m = 0;  // of the solved place: what only the simulation knows
   double true_error_deg = 0;
-  Pose error;  // the true place moved by it is the solved one
+  Pose error;      // the true place moved by it is the solved one
+  std::string to;  // file of the setup that it joins
 };
 
 // Find the targets in a setup and measure them.
@@ -123,6 +136,8 @@ struct StoredSetup {
   double plan_turn_rad = 0;                    // of its preview's frame there, counter-clockwise
   std::shared_ptr<const ScanPreview> preview;  // once it was asked for
   SettingValues notes;                         // key and text: readings of the sensors, who measured
+  bool operator_in_view = false;               // somebody stood in the scanner's view meanwhile
+  std::optional<PlaceError> placed;            // of the pose in the file, of a device that gives its scans coordinates
 };
 
 }  // namespace standpoint

@@ -112,6 +112,13 @@ Result<Pose> solved(const OrientationTask& task, const Pairs& pairs) {
 
 }  // namespace
 
+PlaceError errorOf(const Pose& believed, const Pose& truth) {
+  const Vector3d off = believed.translation - truth.translation;
+  const Eigen::Quaterniond turn = believed.rotation * truth.rotation.conjugate();
+  const double about_plumb = 2 * std::atan2(turn.z(), turn.w());
+  return {off.head<2>().norm(), std::abs(off.z()), std::abs(std::remainder(about_plumb, 2 * std::numbers::pi))};
+}
+
 int targetsNeeded(const std::string& method, bool compensator) {
   if (method == "standard" || method == "quick") return 0;
   if (method == "azimuth" || method == "backsight") return 1;
@@ -127,7 +134,7 @@ int targetsUsable(const OrientationTask& task) {
 }
 
 Result<StationOrientation> solveOrientation(const OrientationTask& task) {
-  StationOrientation result{task.method, task.station, {}, {}, 0, task.compensator, false, false};
+  StationOrientation result{task.method, task.station, {}, {}, 0, task.compensator, false, false, false, {}};
   if (task.method == "standard") {
     result.local = true;
     return result;

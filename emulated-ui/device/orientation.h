@@ -39,6 +39,12 @@ struct OrientedTarget {
   std::string id;
   double residual_m = 0;  // distance of the target as measured to where it is known to be
 };
+// How far a believed place is from the true one: what only the simulation knows.
+struct PlaceError {
+  double plan_m = 0, height_m = 0, turn_rad = 0;  // none negative
+};
+PlaceError errorOf(const Pose& believed, const Pose& truth);
+
 struct StationOrientation {
   std::string method, station;
   Pose pose;  // project frame from the levelled scanner frame
@@ -47,6 +53,8 @@ struct StationOrientation {
   bool compensator = true;  // it was on
   bool local = false;       // no coordinates: the station is the origin
   bool accepted = false;
+  bool carried_away = false;        // the tripod has left that place since it was accepted
+  std::optional<PlaceError> error;  // as it was when it was accepted
 };
 
 struct OrientationTask {

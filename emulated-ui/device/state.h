@@ -30,6 +30,7 @@ struct Surroundings {
   bool targets_visible = true;
   bool passer_by = false;           // will cross the next scan
   bool operator_in_view = false;    // who scans does not step behind the scanner
+  OperatorPlace operator_place;     // then
   bool registration_fails = false;  // the next link finds nothing in common
   bool cover_open = false;          // of the compartment for battery and memory
 };
@@ -77,7 +78,8 @@ struct DeviceState {
   bool moved = false;                             // since the scan began
   ControlList control;                            // known places, copied to the device
   std::vector<SightedTarget> sighted;             // from where the tripod stands
-  std::optional<StationOrientation> orientation;  // of where it stands
+  std::optional<StationOrientation> orientation;  // that was solved last, of where it stands
+  std::optional<StationOrientation> accepted;     // in force, until the tripod is carried away
   std::vector<DeviceEvent> log;
   double untouched_s = 0;   // at rest, since somebody pressed something or the device had something to say
   std::string moved_along;  // what the last press moved besides what was pressed, in words; else empty

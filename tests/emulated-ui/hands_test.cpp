@@ -39,6 +39,41 @@ TEST_P(Hands, WhoStaysInViewIsInEachScan) {
   EXPECT_FALSE(isInAScan(d));
 }
 
+TEST_P(Hands, WhereWhoStaysInViewStandsIsTyped) {
+  Device d = atRest();
+  for (const char* wrong : {"0.1", "99", "2,", "2,900", "near"}) EXPECT_FALSE(d.hand("stand_in_view", wrong)) << wrong;
+  EXPECT_EQ(d.fact("operator.in_view")->text, "no");
+  ASSERT_TRUE(d.hand("stand_in_view", "2.5,90"));
+  beginScan(d);
+  EXPECT_EQ(d.state().running->operator_place.away_m, 2.5);
+  EXPECT_EQ(d.state().running->operator_place.azimuth_deg, 90);
+}
+
+// Walking in and out while the laser turns is in the columns that are measured meanwhile.
+TEST_P(Hands, WhoComesAndGoesInAScanIsInThatPartOfIt) {
+  const auto type = *loadDevice(*GetParam());
+  const auto& phases = type->definition.phases;
+  const auto laser = std::find_if(phases.begin(), phases.end(), [](const PhaseRow& p) { return p.laser; });
+  ASSERT_NE(laser, phases.end());
+  Device d = working(type, *laser, laser->screen);
+  beginScan(d);
+  (void)d.takeOrder();
+  const auto swept = [&](double fraction) { d.change().laser_s = fraction * d.expected().scan_seconds; };
+  swept(0.25);
+  ASSERT_TRUE(d.hand("stand_in_view", "3"));
+  swept(0.75);
+  ASSERT_TRUE(d.hand("step_behind"));
+  const auto order = d.takeOrder();
+  ASSERT_TRUE(order) << "what was simulated so far did not know of it";
+  const auto& scan = std::get<ScanOrder>(*order);
+  EXPECT_TRUE(scan.operator_in_view);
+  EXPECT_NEAR(scan.operator_from_fraction, 0.25, 1e-9);
+  EXPECT_NEAR(scan.operator_until_fraction, 0.75, 1e-9);
+  swept(0.8);
+  ASSERT_TRUE(d.trouble("passer_by"));
+  EXPECT_NEAR(std::get<ScanOrder>(*d.takeOrder()).passer_by_at_fraction.value_or(0), 0.82, 1e-9);
+}
+
 TEST_P(Hands, ARegistrationThatFailsBeginsWhereNothingIsAndOnlyOnce) {
   Device d = atRest();
   ASSERT_TRUE(d.trouble("registration_fails"));

@@ -272,6 +272,15 @@ TEST_F(Rtc360, ProposesALinkWhenVisKeptTheWay) {
   EXPECT_EQ(d.fact("link"), "joined");
 }
 
+TEST_F(Rtc360, ProposesNoLinkInAJobWithNothingInIt) {
+  ready();
+  scanOnce();
+  ASSERT_TRUE(d.press({"home", "job", "new_job", "name=Annexe", "create"}));
+  ASSERT_TRUE(d->hand("stand_at", "S2"));
+  EXPECT_EQ(d.dialog(), "");
+  EXPECT_EQ(d.phase(), "idle");
+}
+
 TEST_F(Rtc360, StoresWithoutALinkWhenTheWayWasLost) {
   ready();
   scanOnce();

@@ -145,6 +145,7 @@ std::vector<Variant> situationsOf(const DeviceType& type) {
     s.entries["station_id"] = "S9";
     knowPlaces(s);
     s.orientation->accepted = true;
+    s.accepted = s.orientation;
   };
   situations.insert(situations.begin() + 1, over_a_mark);
   situations.push_back([](DeviceState& s) {

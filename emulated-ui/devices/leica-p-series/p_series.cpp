@@ -72,8 +72,10 @@ void transfer(Device& d, bool with_flagged) {
 void transferAll(Device& d) { transfer(d, true); }
 void transferLevelled(Device& d) { transfer(d, false); }
 
-// The instrument's own filter of weak points; the range gates are settings of the scan.
+// Coordinates by the station set-up, and the instrument's own filter of weak points; the range gates are settings of
+// the scan.
 void prepare(const Device& d, ScanOrder& order) {
+  order.orientation = orientationOfScans(d);
   const double weakest = d.number("value.min_intensity");
   if (weakest > 0) order.filters.push_back(fmt::format("intensity:from={:g}", weakest / 100));
 }

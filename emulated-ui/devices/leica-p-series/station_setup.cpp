@@ -53,6 +53,11 @@ OrientationTask taskOf(const Device& d) {
   return task;
 }
 
+const StationOrientation* inForce(const Device& d) {
+  const auto& accepted = d.state().accepted;
+  return accepted && !accepted->carried_away ? &*accepted : nullptr;
+}
+
 bool solve(Device& d) {
   auto solved = solveOrientation(taskOf(d));
   if (!solved) {
@@ -85,7 +90,7 @@ Result<void> pickStation(Device& d, const std::string& name) {
 Result<void> toggleSighting(Device& d, const std::string& id) {
   for (auto& s : d.change().sighted)
     if (s.id == id) s.used = !s.used;
-  d.change().orientation.reset();
+  d.change().orientation.reset();  // to be solved anew; what was accepted stays in force
   d.note("target_used", id);
   return {};
 }
@@ -154,7 +159,8 @@ double worstResidual(const StationOrientation* o) {
   return worst * 1000;
 }
 
-const StationOrientation* here(const Device& d) { return d.state().orientation ? &*d.state().orientation : nullptr; }
+// What was solved last, else what is in force.
+const StationOrientation* here(const Device& d) { return d.state().orientation ? &*d.state().orientation : inForce(d); }
 
 std::string coordinates(const Device& d) {
   const auto* o = here(d);
@@ -171,6 +177,15 @@ const FactDomain kCount{{}, true, 0, 1000};
 const FactDomain kNumber{{}, true, 0, 1e9};
 
 }  // namespace
+
+StationOrientation orientationOfScans(const Device& device) {
+  if (const auto* accepted = inForce(device)) return *accepted;
+  StationOrientation own;
+  own.station = device.state().around.station;
+  own.compensator = compensatorOn(device);
+  own.local = true;
+  return own;
+}
 
 void addSetupTransitions(std::vector<Transition>& rows) {
   const std::vector<Transition> own = {
@@ -345,7 +360,7 @@ const std::vector<FactRow>& setupFacts() {
        .about = "of the station set-up"},
       {.name = "orientation.accepted",
        .domain = kYesNo,
-       .value = [](const Device& d) { return yesNo(here(d) != nullptr && here(d)->accepted); },
+       .value = [](const Device& d) { return yesNo(inForce(d) != nullptr); },
        .about = "the station has coordinates"},
       {.name = "orientation.solved",
        .domain = kYesNo,

@@ -122,6 +122,12 @@ std::vector<Transition> transitions() {
            .show = "setup",
            .effect = storeWithoutLink,
            .source = "G1"},
+          // Another job was opened meanwhile, and there is nothing in it to be joined.
+          {.from = {phase::vis_tracking},
+           .event = Event::set_down,
+           .guard = "setups == 0",
+           .to = phase::idle,
+           .show = "home"},
           {.from = {phase::vis_tracking},
            .event = Event::set_down,
            .guard = "value.vis == on and tracking == yes",

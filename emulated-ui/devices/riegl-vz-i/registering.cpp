@@ -40,9 +40,25 @@ std::string registrationResult(const Device& device) {
   return result.empty() ? "none" : result;
 }
 
+// The earlier position that the newest is registered against: the one on view, else the nearest by its rough place,
+// which the device has from its own sensors [P].
+static const StoredSetup* registeredAgainst(const Device& device) {
+  const auto* project = device.project();
+  const auto* newest = device.newestSetup();
+  if (newest == nullptr) return nullptr;
+  if (const auto* shown = device.shownSetup(); shown != nullptr && shown->file != newest->file) return shown;
+  const StoredSetup* nearest = nullptr;
+  const auto away = [&](const StoredSetup& s) {
+    return std::hypot(s.plan_x_m - newest->plan_x_m, s.plan_y_m - newest->plan_y_m);
+  };
+  for (const auto& setup : project->setups)
+    if (setup.file != newest->file && (nearest == nullptr || away(setup) <= away(*nearest))) nearest = &setup;
+  return nearest;
+}
+
 void beginRegistration(Device& device) {
   device.change().entries.erase("registration_result");
-  orderLink(device);
+  if (const auto* earlier = registeredAgainst(device)) orderLinkTo(device, *device.newestSetup(), *earlier);
 }
 
 // FAST_REG_FAILED where nothing matches at all, SCAN_REG_FAILED where the match is not good enough for the mode [P].
