@@ -9,6 +9,7 @@
 
 #include "core/json_fields.h"
 #include "emulated-ui/device/numbers.h"
+#include "emulated-ui/device/replaced.h"
 
 namespace standpoint {
 
@@ -342,6 +343,26 @@ void collectFacts(const Node& node, std::vector<std::string>& names) {
   for (const auto& part : node.parts) collectFacts(*part, names);
 }
 
+void collectComparisons(const Node& node, std::vector<Comparison>& found) {
+  if (node.kind == Node::Kind::comparison) found.push_back(node.comparison);
+  for (const auto& part : node.parts) collectComparisons(*part, found);
+}
+
+std::string nodeWorded(const Node& node, const Condition::Wording& wording) {
+  if (node.kind == Node::Kind::comparison) return wording.comparison(node.comparison);
+  if (node.kind == Node::Kind::none) return replaced(wording.none, "{what}", nodeWorded(*node.parts[0], wording));
+  std::string text;
+  for (const auto& part : node.parts) {
+    const bool inner = node.kind == Node::Kind::all && part->kind == Node::Kind::any;
+    const auto one = nodeWorded(*part, wording);
+    text += (text.empty()                   ? ""
+             : node.kind == Node::Kind::all ? wording.all
+                                            : wording.any) +
+            (inner ? "(" + one + ")" : one);
+  }
+  return text;
+}
+
 bool canHold(const Case& one, const DomainLookup& lookup) {
   std::vector<std::pair<std::string, Possible>> facts;
   for (const auto& literal : one) {
@@ -375,6 +396,16 @@ std::vector<std::string> Condition::facts() const {
   std::vector<std::string> names;
   if (root_ != nullptr) collectFacts(*root_, names);
   return names;
+}
+
+std::vector<Condition::Comparison> Condition::comparisons() const {
+  std::vector<Comparison> found;
+  if (root_ != nullptr) collectComparisons(*root_, found);
+  return found;
+}
+
+std::string Condition::worded(const Wording& wording) const {
+  return root_ == nullptr ? std::string() : nodeWorded(*root_, wording);
 }
 
 Result<void> Condition::check(const DomainLookup& domain) const {

@@ -59,6 +59,15 @@ class Condition {
     std::vector<std::string> words;  // right side; `in` has several
     bool of_fact = false;            // the right side is a fact's name
   };
+  std::vector<Comparison> comparisons() const;
+
+  // As people read it: each comparison by `comparison`, between them `all` or `any`; `none` is of what must not hold,
+  // as {what}.
+  struct Wording {
+    std::function<std::string(const Comparison&)> comparison;
+    std::string all, any, none;
+  };
+  std::string worded(const Wording& wording) const;
   struct Node;
 
  private:

@@ -41,6 +41,8 @@ WidgetRow widgetRow(JsonFields& f) {
   w.warns = conditionAt(f, "warns");
   w.why_not = f.textOr("why_not", "");
   w.words = f.textOr("words", w.id);
+  w.minimum = f.numberOr("minimum", w.minimum, -1e9, 1e9);
+  w.maximum = f.numberOr("maximum", w.maximum, w.minimum, 1e9);
   w.source = f.text("source");
   const int bound =
       static_cast<int>(!w.setting.empty()) + static_cast<int>(!w.value.empty()) + static_cast<int>(!w.list.empty());

@@ -31,15 +31,16 @@ struct WidgetRow {
   std::string list;            // rows, of the code
   std::string shows;           // a fact, or a text with {facts} in it
   // What it does when it is pressed, in this order.
-  std::string does;     // an action of the code; when that refuses, the rest is left out
-  std::string event;    // of the state machine
-  std::string go;       // screen to show; "back" = to where one came from
-  Condition when;       // it is there only then
-  Condition enabled;    // else it is grey, with the word why_not
-  Condition warns;      // then it is shown as a warning, with the word why_not
-  std::string why_not;  // key of a word
-  std::string words;    // key of its label and help; standard: its id
-  std::string source;   // mark: "S9", "G1", "P"
+  std::string does;                      // an action of the code; when that refuses, the rest is left out
+  std::string event;                     // of the state machine
+  std::string go;                        // screen to show; "back" = to where one came from
+  Condition when;                        // it is there only then
+  Condition enabled;                     // else it is grey, with the word why_not
+  Condition warns;                       // then it is shown as a warning, with the word why_not
+  std::string why_not;                   // key of a word
+  double minimum = 0, maximum = 999999;  // of a number that is typed and bound to nothing
+  std::string words;                     // key of its label and help; standard: its id
+  std::string source;                    // mark: "S9", "G1", "P"
 };
 
 struct ScreenRow {

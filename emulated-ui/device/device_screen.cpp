@@ -184,7 +184,8 @@ std::optional<Widget> Device::widget(const WidgetRow& row) const {
   } else if (row.kind == WidgetKind::text || row.kind == WidgetKind::number) {
     const auto typed = state_.entries.find(row.id);
     if (typed != state_.entries.end()) w.value = typed->second;
-    w.maximum = 999999;
+    w.minimum = row.minimum;
+    w.maximum = row.maximum;
   } else if (row.kind == WidgetKind::area) {
     addArea(*this, w);
   } else if (row.kind == WidgetKind::level) {

@@ -95,6 +95,15 @@ TEST_F(VzI, CountsThePositionsUp) {
   EXPECT_EQ(d.fact("positions.double"), "0");
 }
 
+TEST_F(VzI, RefusesATypedNumberWhileItCountsByItself) {
+  ready();
+  ASSERT_TRUE(d.press({"scan_position"}));
+  const auto refused = d->act("position_number", "7");
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("numbering off"), std::string::npos) << refused.error().message;
+  ASSERT_TRUE(d.press({"auto_number=off", "position_number=7"}));
+}
+
 TEST_F(VzI, GivesTheSameNumberTwiceWithTheCountingOff) {
   ready();
   ASSERT_TRUE(d.press({"registration_now", "registration=off", "back", "scan_position", "auto_number=off",
@@ -110,6 +119,30 @@ TEST_F(VzI, GivesTheSameNumberTwiceWithTheCountingOff) {
   EXPECT_EQ(d.fact("positions.double"), "2") << "they cannot be told apart by their number";
   ASSERT_TRUE(d.press({"home", "scan_position", "auto_number=on"}));
   EXPECT_EQ(d.shows("next_name"), "ScanPos006");
+}
+
+// A device that joined each position to the one before could not go back to the first room.
+TEST_F(VzI, RegistersAgainstTheNearestEarlierPositionOrTheOneOnView) {
+  ready();
+  ASSERT_TRUE(d.press({"registration_now", "registration=off", "back"}));
+  for (int i = 0; i < 4; ++i) scan();
+  auto& setups = d->change().projects[0].setups;
+  for (std::size_t i = 0; i < setups.size(); ++i) {
+    setups[i].file = "pos" + std::to_string(i + 1);
+    setups[i].plan_x_m = i == 3 ? 1 : 10.0 * static_cast<double>(i);  // the fourth is beside the first
+  }
+  const auto against = [&] {
+    EXPECT_TRUE(d.press({"home", "registration_now", "register_now"}));
+    const auto order = d->takeOrder();
+    EXPECT_TRUE(order && std::holds_alternative<LinkOrder>(*order));
+    return order ? std::get<LinkOrder>(*order) : LinkOrder{};
+  };
+  TestDevice other = d;
+  EXPECT_EQ(against().to_file, "pos1");
+  d = other;
+  ASSERT_TRUE(d.press({"home", "positions", "position_list=1"}));
+  EXPECT_EQ(against().to_file, "pos2");
+  EXPECT_EQ(d->state().linking, "pos4");
 }
 
 TEST_F(VzI, NamesPositionsByTheirBase) {
@@ -153,11 +186,16 @@ TEST_F(VzI, TakesAPatternOfSixNumbers) {
   EXPECT_EQ(d.shows("expected_time"), "1:15") << "18000 x 2000 points / 120000 per second, a quarter of the turn";
   ASSERT_TRUE(d.press({"pattern=panorama_100"}));
   EXPECT_EQ(d.shows("expected_points"), "3.6 M (3600 × 1000)") << "a pattern with a name has the whole field";
-  for (const char* wrong : {"line_start=20", "line_stop=131", "frame_stop=361"}) {
-    TestDevice one = d;
-    ASSERT_TRUE(one.press({wrong, "take_pattern"}));
-    EXPECT_EQ(one.dialog(), "refused") << wrong;
+  for (const auto& [widget, value, said] :
+       {std::tuple("line_start", "-2", "from 30 to 130"), std::tuple("line_stop", "131", "from 30 to 130"),
+        std::tuple("frame_stop", "361", "from 0 to 360")}) {
+    const auto refused = d->act(widget, value);
+    ASSERT_FALSE(refused) << widget;
+    EXPECT_NE(refused.error().message.find(said), std::string::npos) << refused.error().message;
   }
+  TestDevice falling = d;
+  ASSERT_TRUE(falling.press({"line_start=120", "line_stop=110", "take_pattern"}));
+  EXPECT_EQ(falling.dialog(), "refused") << "the lines end before they start";
   ASSERT_TRUE(d.press({"line_step=0.001", "take_pattern"}));
   EXPECT_EQ(d.dialog(), "refused") << "finer than the instrument steps";
 }
