@@ -5,12 +5,14 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 
 #include <Eigen/Dense>
 
 #include "core/units.h"
 #include "emulated-ui/device/numbers.h"
 #include "emulated-ui/rehearsal/all_setups.h"
+#include "emulated-ui/sighting.h"
 #include "scanners/forecast/expectation.h"
 
 namespace standpoint {
@@ -39,11 +41,14 @@ std::optional<Fact> wrongLinks(const Device& device) {
 // Where the chain of links puts the newest setup, against where it stands: each link's error moves all that come after.
 std::optional<Fact> closure(const Device& device, const Document& document) {
   Pose moved;
+  std::map<std::string, Pose> moved_of;  // by file: not every setup joins the one before
   const StoredSetup* last = nullptr;
   for (const auto* s : allSetups(device)) {
     if (!accepted(device, *s)) continue;
-    const Pose& e = s->link->error;
-    moved = {e.rotation * moved.rotation, e * moved.translation};
+    const auto joined = moved_of.find(s->link->to);
+    if (joined != moved_of.end()) moved = joined->second;
+    moved = s->link->error * moved;
+    moved_of[s->file] = moved;
     last = s;
   }
   if (last == nullptr) return std::nullopt;
@@ -184,13 +189,50 @@ std::optional<Fact> worstSightResidual(const Device& device) {
   return numberFact(worst);
 }
 
-std::optional<Fact> orientationError(const Device& device, const Document& document) {
-  const auto& solved = device.state().orientation;
-  if (!solved || solved->local || !document.job) return std::nullopt;
-  for (const auto& station : document.job->stations)
-    if (station.name == device.state().around.station)
-      return numberFact((solved->pose.translation - station.true_pose.translation).norm() * 1000);
-  return std::nullopt;
+// Of the station set-up that was solved and not yet accepted, else of the one that was accepted last, as it was then.
+std::optional<PlaceError> orientationError(const Device& device, const Document& document) {
+  const auto &solved = device.state().orientation, &accepted = device.state().accepted;
+  const auto& judged = solved && !solved->accepted ? solved : accepted;
+  if (!judged || judged->local) return std::nullopt;
+  if (judged->error) return judged->error;
+  const auto* station = stationOf(document, judged->station);
+  return station == nullptr ? std::nullopt : std::optional(errorOf(judged->pose, station->true_pose));
+}
+
+std::optional<Fact> orientationProof(const std::string& name, const Device& device, const Document& document) {
+  const auto error = orientationError(device, document);
+  if (!error) return std::nullopt;
+  if (name == "orientation.plan") return numberFact(error->plan_m * 1000);
+  if (name == "orientation.height") return numberFact(error->height_m * 1000);
+  if (name == "orientation.azimuth") return numberFact(error->turn_rad / kRadPerDeg);
+  return numberFact(std::hypot(error->plan_m, error->height_m) * 1000);
+}
+
+// The part of the floor below the instrument that its lowest beams do not reach.
+double disc_m(const Station& station, const ScanSettings& settings) {
+  const double below = -settings.elevation_from_rad;
+  return below <= 0 ? 1e4
+                    : std::min(1e4, station.instrument_height_m / std::tan(std::min(below, std::numbers::pi / 2)));
+}
+
+// Over the stations in place, with the settings as they are: the largest blind disc, and how far their heights differ.
+std::optional<Fact> standingProof(const std::string& name, const Device& device, const Document& document) {
+  if (!document.job || document.job->stations.empty()) return std::nullopt;
+  double disc = 0, low = 1e9, high = -1e9;
+  for (const auto& station : document.job->stations) {
+    disc = std::max(disc, disc_m(station, device.expected()));
+    low = std::min(low, station.instrument_height_m);
+    high = std::max(high, station.instrument_height_m);
+  }
+  return numberFact(name == "stations.disc" ? disc : high - low);
+}
+
+// The worst of the stored setups that have their place by a station set-up.
+std::optional<Fact> worstPlaced(const Device& device, double PlaceError::*what, double factor) {
+  std::optional<double> worst;
+  for (const auto* s : allSetups(device))
+    if (s->placed) worst = std::max(worst.value_or(0), (*s->placed).*what * factor);
+  return factOf(worst);
 }
 
 // Of a walk with a handheld scanner, as it was planned: what it would do to the cloud.
@@ -306,7 +348,16 @@ const std::vector<ProofRow>& fieldProofRows() {
       {"sights.distances", "mm", numbers(0, 1e7), "largest error of the distance between them"},
       {"sights.residual", "mm", numbers(0, 1e6), "largest residual of their fits"},
       {"sights.spread", "°", numbers(0, 360), "angle covered by the targets in use"},
-      {"orientation.error", "mm", numbers(0, 1e7), "position error of the solved station"},
+      {"orientation.error", "mm", numbers(0, 1e7), "position error of the station set-up, as accepted last"},
+      {"orientation.plan", "mm", numbers(0, 1e9), "its horizontal position error"},
+      {"orientation.height", "mm", numbers(0, 1e9), "its height error"},
+      {"orientation.azimuth", "°", numbers(0, 180), "error of its direction"},
+      {"stations.disc", "m", numbers(0, 1e4),
+       "largest radius of floor below a station that the lowest beams do not reach"},
+      {"stations.heights", "m", numbers(0, 100), "difference between the highest and the lowest instrument"},
+      {"setups.plan", "mm", numbers(0, 1e9), "largest horizontal error of a stored setup's place in its file"},
+      {"setups.height", "mm", numbers(0, 1e9), "largest height error of a stored setup's place in its file"},
+      {"setups.azimuth", "°", numbers(0, 180), "largest error of a stored setup's direction in its file"},
       {"repeats.least", "", numbers(0, 1e4), "lowest number of setups at any station"},
       {"repeats.places", "", numbers(0, 1e4), "stations with scans"},
       {"repeats.spread", "mm", numbers(0, 1e6), "largest spread of a target distance over the repeats"},
@@ -359,7 +410,12 @@ std::optional<Fact> fieldProof(const std::string& name, const Device& device, co
   if (name == "sights.distances") return worstSight(device, document);
   if (name == "sights.residual") return worstSightResidual(device);
   if (name == "sights.spread") return numberFact(sightSpread(device));
-  if (name == "orientation.error") return orientationError(device, document);
+  for (const char* of : {"orientation.error", "orientation.plan", "orientation.height", "orientation.azimuth"})
+    if (name == of) return orientationProof(name, device, document);
+  if (name == "stations.disc" || name == "stations.heights") return standingProof(name, device, document);
+  if (name == "setups.plan") return worstPlaced(device, &PlaceError::plan_m, 1000);
+  if (name == "setups.height") return worstPlaced(device, &PlaceError::height_m, 1000);
+  if (name == "setups.azimuth") return worstPlaced(device, &PlaceError::turn_rad, 1 / kRadPerDeg);
   if (name == "repeats.least") return numberFact(fewestRepeats(device));
   if (name == "repeats.places") return numberFact(places(device));
   if (name == "repeats.spread") return repeatSpread(device);

@@ -11,7 +11,7 @@
 
 #include "core/part_file.h"
 #include "emulated-ui/device/format.h"
-#include "emulated-ui/device/numbers.h"
+#include "emulated-ui/rehearsal/plain_words.h"
 
 namespace standpoint {
 
@@ -40,52 +40,6 @@ std::string cellText(const std::optional<T>& value) {
   return value ? cellText(*value) : std::string();
 }
 
-struct DeviceUnitRow {
-  FactUnit unit;
-  const char* name;
-};
-constexpr DeviceUnitRow kDeviceUnits[] = {{FactUnit::seconds, "s"},  {FactUnit::bytes, "B"},
-                                          {FactUnit::metres, "m"},   {FactUnit::degrees, "°"},
-                                          {FactUnit::celsius, "°C"}, {FactUnit::millimetres, "mm"}};
-
-// Of the facts with a name of their own.
-struct NamedUnitRow {
-  std::string_view prefix;
-  const char* name;
-};
-constexpr NamedUnitRow kNamedUnits[] = {
-    {"place.", "m"}, {"walk.near.", "m"}, {"expected.reach.", "m"}, {"expected.sigma.", "mm"}};
-
-const FactRow* deviceRow(const Device& device, const std::string& fact) {
-  for (const auto* rows : {&device.type().program.facts, &sharedFacts()})
-    for (const auto& row : *rows)
-      if (fact == row.name) return &row;
-  return nullptr;
-}
-
-const ProofRow* proofRow(const std::string& fact) {
-  for (const auto& row : proofRows())
-    if (fact == row.name) return &row;
-  return nullptr;
-}
-
-std::string unitOf(const Device& device, const std::string& fact) {
-  if (const auto* row = proofRow(fact)) return row->unit;
-  if (const auto* row = deviceRow(device, fact))
-    for (const auto& known : kDeviceUnits)
-      if (known.unit == row->unit) return known.name;
-  for (const auto& named : kNamedUnits)
-    if (fact.starts_with(named.prefix)) return named.name;
-  return {};
-}
-
-bool isFraction(const Device& device, const std::string& fact) {
-  if (const auto* row = proofRow(fact))
-    return *row->unit == '\0' && row->domain.minimum == 0 && row->domain.maximum == 1;
-  const auto* row = deviceRow(device, fact);
-  return row != nullptr && row->unit == FactUnit::fraction;
-}
-
 // Three significant figures, none of a whole number lost.
 std::string roundedText(double n) {
   return n == std::round(n) || std::abs(n) >= 100 ? fmt::format("{:.0f}", n) : fmt::format("{:.3g}", n);
@@ -105,35 +59,19 @@ std::string answerText(const ExerciseQuestion& question, const std::string& valu
   return value;
 }
 
-// As people read it: rounded, with its unit.
-std::string shownFact(const Rehearsal& rehearsal, const std::string& name, const Fact& fact,
-                      const std::string& language) {
-  const auto& device = rehearsal.device();
-  for (const auto& question : rehearsal.exercise().questions)
-    if (name == "answer." + question.id) return answerText(question, fact.text, language);
-  if (!fact.number) return fact.text;
-  if (name == "time") return clockText(*fact.number);
-  if (isFraction(device, name)) return percentText(*fact.number);
-  const auto* row = deviceRow(device, name);
-  if (row != nullptr && row->unit != FactUnit::none) return factText(fact, row->unit);
-  const auto unit = unitOf(device, name);
-  return roundedText(*fact.number) + (unit.empty() || unit == "°" ? unit : " " + unit);
+FactLookup factsIn(const std::map<std::string, Fact>& facts) {
+  return [&facts](const std::string& name) {
+    const auto found = facts.find(name);
+    return found == facts.end() ? std::nullopt : std::optional(found->second);
+  };
 }
 
-// "tilt = 0.123456, data.noise = –" for people. `found` names the condition's facts in their order.
-std::string shownFacts(const Rehearsal& rehearsal, const Condition& condition, const std::string& found,
-                       const std::string& language) {
-  const auto names = condition.facts();
+// "Tilt: 0.12°; Noise: –": what the facts of the condition were.
+std::string shownFacts(const PlainWords& words, const Condition& condition, const std::map<std::string, Fact>& facts) {
   std::string shown;
-  std::size_t end = 0;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto from = found.find(names[i] + " = ", end) + names[i].size() + 3;
-    end = i + 1 < names.size() ? found.find(", " + names[i + 1] + " = ", from) : found.size();
-    Fact fact = wordFact(found.substr(from, end - from));
-    const auto now = rehearsal.fact(names[i]);
-    if (!now || now->number) fact.number = numberIn(fact.text);  // a project may be called "007"
-    shown += (shown.empty() ? "" : ", ") + names[i] + " = " + shownFact(rehearsal, names[i], fact, language);
-  }
+  for (const auto& name : condition.facts())
+    shown += (shown.empty() ? "" : "; ") + words.name(name) + ": " +
+             words.value(name, factsIn(facts)(name), limitsOf(condition, name));
   return shown;
 }
 
@@ -165,10 +103,11 @@ std::vector<MarkedAnswer> answersOf(const Rehearsal& rehearsal, const std::strin
   return answers;
 }
 
-MarkedStep markedStep(const ExerciseStep& step, const Rehearsal::StepState& state, const std::string& language) {
+MarkedStep markedStep(const ExerciseStep& step, const Rehearsal::StepState& state, const PlainWords& words) {
   return {.id = step.id,
-          .text = step.text.in(language),
+          .text = step.text.in(words.language),
           .expected = step.done.text(),
+          .expected_text = words.condition(step.done),
           .done = state.done,
           .at_s = state.done ? std::optional(state.at_s) : std::nullopt,
           .hinted = state.hinted,
@@ -177,26 +116,30 @@ MarkedStep markedStep(const ExerciseStep& step, const Rehearsal::StepState& stat
 }
 
 MarkedRule markedRule(const Rehearsal& rehearsal, const ExerciseRule& rule, const Rehearsal::RuleState& state,
-                      const std::string& language) {
+                      const PlainWords& words) {
+  const auto& language = words.language;
   MarkedRule row{.id = rule.id,
                  .text = rule.text.in(language),
                  .expected = rule.holds.text(),
+                 .expected_text = words.condition(rule.holds),
                  .found = state.asked ? state.found : neverAsked(rehearsal, rule, language),
                  .asked = state.asked,
                  .held = state.held,
                  .must = rule.must,
                  .points = state.held ? rule.points : 0,
                  .of = rule.points};
-  row.found_text = state.asked ? shownFacts(rehearsal, rule.holds, state.found, language) : row.found;
+  row.found_text = state.asked ? shownFacts(words, rule.holds, state.facts) : row.found;
   if (!state.held) {
     row.broken_at_s = state.broken_at_s >= 0 ? std::optional(state.broken_at_s) : std::nullopt;
     if (!rule.mistake.empty()) row.mistake = rule.mistake;
-    if (state.asked && !rule.because.texts.empty()) row.because = rule.because.in(language);
+    if (state.asked && !rule.because.texts.empty())
+      row.because = filledFigures(rule.because.in(language), words, factsIn(state.facts));
   }
   if (state.asked && !rule.proof.empty())
-    if (const auto proof = rehearsal.fact(rule.proof))
+    if (const auto proof = factsIn(state.facts)(rule.proof))
       row.proof = {rule.proof, proof->number ? MarkedProof::Value(*proof->number) : MarkedProof::Value(proof->text),
-                   unitOf(rehearsal.device(), rule.proof), shownFact(rehearsal, rule.proof, *proof, language)};
+                   unitOf(rehearsal.device(), rule.proof),
+                   words.value(rule.proof, proof, limitsOf(rule.holds, rule.proof)), words.name(rule.proof)};
   return row;
 }
 
@@ -204,16 +147,17 @@ MarkedRule markedRule(const Rehearsal& rehearsal, const ExerciseRule& rule, cons
 
 const AnswerFields<MarkedStep>& answerFields(const MarkedStep*) {
   using A = MarkedStep;
-  static const AnswerFields<A> fields = {{"id", &A::id},         {"text", &A::text}, {"expected", &A::expected},
-                                         {"done", &A::done},     {"at_s", &A::at_s}, {"hinted", &A::hinted},
-                                         {"points", &A::points}, {"of", &A::of}};
+  static const AnswerFields<A> fields = {
+      {"id", &A::id},     {"text", &A::text}, {"expected", &A::expected}, {"expected_text", &A::expected_text},
+      {"done", &A::done}, {"at_s", &A::at_s}, {"hinted", &A::hinted},     {"points", &A::points},
+      {"of", &A::of}};
   return fields;
 }
 
 const AnswerFields<MarkedProof>& answerFields(const MarkedProof*) {
   using A = MarkedProof;
   static const AnswerFields<A> fields = {
-      {"fact", &A::fact}, {"value", &A::value}, {"unit", &A::unit}, {"text", &A::text}};
+      {"fact", &A::fact}, {"value", &A::value}, {"unit", &A::unit}, {"text", &A::text}, {"name", &A::name}};
   return fields;
 }
 
@@ -222,6 +166,7 @@ const AnswerFields<MarkedRule>& answerFields(const MarkedRule*) {
   static const AnswerFields<A> fields = {{"id", &A::id},
                                          {"text", &A::text},
                                          {"expected", &A::expected},
+                                         {"expected_text", &A::expected_text},
                                          {"found", &A::found},
                                          {"found_text", &A::found_text},
                                          {"asked", &A::asked},
@@ -304,14 +249,15 @@ Marks marksOf(const Rehearsal& rehearsal, const std::string& student, const std:
               .seconds = rehearsal.seconds(),
               .time_limit_s = e.time_limit_s,
               .in_time = !rehearsal.overTime()};
+  const PlainWords words{device, e, language};
   for (std::size_t i = 0; i < e.steps.size(); ++i) {
-    marks.steps.push_back(markedStep(e.steps[i], rehearsal.steps()[i], language));
+    marks.steps.push_back(markedStep(e.steps[i], rehearsal.steps()[i], words));
     marks.points += marks.steps.back().points;
     marks.of += e.steps[i].points;
   }
   const auto judged = rehearsal.judge();
   for (std::size_t i = 0; i < e.rules.size(); ++i) {
-    const auto& rule = marks.rules.emplace_back(markedRule(rehearsal, e.rules[i], judged[i], language));
+    const auto& rule = marks.rules.emplace_back(markedRule(rehearsal, e.rules[i], judged[i], words));
     marks.points += rule.points;
     marks.of += rule.of;
     if (rule.must && !rule.held) marks.must_broken.push_back(rule.id);
@@ -346,8 +292,7 @@ std::string marksText(const Marks& m) {
     text += fmt::format("  {} {}{}: {}\n", r.held ? "[x]" : "[ ]", r.text, r.must ? " (required to pass)" : "",
                         r.found_text);
     if (r.because) text += fmt::format("        {}\n", *r.because);
-    if (!r.held && r.proof)
-      text += fmt::format("        measured in the data: {} = {}\n", r.proof->fact, r.proof->text);
+    if (!r.held && r.proof) text += fmt::format("        measured in the data: {}: {}\n", r.proof->name, r.proof->text);
   }
   for (const auto& a : m.answers)
     text += fmt::format("  {} {}\n", a.question, a.value.empty() ? "not answered" : a.answer);

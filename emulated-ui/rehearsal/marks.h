@@ -15,6 +15,7 @@ namespace standpoint {
 
 struct MarkedStep {
   std::string id, text, expected;
+  std::string expected_text;  // the condition as people read it
   bool done = false;
   std::optional<double> at_s;  // when it was done
   bool hinted = false;
@@ -26,10 +27,12 @@ struct MarkedProof {  // what a mistake does to the data, from the points
   std::string fact;
   Value value;
   std::string unit, text;  // `text` is for people: rounded, with its unit
+  std::string name;        // what people call the fact
 };
 const AnswerFields<MarkedProof>& answerFields(const MarkedProof*);
 struct MarkedRule {
   std::string id, text, expected;
+  std::string expected_text;      // the condition as people read it
   std::string found, found_text;  // the latter for people
   bool asked = false, held = false, must = false;
   double points = 0, of = 0;
@@ -55,7 +58,8 @@ struct AnswerValue<RehearsalAction> {
 };
 
 // What a rehearsal is worth: for each step and rule what was expected, what was done, and what a mistake does to the
-// data, with the figure from the points that proves it; of a rule that nothing asked, that and no consequence.
+// data, with the figure from the points that proves it; of a rule that nothing asked, that and no consequence. A rule
+// keeps the values that it was judged by.
 struct Marks {
   std::string exercise, title, goal, language;
   std::string device, instrument, maker, model;

@@ -88,7 +88,7 @@ class Page {
   void addDemand(const Demand& d, const std::string& name, bool held, const std::string& found) {
     html_ += fmt::format(
         "<tr><td class=\"{}\">{} {}</td><td><small>{}</small></td><td>{}</td><td class=\"n\">{:g} / {:g}</td></tr>\n",
-        held ? "yes" : "no", held ? "✓" : "✗", name, htmlText(d.expected), found, d.points, d.of);
+        held ? "yes" : "no", held ? "✓" : "✗", name, htmlText(d.expected_text), found, d.points, d.of);
   }
 
   void addDemands() {
@@ -103,7 +103,7 @@ class Page {
       auto found = htmlText(r.found_text);
       if (r.because) found += "<br><small>" + htmlText(*r.because) + "</small>";
       if (r.proof)
-        found += fmt::format("<br><small>{}: {} = {}</small>", word("proof"), htmlText(r.proof->fact),
+        found += fmt::format("<br><small>{}: {}: {}</small>", word("proof"), htmlText(r.proof->name),
                              htmlText(r.proof->text));
       addDemand(r, htmlText(r.text) + (r.must ? "<br><small>" + word("must") + "</small>" : ""), r.held, found);
     }

@@ -12,6 +12,7 @@
 #include "emulated-ui/host.h"
 #include "emulated-ui/rehearsal/all_setups.h"
 #include "emulated-ui/rehearsal/field_proofs.h"
+#include "emulated-ui/rehearsal/part_proofs.h"
 #include "emulated-ui/rehearsal/survey_proofs.h"
 #include "pointclouds/formats.h"
 #include "project/survey/survey_verbs.h"
@@ -261,6 +262,13 @@ const std::vector<ProofRow>& proofRows() {
 std::optional<Fact> Proofs::fact(const std::string& name, const Exercise& exercise, const Device& device,
                                  const Document& document, const fs::path& folder) {
   if (auto own = namedProof(name, exercise, device, document)) return own;
+  if (partFigure(name, exercise)) {
+    std::string of = "files:";
+    for (const auto* s : allSetups(device)) of += s->file + ";";
+    if (parts_of_ != of) parts_ = readParts(exercise, device, document), parts_of_ = of;
+    const auto found = parts_.find(name);
+    return found == parts_.end() ? std::nullopt : std::optional(numberFact(found->second));
+  }
   const auto& rows = proofRows();
   if (std::none_of(rows.begin(), rows.end(), [&](const ProofRow& row) { return name == row.name; }))
     return std::nullopt;

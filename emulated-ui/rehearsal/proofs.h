@@ -38,6 +38,8 @@ class Proofs {
   std::string data_of_;  // file
   std::map<std::string, double> plan_;
   std::string plan_of_;  // stations and settings
+  std::map<std::string, double> parts_;
+  std::string parts_of_;  // files
   std::map<std::string, double> survey_;
   std::string survey_of_;
   std::vector<std::uint8_t> survey_reach_;

@@ -12,6 +12,8 @@
 #include "emulated-ui/device/format.h"
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/field_proofs.h"
+#include "emulated-ui/rehearsal/part_proofs.h"
+#include "emulated-ui/rehearsal/plain_words.h"
 #include "emulated-ui/sighting.h"
 
 namespace standpoint {
@@ -44,10 +46,29 @@ ErrorKind preparing(const Error& error) { return error.kind == ErrorKind::usage 
 bool asksThePoints(const Exercise& e) {
   return std::any_of(e.rules.begin(), e.rules.end(),
                      [](const ExerciseRule& r) {
-                       return r.holds.text().find("data.") != std::string::npos || r.proof.starts_with("data.");
+                       return r.holds.text().find("data.") != std::string::npos || r.proof.starts_with("data.") ||
+                              r.because.in("en").find("data.") != std::string::npos;
                      }) ||
          std::any_of(e.steps.begin(), e.steps.end(),
                      [](const ExerciseStep& s) { return s.done.text().find("data.") != std::string::npos; });
+}
+
+bool isOfAScan(const std::string& fact) { return fact.starts_with("data.") || fact.starts_with("newest."); }
+
+// Those that its proof and its texts show and its condition does not ask.
+std::vector<std::string> shownFacts(const ExerciseRule& rule) {
+  std::vector<std::string> names;
+  const auto asked = rule.holds.facts();
+  const auto take = [&](const std::string& name) {
+    const auto is = [&](const std::vector<std::string>& in) {
+      return std::find(in.begin(), in.end(), name) != in.end();
+    };
+    if (!name.empty() && !is(asked) && !is(names)) names.push_back(name);
+  };
+  take(rule.proof);
+  for (const auto& [language, text] : rule.because.texts)
+    for (const auto& name : factsInText(text)) take(name);
+  return names;
 }
 
 }  // namespace
@@ -76,6 +97,7 @@ Result<void> Rehearsal::prepare(const std::string& wanted, std::function<void()>
   host_->truth = asksThePoints(e);
   steps_.resize(e.steps.size());
   rules_.resize(e.rules.size());
+  for (const auto& rule : e.rules) shown_facts_.push_back(shownFacts(rule));
   event_happened_.resize(e.events.size());
   for (std::size_t i = 0; i < e.start.size(); ++i) {
     const auto logged = this->device().state().log.size();
@@ -87,6 +109,9 @@ Result<void> Rehearsal::prepare(const std::string& wanted, std::function<void()>
       return failure(preparing(ok.error()), "cannot prepare the exercise: " + ok.error().message,
                      fmt::format("{} /start/{}", e.file, i));
   }
+  auto& around = this->device().change().around;
+  if (e.battery) around.battery = *e.battery;
+  if (e.card_free_gb) around.card_used_bytes = std::max(0.0, around.card_bytes - *e.card_free_gb * 1e9);
   for (const auto& trouble : e.troubles)
     if (auto ok = this->device().trouble(trouble); !ok) return ok;
   started_s_ = this->device().state().clock_s;
@@ -103,7 +128,7 @@ Result<void> Rehearsal::prepare(const std::string& wanted, std::function<void()>
 }
 
 Result<void> Rehearsal::prepareModel(Progress& progress) {
-  const auto model = samplesFolder() / (exercise_.model + ".ifc");
+  TRY_ASSIGN(const auto model, modelOf(exercise_));
   progress.stage("Preparing the environment", 0, 0.3);
   auto document = done({}, "import", {{"files", json::array({model.string()})}}, progress);
   if (!document) return failure(document.error());
@@ -116,7 +141,18 @@ Result<void> Rehearsal::prepareModel(Progress& progress) {
                      fmt::format("{} /setup/{}/options", exercise_.file, i));
     document_ = *std::move(document);
   }
+  knowControl();
   return {};
+}
+
+// The known places that are copied to the instrument; heights are theirs, not of the targets above them.
+void Rehearsal::knowControl() {
+  if (exercise_.control.empty()) return;
+  Job job = document_.job ? *document_.job : Job();
+  const Eigen::Vector3d shift = document_.georeference->shift_m;
+  for (const auto& [name, at] : exercise_.control)
+    job.control_points.push_back({name, Eigen::Vector3d(at[0], at[1], at[2]) - shift, 0});
+  document_.job = std::make_shared<const Job>(std::move(job));
 }
 
 Result<void> Rehearsal::runFieldVerb(const RehearsalAction& action, Progress& progress) {
@@ -242,23 +278,52 @@ const ExerciseStep* Rehearsal::nextStep() const {
   return nullptr;
 }
 
-std::string Rehearsal::factsOf(const Condition& condition) const {
+std::string foundText(const Condition& condition, const std::map<std::string, Fact>& facts) {
   std::string text;
   for (const auto& name : condition.facts()) {
-    const auto value = fact(name);
+    const auto value = facts.find(name);
     text += (text.empty() ? "" : ", ") + name + " = " +
-            (!value          ? "–"
-             : value->number ? fmt::format("{:.6g}", *value->number)
-                             : value->text);
+            (value == facts.end()   ? "–"
+             : value->second.number ? fmt::format("{:.6g}", *value->second.number)
+                                    : value->second.text);
   }
   return text;
+}
+
+void Rehearsal::takeFacts(RuleState& state, const std::vector<std::string>& names) const {
+  for (const auto& name : names)
+    if (auto value = fact(name)) state.facts.insert_or_assign(name, *std::move(value));
+}
+
+void Rehearsal::find(std::size_t index) {
+  RuleState& state = rules_[index];
+  const auto& condition = exercise_.rules[index].holds;
+  state.facts.clear();
+  takeFacts(state, condition.facts());
+  state.found = foundText(condition, state.facts);
 }
 
 void Rehearsal::breakRule(std::size_t index) {
   RuleState& state = rules_[index];
   if (state.broken_at_s >= 0) return;
   state.broken_at_s = seconds();
-  state.found = factsOf(exercise_.rules[index].holds);
+  find(index);
+  state.awaits_scan = device().state().running.has_value();
+  takeShown(state, index, state.awaits_scan ? FactsOf::others : FactsOf::all);
+}
+
+void Rehearsal::takeShown(RuleState& state, std::size_t index, FactsOf which) const {
+  std::vector<std::string> names;
+  for (const auto& name : shown_facts_[index])
+    if (which == FactsOf::all || isOfAScan(name) == (which == FactsOf::scan)) names.push_back(name);
+  takeFacts(state, names);
+}
+
+// What a mistake does shows in the scan that ran when it was made, not in a better one that comes later.
+void Rehearsal::noteScanOf(RuleState& state, std::size_t index, const DeviceEvent& event) {
+  if (!state.awaits_scan) return;
+  if (event.what == "scan_stored") takeShown(state, index, FactsOf::scan);
+  state.awaits_scan = event.what != "scan_stored" && event.what != "scan_dropped" && event.what != "failed";
 }
 
 // A target that is not where it was during an earlier scan was moved.
@@ -292,18 +357,22 @@ void Rehearsal::watch() {
     if (event.what == "failed") failures_.push_back({seconds(), event.detail});
     for (std::size_t i = 0; i < rules_.size(); ++i) {
       const auto& rule = exercise_.rules[i];
+      noteScanOf(rules_[i], i, event);
       if (rule.when != "each" || rule.event != event.what) continue;
       rules_[i].asked = true;
       if (!rule.holds.holds(look))
         breakRule(i);
       else if (rules_[i].broken_at_s < 0)
-        rules_[i].found = factsOf(rule.holds);  // as it was when it was asked last
+        find(i);  // as it was when it was asked last
     }
   }
   for (std::size_t i = 0; i < rules_.size(); ++i) {
     const auto& rule = exercise_.rules[i];
     if (rule.when == "always" && !rule.holds.holds(look)) breakRule(i);
-    if (rule.when == "once" && !rules_[i].held && rule.holds.holds(look)) rules_[i].held = true;
+    if (rule.when == "once" && !rules_[i].held && rule.holds.holds(look)) {
+      rules_[i].held = true;
+      find(i);
+    }
   }
   for (std::size_t i = 0; i < exercise_.events.size(); ++i)
     if (!event_happened_[i] && exercise_.events[i].when.holds(look)) {
@@ -333,7 +402,12 @@ std::vector<Rehearsal::RuleState> Rehearsal::judge() const {
       states[i].held = states[i].asked && states[i].broken_at_s < 0;
     }
     states[i].asked = states[i].asked || rule.when != "each";
-    if (states[i].asked && states[i].found.empty()) states[i].found = factsOf(rule.holds);
+    if (states[i].asked && states[i].found.empty()) {
+      takeFacts(states[i], rule.holds.facts());
+      states[i].found = foundText(rule.holds, states[i].facts);
+    }
+    const bool is_of_the_end = states[i].broken_at_s < 0 || rule.when == "end";
+    if (states[i].asked && is_of_the_end) takeShown(states[i], i, FactsOf::all);
   }
   return states;
 }
@@ -360,6 +434,7 @@ std::optional<FactDomain> rehearsalDomain(const Exercise& exercise, const std::s
     return std::nullopt;
   }
   if (auto own = namedProofDomain(name, exercise)) return own;
+  if (const auto part = partFigure(name, exercise)) return part->domain;
   for (const auto& row : proofRows())
     if (name == row.name) return row.domain;
   return std::nullopt;

@@ -61,6 +61,10 @@ class Rehearsal {
     bool asked = false;       // false: its event never came
     double broken_at_s = -1;  // for the first time
     std::string found;        // what the facts of its condition were then
+    // As it was judged: the facts of its condition; then those of its proof and texts, of the scan that ran when it was
+    // broken once that is stored. What was not there is left out.
+    std::map<std::string, Fact> facts;
+    bool awaits_scan = false;  // for the latter
   };
   const std::vector<StepState>& steps() const { return steps_; }
   // The step that is to be done now; null after the last.
@@ -84,11 +88,16 @@ class Rehearsal {
   Result<void> apply(const RehearsalAction& action, Progress& progress);
   Result<void> runFieldVerb(const RehearsalAction& action, Progress& progress);
   Result<void> prepareModel(Progress& progress);
+  void knowControl();
   void watch();
   void count(const DeviceEvent& event);
   void noteTargets();
   void breakRule(std::size_t index);
-  std::string factsOf(const Condition& condition) const;  // "tilt = 0.3, data.noise = –"
+  void find(std::size_t index);  // what the facts of the rule's condition are now
+  void noteScanOf(RuleState& state, std::size_t index, const DeviceEvent& event);
+  enum class FactsOf { all, scan, others };  // of the newest scan, or not
+  void takeShown(RuleState& state, std::size_t index, FactsOf which) const;
+  void takeFacts(RuleState& state, const std::vector<std::string>& names) const;
   FactLookup lookup() const;
 
   Exercise exercise_;
@@ -97,6 +106,7 @@ class Rehearsal {
   std::unique_ptr<DeviceHost> host_;
   std::vector<StepState> steps_;
   std::vector<RuleState> rules_;
+  std::vector<std::vector<std::string>> shown_facts_;  // by rule: of its proof and texts, beside those of its condition
   std::vector<bool> event_happened_;
   std::vector<RehearsalAction> actions_;
   std::vector<Failure> failures_;
@@ -113,6 +123,8 @@ class Rehearsal {
 
 // What a rehearsal's own facts can be, for the checker; the device's stand apart.
 std::optional<FactDomain> rehearsalDomain(const Exercise& exercise, const std::string& name);
+// "tilt = 0.3, data.noise = –": the facts of the condition, in its order.
+std::string foundText(const Condition& condition, const std::map<std::string, Fact>& facts);
 // Facts that conditions of the exercise may ask on the device, but for counters and those with figures in their names.
 std::vector<std::string> factNames(const Exercise& exercise, const Device& device);
 

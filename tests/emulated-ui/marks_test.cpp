@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "emulated-ui/rehearsal/plain_words.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
@@ -35,7 +36,8 @@ json lesson() {
                "because": {"en": "Walls get thick."}, "proof": "expected.sigma.25.10"},
               {"id": "on", "text": {"en": "Stay on"}, "when": "end",
                "holds": "time <= 600", "points": 1, "must": true},
-              {"id": "warm", "text": {"en": "Warm up"}, "when": "end", "holds": "time >= 500", "points": 1}],
+              {"id": "warm", "text": {"en": "Warm up"}, "when": "end",
+               "holds": "time >= 500 and answer.why in {key_a, key_b} or time >= 500", "points": 1}],
     "questions": [{"id": "why", "text": {"en": "Why?"},
                    "choices": [{"value": "key_a", "text": {"en": "=1+1 & more"}},
                                {"value": "key_b", "text": {"en": "@home"}}]}],
@@ -124,15 +126,35 @@ TEST_F(MarksTest, AreRoundedForPeopleAndNotForMachines) {
   const double sigma = std::get<double>(proof.value), battery = *rehearsal_->fact("battery")->number;
   EXPECT_EQ(sigma, *rehearsal_->fact("expected.sigma.25.10")->number);
   EXPECT_EQ(proof.unit, "mm");
-  const auto shown_sigma = fmt::format("expected.sigma.25.10 = {:.3g} mm", sigma);
+  const auto shown_sigma = fmt::format("Range noise at 25 m on 10 %: {:.3g} mm", sigma);
   ASSERT_NE(fmt::format("{:.3g}", sigma), fmt::format("{}", sigma)) << "it has something to round";
-  const auto shown = shown_sigma + fmt::format(", battery = {:.3g} %", battery * 100);
+  const auto shown = shown_sigma + fmt::format("; Battery: {:.3g} %", battery * 100);
   EXPECT_THAT(marksText(m), HasSubstr("(required to pass): " + shown + "\n"));
   EXPECT_THAT(marksText(m), HasSubstr("measured in the data: " + shown_sigma + "\n"));
   EXPECT_THAT(page(), HasSubstr("<td>" + shown + "<br>"));
   EXPECT_THAT(page(), HasSubstr("measured in the data: " + shown_sigma + "</small>"));
-  EXPECT_THAT(page(), HasSubstr("<td>time = 1:40</td>"));
+  EXPECT_THAT(page(), HasSubstr("<td>Device time: 1:40</td>"));
   EXPECT_EQ(rowsOf(marksCsv(m))[1].at("value"), fmt::format("{}", sigma));
+}
+
+TEST_F(MarksTest, SayWhatWasExpectedInPlainLanguage) {
+  const std::pair<const char*, std::vector<const char*>> kSaid[] = {
+      {"en", {"Range noise at 25 m on 10 %: at most 0.001 mm; Battery: at most 10 %", "Device time: at least 8:20"}},
+      {"de", {"Distanzrauschen auf 25 m bei 10 %: höchstens 0.001 mm; Akku: höchstens 10 %"}},
+      {"uk", {"Акумулятор: щонайбільше 10 %", "Час на приладі: щонайменше 8:20"}}};
+  for (const auto& [language, said] : kSaid)
+    for (const char* text : said) EXPECT_THAT(page(language), HasSubstr(text));
+  for (const char* sign : {"&lt;=", "&gt;=", "==", "sigma.25"}) EXPECT_THAT(page(), Not(HasSubstr(sign)));
+  EXPECT_THAT(marks().rules[2].expected, testing::StartsWith("time >= 500 and")) << "for machines as it is written";
+}
+
+TEST_F(MarksTest, ShowAFigureOnTheSameSideOfItsLimitAsItIs) {
+  const PlainWords words{rehearsal_->device(), rehearsal_->exercise(), "en"};
+  EXPECT_EQ(words.figure("tilt", 0.123456, {}), "0.123°");
+  EXPECT_EQ(words.figure("tilt", 0.021604, {0.0216}), "0.021604°") << "it is above";
+  EXPECT_EQ(words.figure("plan.coverage", 0.29996, {0.3}), "29.996 %");
+  EXPECT_EQ(words.figure("time", 600.25, {600}), "600.2 s");
+  EXPECT_EQ(words.figure("time", 600, {600}), "10:00");
 }
 
 TEST_F(MarksTest, HaveEverythingInColumnsOfTheTable) {
