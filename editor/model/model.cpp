@@ -381,6 +381,17 @@ ViewState Model::viewState() const {
   if (const auto* painted = point_painter.of(cloud_); painted != nullptr && painted->by == view.points_by)
     state.cloud_paint = painted->paint;
   if (!visibility.alone()) state.underlays = underlays.shown(document);
+  if (document.job && !visibility.alone()) {
+    // Of one that stands on a storey which is cut open, all is shown.
+    const auto kept = [&](const Station& s) {
+      const auto& centre = s.true_pose.translation;
+      return (!state.cut_height_m || centre.z() - s.instrument_height_m < *state.cut_height_m) &&
+             (!state.clip || state.clip->contains(centre));
+    };
+    auto scene = standing_.of(*document.job, held, view.camera.eye(), kept);
+    state.instruments = std::move(scene.still);
+    state.working = std::move(scene.working);
+  }
   return state;
 }
 

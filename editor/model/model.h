@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "editor/bodies/standing.h"
 #include "editor/camera/camera.h"
 #include "editor/clouds/cloud.h"
 #include "editor/clouds/cloud_loader.h"
@@ -197,8 +198,9 @@ struct Model : Style {
   Tour tour;
   PlacementView placement;  // of what is picked
   PlaceFigures place_figures;
-  Walk walk;  // while the tool is Tool::walk
-  Fly fly;    // while the tool is Tool::fly
+  HeldInstrument held;  // what the desk has in the scene
+  Walk walk;            // while the tool is Tool::walk
+  Fly fly;              // while the tool is Tool::fly
   WalkGround walk_ground;
   WalkPlace wanted_walk;  // from where, as soon as the ground is there
   ViewHistory views;
@@ -328,6 +330,7 @@ struct Model : Style {
   bool followModel(const Environment& before, const Environment& after);  // false when they have no product in common
   Bounds boundsOfVisible(bool with_terrain) const;                        // of the model
   KeptExpectation kept_expectation_;
+  mutable StandingKeeper standing_;
   Bounds shownScanBounds() const;
   std::optional<Camera> camera_before_preview_;
   CloudLoader cloud_loader_;

@@ -10,6 +10,7 @@
 
 #include "core/environment.h"
 #include "core/result.h"
+#include "editor/bodies/standing.h"
 #include "editor/camera/camera.h"
 #include "editor/clouds/cloud.h"
 #include "editor/clouds/underlay_view.h"
@@ -71,6 +72,8 @@ struct ViewState {
   std::shared_ptr<const Cloud> cloud;             // a scan instead of the model; null: none
   std::shared_ptr<const CloudPaint> cloud_paint;  // null: its own colours
   std::vector<ShownUnderlay> underlays;
+  std::shared_ptr<const InstrumentsInScene> instruments;  // on their tripods; null: none
+  std::optional<WorkingInstrument> working;               // that of the desk, besides those
   Camera camera;
   bool still_light = false;  // the sun stays where it is when the camera turns: pictures that are put together
   GraphicsLook graphics;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -67,6 +68,18 @@ void drawTripod(const Pen& pen, const Eigen::Vector3d& centre, double height_m, 
   pen.line(head, centre, tone, width + 1);
 }
 
+// As an instrument, and large enough to be seen as one.
+bool isDrawnAsBody(const Editor& editor, const ViewState& state, const Station& station) {
+  constexpr double kLeast_px = 30;
+  const auto& centre = station.true_pose.translation;
+  const auto& camera = editor.view.camera;
+  const double depth_m = (centre - camera.eye()).dot(camera.forward());
+  if (station.instrument_height_m / camera.metresPerPixel(depth_m, editor.view.size.y()) < kLeast_px) return false;
+  const auto here = [&](const StandingInstrument& s) { return s.centre_m == centre; };
+  if (state.working && here(state.working->stands)) return true;
+  return state.instruments && std::any_of(state.instruments->still.begin(), state.instruments->still.end(), here);
+}
+
 void drawStations(Editor& editor, Pen& pen, const ViewState& state) {
   const auto& job = editor.session.document().job;
   if (!job) return;
@@ -80,9 +93,13 @@ void drawStations(Editor& editor, Pen& pen, const ViewState& state) {
     const bool chosen = editor.survey.station == static_cast<int>(i);
     const float strength = seen ? 1.0F : 0.45F;
     const ImU32 tone = faded(chosen ? tone::kAccent : tone::kStation, strength);
-    drawTripod(pen, centre, station.instrument_height_m, tone, seen ? 2.0F : 1.2F);
-    pen.circle(*place, chosen ? 6 : 5, faded(IM_COL32(20, 22, 26, 255), strength), tone);
-    if (!station.scans.empty()) pen.circle(*place, 2, tone, tone);
+    if (seen && isDrawnAsBody(editor, state, station)) {
+      if (chosen) pen.circle(*place, 6, IM_COL32(20, 22, 26, 60), tone);
+    } else {
+      drawTripod(pen, centre, station.instrument_height_m, tone, seen ? 2.0F : 1.2F);
+      pen.circle(*place, chosen ? 6 : 5, faded(IM_COL32(20, 22, 26, 255), strength), tone);
+      if (!station.scans.empty()) pen.circle(*place, 2, tone, tone);
+    }
     if (editor.view.labels && (seen || chosen || editor.view.labels_through_walls))
       pen.label(*place, station.name, faded(tone::kText, strength));
   }

@@ -59,12 +59,14 @@ void SceneLayers::arrange() {
   renderer_->RemoveAllViewProps();
   renderer_->AddActor(grid_.actor);
   model_.addSurfaces();
+  bodies_.addSolids(renderer_);
   renderer_->AddActor(shadow_.actor);
   for (Layer* layer : {&doors_, &door_edges_, &door_glass_}) renderer_->AddActor(layer->actor);
   model_.addTransparent();
   for (Layer* layer : {&shapes_, &selected_, &walkable_}) renderer_->AddActor(layer->actor);
   model_.addEdges();
   renderer_->AddActor(outline_.actor);
+  bodies_.addGlow(renderer_);
 }
 
 void SceneLayers::update(const ViewState& state, const ViewState* last) {
@@ -86,6 +88,7 @@ void SceneLayers::update(const ViewState& state, const ViewState* last) {
     outline_.actor->GetProperty()->SetColor(0.05, 0.36, 0.78);
   else if (theme)
     outline_.actor->GetProperty()->SetColor(0.42, 0.71, 1.0);
+  bodies_.update(state, last);
   updateCut(state);
 }
 

@@ -8,6 +8,7 @@
 
 #include <vtkRenderer.h>
 
+#include "editor/viewport/body_layers.h"
 #include "editor/viewport/ground_shadow.h"
 #include "editor/viewport/layer.h"
 #include "editor/viewport/merged_scene.h"
@@ -27,6 +28,7 @@ class SceneLayers {
   void setPixels(int factor);    // of the picture that is drawn, for each of the picture that is seen
   void spareLines(bool spared);  // edges of the model and the grid, in pictures to come
   const Bounds& bounds() const { return bounds_; }  // of the environment
+  const Bounds& bodies() const { return bodies_.bounds(); }
 
  private:
   void arrange();
@@ -39,6 +41,7 @@ class SceneLayers {
   vtkRenderer* renderer_;
   EdgeCache edge_cache_, door_edge_cache_;
   ModelPieces model_;
+  BodyLayers bodies_;
   Layer shadow_, shapes_, selected_, walkable_, outline_, grid_, doors_, door_glass_, door_edges_;
   Bounds bounds_;
 };

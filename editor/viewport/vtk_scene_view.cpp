@@ -444,6 +444,7 @@ class VtkSceneView : public SceneView {
     vtk->SetParallelScale(camera.heightAtTarget_m() / 2);
     Bounds reached = layers_.bounds();
     reached.extend(points_.bounds());
+    reached.extend(layers_.bodies());
     if (reached.empty()) {
       vtk->SetClippingRange(0.1, 1000);
       return;
