@@ -84,7 +84,7 @@ void act(InstrumentDesk& desk, const RehearsalAction& action) {
     done = desk.shown()->hand(action.name, action.value);
   desk.said = done ? desk.shown()->state().moved_along : done.error().message;
   desk.view.pointed.clear();
-  if (done && desk.recording) desk.recorded.push_back(action);
+  if (done && desk.records()) desk.recording->note(action, *desk.shown());
 }
 
 void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& device, const std::string& instrument) {
@@ -170,7 +170,7 @@ std::string whyForbidden(const InstrumentDesk& desk, const Session& session, std
 void takeFieldWork(InstrumentDesk& desk, const Session& session, std::string_view verb, const nlohmann::json& options) {
   if (!isFieldVerb(verb)) return;
   const RehearsalAction action{Kind::verb, std::string(verb), "", 0, options};
-  if (desk.recording) desk.recorded.push_back(action);
+  if (desk.records()) desk.recording->note(action, *desk.shown());
   if (!desk.rehearsal || desk.ended()) return;
   // A scan that was stored meanwhile has not reached the editor's document: then the verb is done once more, beside it.
   if (desk.rehearsal->document().job == desk.adopted) {

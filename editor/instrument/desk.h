@@ -16,7 +16,9 @@
 #include "emulated-ui/host.h"
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/marks.h"
+#include "emulated-ui/rehearsal/recorded_exercise.h"
 #include "emulated-ui/rehearsal/rehearsal.h"
+#include "project/task.h"
 
 namespace standpoint {
 
@@ -48,8 +50,8 @@ struct InstrumentDesk {
 
   Guidance guidance = Guidance::shown;
   std::vector<KnownExercise> exercises;
-  std::vector<std::string> exercises_refused;  // files of the user's folder, and why
-  bool exercises_read = false;
+  std::vector<std::string> exercises_refused;    // files of the user's folder, and why
+  std::optional<std::uint64_t> exercises_stamp;  // of what was read
   std::string student;
   std::optional<Marks> marks;  // of the exercise that was finished last
   std::filesystem::path marks_folder;
@@ -59,8 +61,10 @@ struct InstrumentDesk {
   std::size_t watched = 0;             // actions of the solution that were shown
   double next_watched_s = 0;
 
-  bool recording = false;
-  std::vector<RehearsalAction> recorded;
+  std::optional<Recording> recording;  // that goes on, or has ended and is not yet written
+  bool recording_ended = false;
+  std::vector<RecordedDemand> demands;                   // of one that has ended: what it shall ask
+  std::unique_ptr<Task<std::filesystem::path>> proving;  // whether it is passed by its own solution
 
   std::chrono::steady_clock::time_point last = std::chrono::steady_clock::now();
   std::pair<std::filesystem::path, const Environment*> project{"?", nullptr};
@@ -70,6 +74,7 @@ struct InstrumentDesk {
   LayoutFollower layouts;
 
   Device* shown() { return rehearsal ? &rehearsal->device() : host ? &host->device() : nullptr; }
+  bool records() const { return recording && !recording_ended; }
   // Marked: nothing more is done in it, and its clock stands.
   bool ended() const { return rehearsal && marks.has_value(); }
   DeviceHost* running() { return rehearsal ? &rehearsal->host() : host.get(); }

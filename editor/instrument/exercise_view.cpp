@@ -6,7 +6,6 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "core/part_file.h"
 #include "editor/instrument/desk.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
@@ -19,6 +18,7 @@ namespace standpoint {
 namespace {
 
 using Kind = RehearsalAction::Kind;
+namespace fs = std::filesystem;
 
 struct GuidanceRow {
   const char *name, *text;
@@ -29,11 +29,14 @@ constexpr std::array kGuidance = {
     GuidanceRow{"Watch", "Plays the sample solution."},
     GuidanceRow{"Test", "Hides steps and hints. Marking criteria are shown at the end."}};
 
+// Again whenever a file of the user's own is new or another one.
 void readExercises(InstrumentDesk& desk) {
-  if (desk.exercises_read) return;
-  desk.exercises_read = true;
+  const auto stamp = ownExercisesStamp();
+  if (desk.exercises_stamp == stamp) return;
+  desk.exercises_stamp = stamp;
   auto known = knownExercises();
   desk.exercises = std::move(known.readable);
+  desk.exercises_refused.clear();
   for (const auto& error : known.refused) desk.exercises_refused.push_back(describe(error));
 }
 
@@ -81,24 +84,69 @@ void list(InstrumentDesk& desk, Editor& editor) {
   for (const auto& refused : desk.exercises_refused) ui::wrapped(refused);
 }
 
+void beginOrEndRecording(InstrumentDesk& desk, Editor& editor) {
+  if (desk.records()) {
+    desk.recording_ended = true;
+    desk.demands = demandsOf(*desk.recording, *desk.shown());
+    return;
+  }
+  const auto& document = desk.rehearsal ? desk.rehearsal->document() : editor.session.document();
+  desk.recording.emplace(*desk.shown(), document, desk.rehearsal ? &desk.rehearsal->exercise() : nullptr);
+  desk.recording_ended = false;
+  desk.demands.clear();
+}
+
+// In the folder of the user's exercises, where the list finds it.
+void proveRecording(InstrumentDesk& desk, Editor& editor) {
+  const auto folder = ownExercisesFolder();
+  std::error_code error;
+  int number = 1;
+  const auto name = [&] { return fmt::format("R{:03d}", number); };
+  while (fs::exists(folder / (name() + ".json"), error)) ++number;
+  const auto file = folder / (name() + ".json");
+  desk.refused.clear();
+  desk.proving = std::make_unique<Task<fs::path>>(
+      tr("Check the recorded exercise"),
+      [exercise = recordedExercise(*desk.recording, *desk.shown(), desk.demands, name()),
+       model = desk.recording->modelFile(), file](Progress& progress) -> Result<fs::path> {
+        TRY(writeRecorded(exercise, model, file, progress));
+        return file;
+      },
+      editor.wake);
+}
+
+void takeProof(InstrumentDesk& desk) {
+  if (!desk.proving || !desk.proving->done()) return;
+  const auto written = desk.proving->take();
+  desk.proving.reset();
+  desk.refused = written ? trf("Written: {}", written->string()) : describe(written.error());
+  if (written) desk.recording.reset();
+}
+
 void record(InstrumentDesk& desk, Editor& editor) {
+  takeProof(desk);
   ui::gap(editor);
   if (!ImGui::CollapsingHeader(ui::Label("Record an exercise"))) return;
   ui::dimWrapped(
       "Perform the task once. Your actions become the solution of a new exercise; tick the criteria to mark.");
-  if (ui::button(desk.recording ? "Stop###record" : "Record###record")) {
-    desk.recording = !desk.recording;
-    if (desk.recording) desk.recorded.clear();
-  }
-  if (desk.recorded.empty()) return;
+  if (ui::button(desk.records() ? "Stop###record" : "Record###record",
+                 desk.proving ? "The recorded exercise is being checked." : ""))
+    beginOrEndRecording(desk, editor);
+  if (!desk.recording) return;
   ImGui::SameLine();
-  ui::dimText(trf("{} actions", desk.recorded.size()));
-  if (ui::button("Save as exercise",
-                 editor.session.folder().empty() ? "Save the project first. The file is stored next to it." : "")) {
-    const auto file = editor.session.folder() / "recorded-exercise.json";
-    const auto written = writeWholeText(file, recordedExercise(*desk.shown(), desk.recorded).dump(2) + '\n');
-    desk.refused = written ? trf("Written: {}", file.string()) : describe(written.error());
+  ui::dimText(trf("{} actions", desk.recording->actions().size()));
+  if (desk.records()) return;
+  for (std::size_t i = 0; i < desk.demands.size(); ++i) {
+    auto& demand = desk.demands[i];
+    const auto text = demand.is_rule ? trf("Criterion: {}", demand.text) : trf("Step: {}", demand.text);
+    ImGui::Checkbox(fmt::format("{}###demand{}", text, i).c_str(), &demand.wanted);
   }
+  if (desk.proving) {
+    ImGui::ProgressBar(static_cast<float>(desk.proving->progress().fraction()));
+    return;
+  }
+  const bool any = std::any_of(desk.demands.begin(), desk.demands.end(), [](const auto& d) { return d.wanted; });
+  if (ui::button("Save as exercise", any ? "" : "Tick at least one step or criterion.")) proveRecording(desk, editor);
 }
 
 constexpr Tone kHeld{IM_COL32(110, 190, 120, 255), tone::kGood.light},

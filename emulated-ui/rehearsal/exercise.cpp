@@ -11,6 +11,7 @@
 #include "core/data_folder.h"
 #include "core/json_fields.h"
 #include "core/json_file.h"
+#include "core/random.h"
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/events.h"
 #include "emulated-ui/rehearsal/exercise_words.h"
@@ -33,7 +34,8 @@ Spoken spoken(JsonFields& f, const char* key, bool required) {
   }
   JsonFields texts(f.fault(), *raw, f.pointer(key));
   texts.everyText([&](const std::string& language, const std::string& text) {
-    if (text.find_first_not_of(" \t\r\n") != std::string::npos) s.texts[language] = text;  // a blank is no translation
+    if (text.find_first_not_of(" \t\r\n") != std::string::npos) return void(s.texts[language] = text);
+    f.wrong(key, fmt::format("empty text in '{}': translate it, or leave the language out", language));
   });
   if (!s.texts.contains("en")) f.wrong(key, "missing text in 'en'");
   return s;
@@ -49,6 +51,13 @@ std::vector<double> numbersIn(JsonFault& fault, const nlohmann::json& list, cons
     found.assign(count, 0);
   }
   return found;
+}
+
+void checkCorners(JsonFault& fault, const std::vector<double>& box, const std::string& pointer) {
+  for (std::size_t axis = 0; axis + 3 < box.size() && fault.result(); ++axis)
+    if (box[axis] >= box[axis + 3])
+      fault.say(pointer, fmt::format("swapped corners: the minimum {} is {:g} and the maximum {:g}", "xyz"[axis],
+                                     box[axis], box[axis + 3]));
 }
 
 constexpr std::size_t kMostPlaces = 2000;  // of a walk
@@ -132,14 +141,6 @@ ExerciseRule rule(JsonFields& f) {
   return r;
 }
 
-fs::path ownExercisesFolder() {
-  if (const char* folder = std::getenv("STANDPOINT_EXERCISES")) return folder;
-  if (const char* config = std::getenv("XDG_CONFIG_HOME"); config != nullptr && *config != '\0')
-    return fs::path(config) / "standpoint" / "exercises";
-  const char* home = std::getenv("HOME");
-  return home == nullptr ? fs::path() : fs::path(home) / ".config" / "standpoint" / "exercises";
-}
-
 }  // namespace
 
 const std::string& Spoken::in(const std::string& language) const {
@@ -218,6 +219,7 @@ Result<Exercise> readExercise(const fs::path& file) {
   JsonFields f(fault, *json, "");
   Exercise e;
   e.file = file.filename().string();
+  e.folder = file.parent_path();
   e.id = f.text("id", "E99");
   // It names a folder, too.
   if (e.id.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_") != std::string::npos)
@@ -232,6 +234,28 @@ Result<Exercise> readExercise(const fs::path& file) {
   e.model = f.text("model", "house");
   if (const auto* area = f.raw("area"))
     e.area = numbersIn(fault, *area, "/area", 6, "must be six numbers: minimum and maximum x, y, z");
+  checkCorners(fault, e.area, "/area");
+  f.each("parts", [&](const std::string& name, const nlohmann::json& row, const std::string& pointer) {
+    if (name.empty() || name.find_first_of(". ") != std::string::npos)
+      return fault.say(pointer, "the name of a part has no dot and no blank");
+    JsonFields one(fault, row, pointer);
+    ExercisePart part;
+    part.product = one.textOr("product", "", "West wall");
+    part.floor = one.textOr("floor", "", "Ground floor");
+    if (const auto* box = one.raw("box")) {
+      part.box = numbersIn(fault, *box, pointer + "/box", 6, "must be six numbers: minimum and maximum x, y, z");
+      checkCorners(fault, part.box, pointer + "/box");
+    }
+    if (part.product.empty() && part.floor.empty() && part.box.empty())
+      one.wrong("", "specify a product, a box or a floor");
+    one.close();
+    e.parts[name] = std::move(part);
+  });
+  f.each("control", [&](const std::string& name, const nlohmann::json& at, const std::string& pointer) {
+    e.control[name] = numbersIn(fault, at, pointer, 3, "must be x, y and z");
+  });
+  if (f.has("battery")) e.battery = f.number("battery", 0, 1);
+  if (f.has("card_free_gb")) e.card_free_gb = f.number("card_free_gb", 0, 1e6);
   f.each("places", [&](const std::string& name, const nlohmann::json& at, const std::string& pointer) {
     e.places[name] = numbersIn(fault, at, pointer, 2, "must be x and y");
   });
@@ -275,10 +299,25 @@ Result<Exercise> readExercise(const fs::path& file) {
   e.time_limit_s = f.numberOr("time_limit_s", 0, 0, 1e6);
   e.pass_mark = f.numberOr("pass_mark", 0.7, 0, 1);
   e.solution = actions(f, "solution");
+  f.object("expect", [&](JsonFields& one) {
+    e.expect.passed = one.flagOr("passed", true);
+    if (one.has("score")) e.expect.score = one.number("score", 0, 1);
+    e.expect.broken = one.texts("broken");
+  });
   f.close();
   if (e.steps.empty() && e.rules.empty()) fault.say("/steps", "an exercise requires steps or rules");
   TRY(fault.result());
   return e;
+}
+
+Result<fs::path> modelOf(const Exercise& exercise) {
+  const fs::path name = exercise.model;
+  std::error_code error;
+  if (!name.has_extension()) return samplesFolder() / (exercise.model + ".ifc");
+  if (name.has_parent_path() || !fs::is_regular_file(exercise.folder / name, error))
+    return failure(ErrorKind::unusable, fmt::format("no file '{}' beside the exercise", exercise.model),
+                   exercise.file + " /model");
+  return exercise.folder / name;
 }
 
 namespace {
@@ -333,6 +372,24 @@ KnownExercises shipped(const Result<ExerciseWords>& words) {
 }  // namespace
 
 KnownExercises shippedExercises() { return shipped(ExerciseWords::read(wordsFolder())); }
+
+fs::path ownExercisesFolder() {
+  if (const char* folder = std::getenv("STANDPOINT_EXERCISES")) return folder;
+  if (const char* config = std::getenv("XDG_CONFIG_HOME"); config != nullptr && *config != '\0')
+    return fs::path(config) / "standpoint" / "exercises";
+  const char* home = std::getenv("HOME");
+  return home == nullptr ? fs::path() : fs::path(home) / ".config" / "standpoint" / "exercises";
+}
+
+std::uint64_t ownExercisesStamp() {
+  std::uint64_t stamp = 0;
+  for (const auto& file : filesIn(ownExercisesFolder())) {
+    std::error_code error;
+    const auto written = fs::last_write_time(file, error).time_since_epoch().count();
+    stamp = stableHash(fmt::format("{} {} {}", stamp, file.string(), written).c_str());
+  }
+  return stamp;
+}
 
 KnownExercises knownExercises() {
   const auto words = ExerciseWords::read(wordsFolder());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -87,20 +88,39 @@ struct ExerciseQuestion {
   std::vector<Spoken> choice_texts;
 };
 
+// A part of the environment that facts part.NAME.* are of; what is left out is anything.
+struct ExercisePart {
+  std::string product;      // name, GlobalId or id
+  std::vector<double> box;  // x, y, z of its least and of its greatest corner
+  std::string floor;        // of the storey of that name: its slabs from above
+};
+
+// What its author expects of its own solution; nothing stated: that it is passed.
+struct ExpectedOutcome {
+  bool passed = true;
+  std::optional<double> score;      // share of the points
+  std::vector<std::string> broken;  // ids of the rules that it does not hold to, such as one of a bad example
+};
+
 struct Exercise {
-  std::string file;  // name, for messages
+  std::string file;              // name, for messages
+  std::filesystem::path folder;  // that the file is in
   std::string id;
   bool tutorial = false;  // it is listed before the others
   Spoken title, goal;
   std::string source;                // what it is based on
   std::vector<std::string> devices;  // ids; the first is the standard
   std::string instrument;            // of the device; empty: its first
-  std::string model;                 // of the samples: "house"
+  std::string model;                 // of the samples: "house"; else a file beside the exercise: "hut.ifc"
   std::vector<double> area;  // x, y, z of its least and of its greatest corner: what survey.* asks of; empty: all
-  std::map<std::string, std::vector<double>> places;  // x, y of what place.NAME asks of
-  std::vector<nlohmann::json> setup;                  // verbs that prepare the environment: station, target
-  std::vector<RehearsalAction> start;                 // done by nobody: how the device is found
-  std::vector<std::string> troubles;                  // that are there from the start
+  std::map<std::string, std::vector<double>> places;   // x, y of what place.NAME asks of
+  std::map<std::string, ExercisePart> parts;           // what part.NAME.* asks of
+  std::vector<nlohmann::json> setup;                   // verbs that prepare the environment: station, target
+  std::vector<RehearsalAction> start;                  // done by nobody: how the device is found
+  std::map<std::string, std::vector<double>> control;  // x, y, z of known places, by the names of targets
+  std::optional<double> battery;                       // share, from the start; nothing: full
+  std::optional<double> card_free_gb;                  // 1e9 bytes, from the start; nothing: an empty card
+  std::vector<std::string> troubles;                   // that are there from the start
   std::vector<ExerciseEvent> events;
   bool in_order = true;
   std::vector<ExerciseStep> steps;
@@ -109,7 +129,10 @@ struct Exercise {
   double time_limit_s = 0;                // of the device's clock; 0 = none
   double pass_mark = 0.7;                 // share of the points
   std::vector<RehearsalAction> solution;  // one way to do it: to be watched, and it is tested
+  ExpectedOutcome expect;                 // of the solution
 };
+// Of its environment; a file that is not there is an error, with its place in the exercise.
+Result<std::filesystem::path> modelOf(const Exercise& exercise);
 
 // Every text of it that is said, with its place in the file: "/steps/2/hint".
 void eachText(Exercise& exercise, const std::function<void(Spoken& text, const std::string& place)>& visit);
@@ -125,10 +148,9 @@ std::vector<Error> checkExercise(const Exercise& exercise);
 // Brings it to its start on each of its devices, as for a student. What cannot be prepared is an error, and so is a
 // step that is done before the student comes; a later step that holds already is a warning in `report`.
 Result<void> checkStart(const Exercise& exercise, Report& report, Progress& progress);
-
-// A new exercise from what somebody did: its actions are the solution, and each thing that was reached on the device is
-// a step with a point, to be kept or struck out. Texts are to be filled in.
-nlohmann::json recordedExercise(const class Device& device, const std::vector<RehearsalAction>& actions);
+// Carries its solution out on its first device. An outcome other than what its author expects is an error that says
+// which steps and rules it is about; that there is no solution is a warning.
+Result<void> checkSolution(const Exercise& exercise, Report& report, Progress& progress);
 
 struct KnownExercise {
   Exercise exercise;
@@ -142,6 +164,9 @@ struct KnownExercises {
 // file within each; with what ExerciseWords have for their texts.
 KnownExercises knownExercises();
 KnownExercises shippedExercises();  // without the user's own
+std::filesystem::path ownExercisesFolder();
+// Another number once a file of the user's folder is new, gone or written anew.
+std::uint64_t ownExercisesStamp();
 // A file, or the id of a known one.
 Result<KnownExercise> findExercise(const std::string& name);
 

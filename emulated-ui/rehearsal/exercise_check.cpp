@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <numeric>
 #include <set>
@@ -11,6 +12,8 @@
 #include "core/nearest_name.h"
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/events.h"
+#include "emulated-ui/rehearsal/marks.h"
+#include "emulated-ui/rehearsal/plain_words.h"
 #include "emulated-ui/rehearsal/rehearsal.h"
 
 namespace standpoint {
@@ -61,8 +64,11 @@ class Checker {
   std::vector<Error> check() {
     checkDevices();
     if (devices_.empty()) return std::move(faults_);
-    if (const auto known = samples(); !among(known, e_.model))
+    if (std::filesystem::path(e_.model).has_extension()) {
+      if (const auto model = modelOf(e_); !model) faults_.push_back(model.error());
+    } else if (const auto known = samples(); !among(known, e_.model)) {
       fault("/model", fmt::format("unknown sample '{}'; {}", e_.model, knownInstead(e_.model, known)));
+    }
     checkTexts();
     checkQuestions();
     const auto points = [](double sum, const auto& one) { return sum + one.points; };
@@ -81,6 +87,7 @@ class Checker {
       const auto place = fmt::format("/rules/{}", i);
       checkCondition(e_.rules[i].holds, place + "/holds");
       if (!e_.rules[i].proof.empty()) (void)checkFact(e_.rules[i].proof, devices_.front(), place + "/proof");
+      checkFigures(e_.rules[i].because, place + "/because");
     }
     for (std::size_t i = 0; i < e_.events.size(); ++i) {
       checkCondition(e_.events[i].when, fmt::format("/events/{}/when", i));
@@ -93,6 +100,9 @@ class Checker {
       checkVerb(verb.at("verb").get<std::string>(), verb.at("options"), place);
       checkPrepares(verb.at("verb").get<std::string>(), verb.at("options"), place);
     }
+    for (const auto& id : e_.expect.broken)
+      if (const auto known = idsOf(e_.rules); !among(known, id))
+        fault("/expect/broken", fmt::format("unknown rule '{}'; {}", id, knownInstead(id, known)));
     checkActions(e_.start, "/start");
     checkActions(e_.solution, "/solution");
     return std::move(faults_);
@@ -141,6 +151,14 @@ class Checker {
     fault(place, fmt::format("{}: unknown fact '{}'; {} (full list: standpoint rehearse --names --device {})", id, name,
                              knownInstead(name, factNames(e_, device), kMostFacts), id));
     return false;
+  }
+
+  void checkFigures(const Spoken& because, const std::string& place) {
+    for (const auto& [language, text] : because.texts) {
+      if (const auto ok = standpoint::checkFigures(text); !ok) return fault(place, ok.error().message);
+      for (const auto& name : factsInText(text))
+        if (!checkFact(name, devices_.front(), place)) return;
+    }
   }
 
   // It must be possible on each device of the exercise.
@@ -270,6 +288,11 @@ class Checker {
       for (std::size_t k = 0; k < choices.size(); ++k)
         if (std::count(choices.begin(), choices.begin() + static_cast<std::ptrdiff_t>(k), choices[k]) > 0)
           fault(fmt::format("/questions/{}/choices/{}/value", i, k), fmt::format("duplicate '{}'", choices[k]));
+      const auto asks = [fact = "answer." + e_.questions[i].id](const Condition& c) { return among(c.facts(), fact); };
+      if (std::none_of(e_.steps.begin(), e_.steps.end(), [&](const ExerciseStep& s) { return asks(s.done); }) &&
+          std::none_of(e_.rules.begin(), e_.rules.end(), [&](const ExerciseRule& r) { return asks(r.holds); }))
+        fault(fmt::format("/questions/{}", i),
+              fmt::format("nothing asks for its answer: let a step or a rule use answer.{}", e_.questions[i].id));
     }
   }
 
@@ -320,6 +343,56 @@ std::vector<std::string> devicesOf(const Exercise& exercise) {
 }  // namespace
 
 std::vector<Error> checkExercise(const Exercise& exercise) { return Checker(exercise).check(); }
+
+namespace {
+
+std::string quoted(const std::vector<std::string>& ids) {
+  return ids.empty() ? "none" : fmt::format("'{}'", fmt::join(ids, "', '"));
+}
+
+// What the outcome is, where it is another than the author expects; with the actions that were refused on the way.
+std::string unexpected(const ExpectedOutcome& expect, const Marks& marks, const std::string& refused) {
+  std::string text;
+  const auto say = [&](const std::string& what) { text += (text.empty() ? "" : "; ") + what; };
+  if (marks.passed != expect.passed) say(marks.passed ? "it is passed" : whyNotPassed(marks));
+  if (expect.score && std::abs(*expect.score - marks.score) > 5e-4)
+    say(fmt::format("score {:.4g}, expected {:.4g}", marks.score, *expect.score));
+  std::vector<std::string> open;
+  for (const auto& step : marks.steps)
+    if (!step.done) open.push_back(step.id);
+  if (!text.empty() && !open.empty()) say("steps not done: " + quoted(open));
+  std::vector<std::string> broken;
+  for (const auto& rule : marks.rules)
+    if (!rule.held) broken.push_back(rule.id);
+  std::sort(broken.begin(), broken.end());
+  auto wanted = expect.broken;
+  std::sort(wanted.begin(), wanted.end());
+  if (!wanted.empty() && broken != wanted)
+    say(fmt::format("rules not held: {}, expected: {}", quoted(broken), quoted(wanted)));
+  return text.empty() || refused.empty() ? text : text + "; refused: " + refused;
+}
+
+}  // namespace
+
+Result<void> checkSolution(const Exercise& exercise, Report& report, Progress& progress) {
+  if (exercise.solution.empty()) {
+    report.warn(exercise.file + " /solution", "there is no solution to carry out");
+    return {};
+  }
+  TRY_ASSIGN(const auto folder, ScratchFolder::make());
+  TRY_ASSIGN(const auto rehearsal, Rehearsal::start(exercise, {}, folder.path(), {}, progress));
+  std::string refused;
+  for (std::size_t i = 0; i < exercise.solution.size(); ++i)
+    if (const auto done = rehearsal->act(exercise.solution[i], progress); !done) {
+      if (done.error().kind == ErrorKind::cancelled) return failure(done.error());
+      if (refused.empty()) refused = fmt::format("/solution/{} {}", i, describe(done.error()));
+    }
+  const auto text = unexpected(exercise.expect, marksOf(*rehearsal, {}, "en"), refused);
+  if (!text.empty())
+    return failure(ErrorKind::unusable, "the solution does not do what is expected of it: " + text,
+                   exercise.file + " /solution");
+  return {};
+}
 
 Result<void> checkStart(const Exercise& exercise, Report& report, Progress& progress) {
   for (const auto& device : devicesOf(exercise)) {

@@ -111,10 +111,10 @@ Result<Report> findingsOf(const std::string& file, std::string& id, Progress& pr
   id = exercise->id;
   for (const auto& fault : checkExercise(*exercise)) report.lose(fault.source, fault.message);
   if (!report.issues.empty()) return report;
-  if (const auto started = checkStart(*exercise, report, progress); !started) {
-    if (started.error().kind != ErrorKind::unusable) return failure(started.error());
-    report.lose(started.error().source, started.error().message);
-  }
+  auto sound = checkStart(*exercise, report, progress);
+  if (sound) sound = checkSolution(*exercise, report, progress);
+  if (!sound && sound.error().kind != ErrorKind::unusable) return failure(sound.error());
+  if (!sound) report.lose(sound.error().source, sound.error().message);
   return report;
 }
 
@@ -238,8 +238,9 @@ const Fields<RehearseOptions>& rehearseFields() {
       {"actions", &O::actions, "list of actions to carry out; an exported result replays"},
       {"solution", &O::solution, "carry out the exercise's own solution"},
       {"check", &O::check,
-       "exercise files to check and start; list all that is wrong with them and do nothing else (exit code 3: one is "
-       "refused)"},
+       "exercise files to check: what is wrong with them, and whether their solutions do what is expected of them "
+       "(exit "
+       "code 3: one is refused)"},
       {"names", &O::names, "list the devices, or with --device all names and choices for its exercises"},
       {"words", &O::words,
        "list the texts of devices and exercises that a language lacks (exit code 3: there are some)"},

@@ -3,10 +3,12 @@
 
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "emulated-ui/rehearsal/marks.h"
+#include "emulated-ui/rehearsal/recorded_exercise.h"
 #include "emulated-ui/sighting.h"
 #include "tests/project/support.h"
 
@@ -220,6 +222,88 @@ TEST_F(RehearsalTest, AHeldRuleTellsWhatWasThereWhenItWasAsked) {
   EXPECT_EQ(rules[0].found, "tilt = 0.5");
 }
 
+// The proof is of the scan that the mistake was made in, whatever is scanned afterwards.
+TEST_F(RehearsalTest, ABrokenRuleKeepsTheValuesItWasJudgedBy) {
+  auto text = shortLesson();
+  text["rules"][0]["because"]["en"] =
+      "It leans by {data.tilt}; over 10 m that is {data.tilt / 57.2958 * 10000 : 0} mm, and {data.nothing} {";
+  EXPECT_THAT(refusal(text), HasSubstr("/rules/0/because"));
+  text["rules"][0]["because"]["en"] =
+      "It leans by {data.tilt}; over 10 m that is {data.tilt / 57.2958 * 10000 : 0} mm.";
+  text["rules"][0]["proof"] = "data.tilt";
+  const auto rehearsal = start(text);
+  ASSERT_NE(rehearsal, nullptr);
+  const auto scan = [&](const char* tilt, bool asks) {
+    ASSERT_TRUE(act(*rehearsal, {{"hand", "tilt"}, {"value", tilt}}));
+    ASSERT_TRUE(act(*rehearsal, {{"press", "start_scan"}}));
+    if (asks) (void)act(*rehearsal, {{"press", "continue"}});
+    ASSERT_TRUE(act(*rehearsal, {{"finish", true}}));
+    ASSERT_TRUE(act(*rehearsal, {{"press", "home"}}));
+  };
+  scan("5.5,0", true);
+  ASSERT_EQ(rehearsal->fact("setups")->number, 1);
+  const double leant = *rehearsal->fact("data.tilt")->number;
+  EXPECT_NEAR(leant, 5.5, 0.1);
+  scan("0.5,0", false);
+  ASSERT_EQ(rehearsal->fact("setups")->number, 2);
+  EXPECT_LT(*rehearsal->fact("data.tilt")->number, 0.1);
+  const auto marks = marksOf(*rehearsal, "", "en");
+  const auto& rule = marks.rules[0];
+  EXPECT_EQ(rule.found, "tilt = 5.5");
+  ASSERT_TRUE(rule.proof);
+  EXPECT_EQ(std::get<double>(rule.proof->value), leant);
+  EXPECT_EQ(*rule.because,
+            fmt::format("It leans by {:.3g}°; over 10 m that is {:.0f} mm.", leant, leant / 57.2958 * 10000));
+}
+
+TEST_F(RehearsalTest, EachStoredScanTellsWhatItWasMadeWith) {
+  const auto rehearsal = start(shortLesson());
+  ASSERT_NE(rehearsal, nullptr);
+  EXPECT_FALSE(rehearsal->fact("newest.setting.resolution"));
+  EXPECT_FALSE(rehearsal->fact("setup.1.points"));
+  ASSERT_TRUE(act(*rehearsal, {{"press", "start_scan"}}));
+  ASSERT_TRUE(act(*rehearsal, {{"finish", true}}));
+  ASSERT_TRUE(act(*rehearsal, {{"press", "home"}}));
+  for (const char* widget : {"parameters", "resolution_quality"}) ASSERT_TRUE(act(*rehearsal, {{"press", widget}}));
+  ASSERT_TRUE(act(*rehearsal, {{"press", "resolution"}, {"value", "1/20"}}));
+  EXPECT_EQ(rehearsal->fact("setting.resolution")->text, "1/20");
+  EXPECT_EQ(rehearsal->fact("newest.setting.resolution")->text, "1/32") << "as it was scanned";
+  EXPECT_EQ(rehearsal->fact("setup.1.setting.resolution")->text, "1/32");
+  EXPECT_EQ(rehearsal->fact("setup.1.station")->text, "S1");
+  EXPECT_EQ(rehearsal->fact("newest.points")->number, rehearsal->fact("data.points")->number);
+  EXPECT_GT(*rehearsal->fact("newest.spacing")->number, *rehearsal->fact("expected.spacing")->number);
+  EXPECT_FALSE(rehearsal->fact("setup.2.points"));
+  auto asks = shortLesson();
+  asks["steps"][0]["done"] = "newest.setting.resolution == 1/33";
+  EXPECT_THAT(refusal(asks), HasSubstr("/steps/0/done"));
+}
+
+// A sector of the window wall is scanned; nothing of the floor is.
+TEST_F(RehearsalTest, APartOfTheRoomTellsWhatOfItHasPoints) {
+  auto text = shortLesson();
+  text["parts"] = json::parse(R"({"all": {"box": [0, 0, 0, 9, 6, 3]}, "above": {"box": [0, 0, 2.2, 9, 6, 3]},
+                                  "up": {"box": [0, 0, 500, 1, 1, 501]}})");
+  text["steps"][1]["done"] = "part.all.seen > 2";
+  EXPECT_THAT(refusal(text), HasSubstr("/steps/1/done")) << "a share is at most 1";
+  text["steps"][1]["done"] = "part.all.points > 0";
+  const auto rehearsal = start(text);
+  ASSERT_NE(rehearsal, nullptr);
+  EXPECT_EQ(*rehearsal->fact("part.all.seen")->number, 0);
+  ASSERT_TRUE(act(*rehearsal, {{"press", "start_scan"}}));
+  ASSERT_TRUE(act(*rehearsal, {{"finish", true}}));
+  const auto figure = [&](const char* name) { return rehearsal->fact(name)->number.value_or(-1); };
+  EXPECT_TRUE(rehearsal->steps()[1].done || rehearsal->steps()[0].done);
+  EXPECT_GT(figure("part.all.points"), 20);
+  EXPECT_GT(figure("part.all.seen"), 0);
+  EXPECT_LT(figure("part.all.seen"), 0.5);
+  EXPECT_GT(figure("part.all.spacing"), 5);
+  EXPECT_GT(figure("part.all.hole"), 1);
+  EXPECT_LT(figure("part.all.hole"), figure("part.all.area"));
+  EXPECT_GT(figure("part.all.hole_x"), 0);
+  EXPECT_EQ(figure("part.above.points"), 0) << "the window of 5 degrees ends below";
+  EXPECT_EQ(figure("part.up.area"), 0);
+}
+
 TEST_F(RehearsalTest, NobodyStandsAtAStationThatIsNotThere) {
   const auto rehearsal = start(shortLesson());
   ASSERT_TRUE(rehearsal);
@@ -238,19 +322,47 @@ TEST_F(RehearsalTest, APressWithAValueCountsWithoutItToo) {
 }
 
 // A setting that is what it always is would be done before anybody comes.
-TEST_F(RehearsalTest, ARecordedExerciseCanBeStarted) {
+TEST_F(RehearsalTest, ARecordedExerciseKeepsWhereItStoodAndWhatWasWaitedForAndIsPassedByItsOwnSolution) {
   const auto rehearsal = start(shortLesson());
   ASSERT_TRUE(rehearsal);
   const auto& settings = rehearsal->device().type().instrument.settings;
   const auto default_value =
       std::find_if(settings.begin(), settings.end(), [](const auto& s) { return s.key == "quality"; })->default_value;
-  for (const char* widget : {"parameters", "resolution_quality"}) ASSERT_TRUE(act(*rehearsal, {{"press", widget}}));
-  ASSERT_TRUE(act(*rehearsal, {{"press", "resolution"}, {"value", "1/8"}}));
-  ASSERT_TRUE(act(*rehearsal, {{"press", "quality"}, {"value", default_value}}));
-  const auto recorded = recordedExercise(rehearsal->device(), rehearsal->actions());
-  ASSERT_EQ(recorded["steps"].size(), 1U);
-  EXPECT_EQ(recorded["steps"][0]["id"], "resolution");
-  EXPECT_EQ(refusal(recorded), "");
+  Recording recording(rehearsal->device(), rehearsal->document(), &rehearsal->exercise());
+  const auto done = [&](const json& action) {
+    ASSERT_TRUE(act(*rehearsal, action));
+    const auto read = *actionFrom(action, "test", "");
+    if (read.kind != RehearsalAction::Kind::wait && read.kind != RehearsalAction::Kind::finish)
+      recording.note(read, rehearsal->device());
+  };
+  for (const char* widget : {"parameters", "resolution_quality"}) done({{"press", widget}});
+  done({{"press", "resolution"}, {"value", "1/8"}});
+  done({{"press", "quality"}, {"value", default_value}});
+  for (const char* widget : {"back", "back"}) done({{"press", widget}});
+  done({{"wait", 30}});
+  done({{"press", "start_scan"}});
+  done({{"finish", true}});
+  done({{"press", "look"}});
+  done({{"finish", true}});
+  const auto demands = demandsOf(recording, rehearsal->device());
+  std::vector<std::string> ids;
+  for (const auto& demand : demands) ids.push_back(demand.row["id"]);
+  EXPECT_THAT(ids, testing::ElementsAre("resolution", "scan", "whole", "level", "look"));
+  EXPECT_EQ(demands[0].text, "Resolution: 1/8");
+  const auto recorded = recordedExercise(recording, rehearsal->device(), demands, "R1");
+  EXPECT_THAT(recorded["solution"], testing::Contains(json{{"wait", 30.0}}));
+  EXPECT_THAT(recorded["solution"], testing::Contains(json{{"finish", true}}));
+  EXPECT_EQ(recorded["setup"][0]["options"]["add"], "S1");
+  const auto file = folder_.path() / "own" / "r1.json";
+  const auto written = writeRecorded(recorded, {}, file, quiet_);
+  ASSERT_TRUE(written) << describe(written.error());
+  EXPECT_TRUE(std::filesystem::exists(file));
+  auto wrong = recorded;
+  wrong["steps"][1]["done"] = "setups >= 2";
+  const auto refused = writeRecorded(wrong, {}, folder_.path() / "own" / "r2.json", quiet_);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(describe(refused.error()), HasSubstr("steps not done: 'scan'")) << "it is not written";
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "own" / "r2.json"));
 }
 
 }  // namespace

@@ -75,6 +75,29 @@ TEST(RehearseCheck, StartsTheExercise) {
   EXPECT_GT(checked->report.losses(), 0U);
 }
 
+TEST(RehearseCheck, CarriesTheSolutionOutAndExpectsWhatTheAuthorSays) {
+  const TemporaryFolder folder;
+  const auto file = (folder.path() / "x.json").string();
+  const auto said = [&](const json& text) {
+    std::ofstream(file) << text;
+    const auto checked = rehearseVerb({{"check", {file}}});
+    EXPECT_TRUE(checked) << describe(checked.error());
+    return checked ? checked->answer["files"][0]["findings"].dump() : std::string();
+  };
+  const auto good = json::parse(wholeText(shippedExercise("e03-spacing-x7.json")));
+  auto text = good;
+  for (int i = 0; i < 2; ++i) text["solution"].erase(text["solution"].size() - 1);
+  EXPECT_THAT(said(text), HasSubstr("x.json /solution"));
+  EXPECT_THAT(said(text), HasSubstr("not passed"));
+  text = good;
+  text["expect"] = {{"score", 0.5}};
+  EXPECT_THAT(said(text), HasSubstr("score 1, expected 0.5"));
+  text["expect"] = {{"score", 1}};
+  EXPECT_EQ(said(text), "[]");
+  text.erase("solution");
+  EXPECT_THAT(said(text), HasSubstr("no solution"));
+}
+
 TEST(RehearseCheck, OfSoundFilesOnlyIsNoLoss) {
   const auto checked = rehearseVerb({{"check", {shippedExercise("e19-walk.json")}}});
   ASSERT_TRUE(checked) << describe(checked.error());
