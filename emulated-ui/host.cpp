@@ -244,6 +244,7 @@ void DeviceHost::startScan(const ScanOrder& order, const Document& document, con
     if (!pose) return device_.orderFailed(describe(pose.error()));
     company.believed = *std::move(pose);
   }
+  if (watch) company.watcher = watch(order);
   startTask(fmt::format("{}: {} at {}", device_.type().definition.title, order.name, order.station),
             [order, options, company, d = std::move(leans)](Progress& p) -> Result<Delivery> {
               auto scan = scanned(d, order, options, company, p);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/points.h"
 #include "emulated-ui/device/device.h"
 #include "project/task.h"
 #include "project/verb.h"
@@ -34,6 +35,8 @@ class DeviceHost {
   double time_factor = 20;  // device seconds per second: 1 is rehearsal in real time
   std::uint64_t seed = 1;
   bool truth = false;  // the files hold what is known of each point
+  // Who sees the points of a scan beside its file, as they are simulated; empty, or null: nobody.
+  std::function<std::shared_ptr<PointSink>(const ScanOrder&)> watch;
 
   // A project that is opened: the device gets back what it remembers in the folder of the scans, and remembers from
   // here on. What cannot be read stays as it is, and nothing is written over it.

@@ -10,6 +10,7 @@
 #include "editor/instrument/preview_picture.h"
 #include "editor/words/words.h"
 #include "emulated-ui/rehearsal/marks.h"
+#include "emulated-ui/sighting.h"
 #include "project/storage/project_files.h"
 #include "survey/instruments.h"
 
@@ -91,6 +92,7 @@ void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& de
   desk.device = &device;
   desk.instrument = instrument;
   desk.host.reset();
+  desk.growing.reset();
   desk.refused.clear();
   desk.said.clear();
   auto type = loadDevice(device, instrument);
@@ -118,6 +120,34 @@ void followProject(InstrumentDesk& desk, Editor& editor) {
     chooseDevice(desk, editor, *desk.device, desk.instrument);  // saved elsewhere: the same device goes on
 }
 
+namespace {
+
+// What of the device is seen in the scene: where it stands, what moves on it, and what it has measured there.
+void showInScene(InstrumentDesk& desk, Editor& editor) {
+  const auto& device = std::as_const(*desk.shown());
+  const auto& station_name = device.state().around.station;
+  auto& held = editor.held;
+  const bool ticks = device.busy() && !desk.running()->clockStands() && !desk.ended();
+  held.instrument = device.type().instrument.id;
+  held.station = station_name;
+  const double before_rad = held.motion.head_rad;
+  held.motion = desk.motion.of(device, std::chrono::duration<double>(desk.last.time_since_epoch()).count(), ticks);
+  held.moves = ticks && (held.motion.mirror_turns || held.motion.head_rad != before_rad);
+  const auto& document = desk.rehearsal ? desk.rehearsal->document() : editor.session.document();
+  const auto* station = stationOf(document, station_name);
+  const auto turns = desk.motion.turns();
+  if (turns && station != nullptr && ticks)
+    held.motion.fans = fansOf(desk.motion.shape(device), std::fmod(*turns, 1.0), standing(*station, held.instrument),
+                              editor.picker.scene().get());
+  if (desk.growing_at != station_name) desk.growing.reset();
+  if (desk.growing)
+    editor.growing = desk.growing->shown(turns.value_or(1));
+  else
+    editor.growing.clear();
+}
+
+}  // namespace
+
 void advance(InstrumentDesk& desk, Editor& editor) {
   const auto now = std::chrono::steady_clock::now();
   // A window that slept gives no lump of time to a device that was idle meanwhile; in an exercise the clock always
@@ -126,6 +156,11 @@ void advance(InstrumentDesk& desk, Editor& editor) {
   desk.last = now;
   // Only waiting is shortened: what the student needs to read and press takes its own time, also in an exercise.
   desk.running()->time_factor = desk.running()->busy() ? desk.time_factor : 1;
+  desk.running()->watch = [&desk, &editor](const ScanOrder& order) {
+    desk.growing = std::make_shared<GrowingCloud>(desk.motion.shape(*desk.shown()), editor.shift_m());
+    desk.growing_at = order.station;
+    return desk.growing;
+  };
   if (desk.rehearsal) {
     desk.rehearsal->pass(desk.ended() ? 0 : seconds);
     watch(desk);
@@ -146,6 +181,7 @@ void advance(InstrumentDesk& desk, Editor& editor) {
       editor.wake();  // panels that were drawn before this one show it, too
     }
   }
+  showInScene(desk, editor);
   if (const auto view = desk.shown()->takeView()) editor.showClouds({view->file});
   if (!desk.view.texture)
     desk.view.texture = [&desk, &editor](const std::shared_ptr<const ScanPreview>& preview) -> std::uint64_t {
@@ -232,6 +268,7 @@ void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercis
   editor.scan_choice = ScanChoice{.instrument = (*rehearsal)->device().type().instrument.id};
   desk.opener.forget();
   desk.host.reset();
+  desk.growing.reset();
   desk.rehearsal = *std::move(rehearsal);
   desk.adopted = desk.rehearsal->document().job;
   desk.marks.reset();

@@ -8,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "editor/clouds/growing_cloud.h"
 #include "editor/desktop/desktop_opener.h"
 #include "editor/instrument/layout_follower.h"
+#include "editor/instrument/motion.h"
 #include "editor/instrument/preview_picture.h"
 #include "editor/shell/editor.h"
 #include "emulated-ui/draw/device_view.h"
@@ -72,6 +74,9 @@ struct InstrumentDesk {
   std::vector<std::pair<std::string, std::string>> scanners;  // that the device can drive: id and name
   PreviewPictures pictures;
   LayoutFollower layouts;
+  MotionOfDevice motion;
+  std::shared_ptr<GrowingCloud> growing;  // of the scan that was begun last; null: none, or it was carried away
+  std::string growing_at;                 // the station of that
 
   Device* shown() { return rehearsal ? &rehearsal->device() : host ? &host->device() : nullptr; }
   bool records() const { return recording && !recording_ended; }

@@ -381,6 +381,7 @@ ViewState Model::viewState() const {
   if (const auto* painted = point_painter.of(cloud_); painted != nullptr && painted->by == view.points_by)
     state.cloud_paint = painted->paint;
   if (!visibility.alone()) state.underlays = underlays.shown(document);
+  state.underlays.insert(state.underlays.end(), growing.begin(), growing.end());
   if (document.job && !visibility.alone()) {
     // Of one that stands on a storey which is cut open, all is shown.
     const auto kept = [&](const Station& s) {

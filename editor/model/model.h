@@ -198,9 +198,10 @@ struct Model : Style {
   Tour tour;
   PlacementView placement;  // of what is picked
   PlaceFigures place_figures;
-  HeldInstrument held;  // what the desk has in the scene
-  Walk walk;            // while the tool is Tool::walk
-  Fly fly;              // while the tool is Tool::fly
+  HeldInstrument held;                 // what the desk has in the scene
+  std::vector<ShownUnderlay> growing;  // what its scan has measured so far
+  Walk walk;                           // while the tool is Tool::walk
+  Fly fly;                             // while the tool is Tool::fly
   WalkGround walk_ground;
   WalkPlace wanted_walk;  // from where, as soon as the ground is there
   ViewHistory views;

@@ -159,7 +159,7 @@ class Window {
     pacer_.waitForWork(events_, [&] {
       FramePacer::Reasons reasons{.input = input_.pending(),
                                   .key_held = keyboard::anyHeld(),
-                                  .walker_moves = editor_.walk.moves() || editor_.fly.moves(),
+                                  .walker_moves = editor_.walk.moves() || editor_.fly.moves() || editor_.held.moves,
                                   .text_edited = ImGui::GetIO().WantTextInput,
                                   .job_runs = editor_.jobRuns(),
                                   .refining = refining(),
