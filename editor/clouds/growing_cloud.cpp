@@ -10,6 +10,35 @@ namespace standpoint {
 namespace {
 
 constexpr double kWhole_rad = 2 * std::numbers::pi;
+constexpr int kForeseenAtOnce = 4;  // parts in one picture: some milliseconds
+
+// By the model alone: no noise, and lighter where the beam meets a surface straight.
+std::shared_ptr<const Cloud> foreseenPart(const RayScene& scene, const StandingInstrument& stands,
+                                          const SweepShape& shape, std::size_t part) {
+  constexpr int kColumns = 20, kRows = 80;
+  constexpr double kFarthest_m = 100, kInInstrument_m = 0.2;
+  Cloud cloud;
+  cloud.header.origin_m = stands.centre_m;
+  for (int column = 0; column < kColumns; ++column)
+    for (int row = 0; row < kRows; ++row) {
+      const double azimuth = shape.from_rad + (static_cast<double>(part) + (column + 0.5) / kColumns) * kWhole_rad /
+                                                  static_cast<double>(GrowingCloud::kParts);
+      const double elevation = shape.low_rad + (shape.high_rad - shape.low_rad) * (row + 0.5) / kRows;
+      const Eigen::Vector3d way =
+          stands.rotation * Eigen::Vector3d(std::cos(azimuth) * std::cos(elevation),
+                                            -std::sin(azimuth) * std::cos(elevation), std::sin(elevation));
+      const Eigen::Vector3d from = stands.centre_m + kInInstrument_m * way;
+      const auto hit = scene.intersect(from, way, kFarthest_m);
+      if (!hit) continue;
+      const Eigen::Vector3f place = ((hit->range_m + kInInstrument_m) * way).cast<float>();
+      CloudPoint point;
+      point.position_m = {place.x(), place.y(), place.z()};
+      cloud.points.push_back(point);
+      const auto grey = static_cast<std::uint8_t>(60 + 170 * std::abs(hit->normal.dot(way)));
+      cloud.colours.push_back({grey, grey, grey, 255});
+    }
+  return std::make_shared<const Cloud>(std::move(cloud));
+}
 
 }  // namespace
 
@@ -21,6 +50,7 @@ Result<void> GrowingCloud::begin(const ScanHeader& header) {
   seen_ = 0;
   points_.assign(kParts, {});
   parts_.assign(kParts, nullptr);
+  whole_ = false;
   colouring_.reset();
   return {};
 }
@@ -40,6 +70,7 @@ Result<void> GrowingCloud::write(const PointBlock& block) {
   const double measured = shape_.turn_rad * shape_.fans / kWhole_rad;
   for (std::size_t part = 0; part < kParts; ++part)
     if (!parts_[part] && (done >= 1 || done * measured * kParts >= static_cast<double>(part + 2))) finish(part);
+  whole_ = done >= 1;
   return {};
 }
 
@@ -59,13 +90,27 @@ double GrowingCloud::endOf(std::size_t part) const {
   return shareAt(shape_, shape_.from_rad + (static_cast<double>(part) + 0.999) * kWhole_rad / kParts);
 }
 
-std::vector<ShownUnderlay> GrowingCloud::shown(double share) const {
+void GrowingCloud::foresee(std::shared_ptr<const RayScene> scene, const StandingInstrument& stands) {
+  scene_ = std::move(scene);
+  stands_ = stands;
+}
+
+std::vector<ShownUnderlay> GrowingCloud::shown(std::optional<double> share) {
   const std::lock_guard lock(mutex_);
+  passed_ = std::max(passed_, share.value_or(0));
+  const bool all_of_it = whole_ && !share;
+  int foreseen_now = 0;
   std::vector<ShownUnderlay> all;
-  for (std::size_t part = 0; part < parts_.size(); ++part) {
-    if (!parts_[part] || parts_[part]->points.empty() || (share < 1 && endOf(part) > share)) continue;
-    ShownUnderlay shown{parts_[part], Eigen::Matrix4d::Identity()};
-    shown.local_from_cloud.topRightCorner<3, 1>() = parts_[part]->pointsOrigin_m();
+  for (std::size_t part = 0; part < kParts; ++part) {
+    if (!all_of_it && passed_ < 1 && endOf(part) > passed_) continue;
+    auto cloud = parts_[part];
+    const bool measured = (static_cast<double>(part) + 0.5) * kWhole_rad / kParts < shape_.turn_rad * shape_.fans;
+    if (!cloud && scene_ && measured && !foreseen_[part] && foreseen_now++ < kForeseenAtOnce)
+      foreseen_[part] = foreseenPart(*scene_, stands_, shape_, part);
+    if (!cloud) cloud = foreseen_[part];
+    if (!cloud || cloud->points.empty()) continue;
+    ShownUnderlay shown{cloud, Eigen::Matrix4d::Identity()};
+    shown.local_from_cloud.topRightCorner<3, 1>() = cloud->pointsOrigin_m();
     all.push_back(std::move(shown));
   }
   return all;

@@ -11,7 +11,8 @@
 namespace standpoint {
 
 // A thinned scan that appears in the scene as the beam passes: written by the thread that simulates it, looked at by
-// the one that draws. It is cut like a cake, so that what is there already stays as it is when more comes.
+// the one that draws. It is cut like a cake, so that what is there already stays as it is when more comes. Where the
+// beam is ahead of the simulation, plain rays say what it meets, until the measured points take their place.
 class GrowingCloud : public PointSink {
  public:
   static constexpr std::uint64_t kMostPoints = 160000;
@@ -23,8 +24,11 @@ class GrowingCloud : public PointSink {
   Result<void> end() override { return {}; }
   Result<void> close() override { return {}; }
 
-  // What the beam has passed when the head has done that share of its turn, as far as it is simulated; local frame.
-  std::vector<ShownUnderlay> shown(double share) const;
+  // From where it is scanned; without it nothing is shown ahead of the simulation.
+  void foresee(std::shared_ptr<const RayScene> scene, const StandingInstrument& stands);
+  // What the beam has passed when the head has done that share of its turn; nothing: it measures no more, so what it
+  // had passed, or all when all is simulated. Local frame.
+  std::vector<ShownUnderlay> shown(std::optional<double> share);
 
  private:
   void finish(std::size_t part);
@@ -36,7 +40,14 @@ class GrowingCloud : public PointSink {
   std::uint64_t step_ = 1, seen_ = 0, columns_ = 1;
   std::optional<CloudColouring> colouring_;  // of the first part: the same for all
   std::vector<std::vector<CloudPoint>> points_;
-  std::vector<std::shared_ptr<const Cloud>> parts_;  // null: not all of it is there
+  std::vector<std::shared_ptr<const Cloud>> parts_ =
+      std::vector<std::shared_ptr<const Cloud>>(kParts);  // null: not all of it is there
+  bool whole_ = false;                                    // all of them are
+  double passed_ = 0;
+  // Of the thread that draws.
+  std::shared_ptr<const RayScene> scene_;
+  StandingInstrument stands_;
+  std::vector<std::shared_ptr<const Cloud>> foreseen_ = std::vector<std::shared_ptr<const Cloud>>(kParts);
 };
 
 }  // namespace standpoint

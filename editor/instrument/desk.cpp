@@ -140,10 +140,12 @@ void showInScene(InstrumentDesk& desk, Editor& editor) {
     held.motion.fans = fansOf(desk.motion.shape(device), std::fmod(*turns, 1.0), standing(*station, held.instrument),
                               editor.picker.scene().get());
   if (desk.growing_at != station_name) desk.growing.reset();
-  if (desk.growing)
-    editor.growing = desk.growing->shown(turns.value_or(1));
-  else
-    editor.growing.clear();
+  if (!desk.growing) return editor.growing.clear();
+  if (station != nullptr) desk.growing->foresee(editor.picker.scene(), standing(*station, held.instrument));
+  const bool measured = device.state().running && device.state().laser_s > 0;  // and it takes pictures, or stores
+  editor.growing = desk.growing->shown(turns      ? std::optional(std::min(*turns, 1.0))
+                                       : measured ? std::optional(1.0)
+                                                  : std::nullopt);
 }
 
 }  // namespace

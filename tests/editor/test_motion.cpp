@@ -132,41 +132,61 @@ std::size_t pointsOf(const std::vector<ShownUnderlay>& shown) {
   return sum;
 }
 
-TEST(GrowingCloud, ShowsWhatTheBeamHasPassedOnBothSidesAsFarAsItIsSimulated) {
-  constexpr std::uint32_t kColumns = 960;
-  GrowingCloud cloud({0, std::numbers::pi, 2, -1, 1}, {100, 0, 0});
-  ScanHeader header;
-  header.columns = kColumns;
-  header.rows = 3;
-  header.file_from_scanner.translation = {107, 0, 0};
-  ASSERT_TRUE(cloud.begin(header));
-  EXPECT_TRUE(cloud.shown(1).empty());
-  ASSERT_TRUE(cloud.write(columnsOf(0, kColumns / 2, kColumns)));
-  const auto half = pointsOf(cloud.shown(1));
-  EXPECT_NEAR(static_cast<double>(half), 3 * kColumns / 2.0, 3 * kColumns / 96.0 + 1);
-  EXPECT_NEAR(static_cast<double>(pointsOf(cloud.shown(0.5))), static_cast<double>(half) / 2, 3 * kColumns / 96.0 + 1);
-  ASSERT_TRUE(cloud.write(columnsOf(kColumns / 2, kColumns, kColumns)));
-  EXPECT_EQ(pointsOf(cloud.shown(1)), 3 * kColumns);
-  const auto some = cloud.shown(0.25);
-  EXPECT_NEAR(static_cast<double>(pointsOf(some)), 3 * kColumns / 4.0, 2 * 3 * kColumns / 96.0);
-  for (const auto& part : some)
+constexpr std::uint32_t kColumns = 960;
+constexpr double kOfAPart = 3 * kColumns / 96.0;
+
+// Half around on both sides at once, of a scanner that stands at 7 m of the local frame.
+struct HalfTurn {
+  GrowingCloud cloud{{0, std::numbers::pi, 2, -1, 1}, {100, 0, 0}};
+  HalfTurn() {
+    ScanHeader header;
+    header.columns = kColumns;
+    header.rows = 3;
+    header.file_from_scanner.translation = {107, 0, 0};
+    EXPECT_TRUE(cloud.begin(header));
+  }
+};
+
+// How far around, in a half turn, the points of what is shown lie.
+double farthestOf(const std::vector<ShownUnderlay>& shown) {
+  double farthest = 0;
+  for (const auto& part : shown)
     for (const auto& p : part.cloud->points) {
       const Eigen::Vector4d local =
           part.local_from_cloud * Eigen::Vector4d(p.position_m[0], p.position_m[1], p.position_m[2], 1);
-      const double azimuth = std::atan2(-local.y(), local.x() - 7);  // the scanner is at 7 m of the local frame
-      EXPECT_LE(std::fmod(azimuth + 2 * std::numbers::pi, std::numbers::pi), 0.25 * std::numbers::pi + 1e-6);
+      const double azimuth = std::atan2(-local.y(), local.x() - 7);
+      farthest = std::max(farthest, std::fmod(azimuth + 2 * std::numbers::pi, std::numbers::pi));
     }
-  EXPECT_EQ(cloud.shown(0.25).front().cloud, some.front().cloud) << "what is there already stays";
+  return farthest;
+}
+
+TEST(GrowingCloud, ShowsWhatTheBeamHasPassedOnBothSides) {
+  HalfTurn scan;
+  EXPECT_TRUE(scan.cloud.shown(0).empty());
+  ASSERT_TRUE(scan.cloud.write(columnsOf(0, kColumns, kColumns)));
+  const auto quarter = scan.cloud.shown(0.25);
+  EXPECT_NEAR(static_cast<double>(pointsOf(quarter)), 3 * kColumns / 4.0, 2 * kOfAPart);
+  EXPECT_LE(farthestOf(quarter), 0.25 * std::numbers::pi + 1e-6);
+  EXPECT_EQ(scan.cloud.shown(0.5).front().cloud, quarter.front().cloud) << "what is there already stays";
+  EXPECT_EQ(pointsOf(scan.cloud.shown(1)), 3 * kColumns);
+}
+
+TEST(GrowingCloud, WaitsForTheSimulationAndIsWholeWhenThatIsDone) {
+  HalfTurn scan;
+  ASSERT_TRUE(scan.cloud.write(columnsOf(0, kColumns / 2, kColumns)));
+  EXPECT_NEAR(static_cast<double>(pointsOf(scan.cloud.shown(0.9))), 3 * 0.45 * kColumns, 2 * kOfAPart);
+  ASSERT_TRUE(scan.cloud.write(columnsOf(kColumns / 2, kColumns, kColumns)));
+  EXPECT_EQ(pointsOf(scan.cloud.shown(std::nullopt)), 3 * kColumns);
 }
 
 TEST(GrowingCloud, IsThinnedToWhatIsDrawnSmoothly) {
-  constexpr std::uint32_t kColumns = 200000;
+  constexpr std::uint32_t kMany = 200000;
   GrowingCloud cloud({0, 2 * std::numbers::pi, 1, -1, 1}, Eigen::Vector3d::Zero());
   ScanHeader header;
-  header.columns = kColumns;
+  header.columns = kMany;
   header.rows = 3;
   ASSERT_TRUE(cloud.begin(header));
-  for (std::uint32_t c = 0; c < kColumns; c += 1000) ASSERT_TRUE(cloud.write(columnsOf(c, c + 1000, kColumns)));
+  for (std::uint32_t c = 0; c < kMany; c += 1000) ASSERT_TRUE(cloud.write(columnsOf(c, c + 1000, kMany)));
   const auto points = pointsOf(cloud.shown(1));
   EXPECT_LE(points, GrowingCloud::kMostPoints * 4 / 3);
   EXPECT_GT(points, GrowingCloud::kMostPoints / 2);
@@ -175,7 +195,9 @@ TEST(GrowingCloud, IsThinnedToWhatIsDrawnSmoothly) {
 // A box of 4 m by 4 m by 3 m around the instrument.
 class BoxScene : public RayScene {
  public:
-  std::optional<RayHit> intersect(const Eigen::Vector3d& o, const Eigen::Vector3d& d, double) const override {
+  explicit BoxScene(const Eigen::Vector3d& middle) : middle_(middle) {}
+  std::optional<RayHit> intersect(const Eigen::Vector3d& from, const Eigen::Vector3d& d, double) const override {
+    const Eigen::Vector3d o = from - middle_;
     double nearest = 1e9;
     for (Eigen::Index k = 0; k < 3; ++k) {
       const double wall = d[k] > 0 ? (k == 2 ? 3.0 : 2.0) : (k == 2 ? 0.0 : -2.0);
@@ -188,13 +210,35 @@ class BoxScene : public RayScene {
   const Environment& environment() const override { return none_; }
 
  private:
+  Eigen::Vector3d middle_;
   Environment none_;
 };
+
+TEST(GrowingCloud, IsForeseenWhereTheBeamIsAheadUntilItIsMeasured) {
+  HalfTurn scan;
+  const StandingInstrument stands{&bodyOf("leica-rtc360"), {7, 0, 1.5}, Eigen::Quaterniond::Identity(), 1.5};
+  scan.cloud.foresee(std::make_shared<BoxScene>(Eigen::Vector3d(7, 0, 0)), stands);
+  for (int picture = 0; picture < 24; ++picture) (void)scan.cloud.shown(0.5);  // some more in each
+  const auto foreseen = scan.cloud.shown(0.5);
+  EXPECT_GT(foreseen.size(), 44U);
+  EXPECT_LE(farthestOf(foreseen), 0.5 * std::numbers::pi + 1e-6);
+  for (const auto& part : foreseen)
+    for (const auto& p : part.cloud->points) {
+      const Eigen::Vector4d local =
+          part.local_from_cloud * Eigen::Vector4d(p.position_m[0], p.position_m[1], p.position_m[2], 1);
+      const double out = std::max(std::abs(local.x() - 7), std::abs(local.y())) - 2;
+      EXPECT_LT(std::min({std::abs(out), std::abs(local.z()), std::abs(local.z() - 3)}), 1e-4);
+    }
+  // It was stopped then: no more comes.
+  EXPECT_EQ(scan.cloud.shown(std::nullopt).size(), foreseen.size());
+  ASSERT_TRUE(scan.cloud.write(columnsOf(0, kColumns, kColumns)));
+  EXPECT_EQ(pointsOf(scan.cloud.shown(std::nullopt)), 3 * kColumns);
+}
 
 TEST(SweepFans, AreCutAtWhatTheyHit) {
   const StandingInstrument stands{&bodyOf("leica-rtc360"), {0, 0, 1.5}, Eigen::Quaterniond::Identity(), 1.5};
   const SweepShape shape{0, std::numbers::pi, 2, -60 * kRadPerDeg, 90 * kRadPerDeg};
-  const BoxScene box;
+  const BoxScene box(Eigen::Vector3d::Zero());
   const auto fans = fansOf(shape, 0.5, stands, &box);
   ASSERT_EQ(fans.size(), 2U);
   EXPECT_NEAR(fans[0].azimuth_rad, std::numbers::pi / 2, 1e-9);
