@@ -21,6 +21,11 @@ StandingInstrument standing(const Station& station, std::string_view instrument)
   return {&bodyOf(instrument), station.true_pose.translation, station.true_pose.rotation, station.instrument_height_m};
 }
 
+double carryingTime_s(const InstrumentBody& body, double distance_m) {
+  constexpr double kPace_mps = 0.9, kOnClamp_s = 30, kOnTribrach_s = 120;
+  return distance_m / kPace_mps + (body.mount == Mount::tribrach ? kOnTribrach_s : kOnClamp_s);
+}
+
 StandingScene StandingKeeper::of(const Job& job, const HeldInstrument& held, const Eigen::Vector3d& eye,
                                  const std::function<bool(const Station&)>& kept) {
   std::vector<std::pair<double, const Station*>> near;
@@ -36,7 +41,9 @@ StandingScene StandingKeeper::of(const Job& job, const HeldInstrument& held, con
   StandingScene scene;
   InstrumentsInScene still;
   for (const auto& [away_m, station] : near)
-    if (!held.instrument.empty() && station->name == held.station)
+    if (held.carried && station->name == held.station)
+      continue;
+    else if (!held.instrument.empty() && station->name == held.station)
       scene.working = WorkingInstrument{standing(*station, held.instrument), held.motion};
     else
       still.still.push_back(standing(*station, station->scans.empty() ? "" : station->scans.back().instrument));

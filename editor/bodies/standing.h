@@ -50,8 +50,13 @@ struct HeldInstrument {
   std::string instrument;  // its id; empty: there is none
   std::string station;     // empty: nowhere
   WorkingMotion motion;
-  bool moves = false;  // another picture is due at once
+  bool moves = false;    // another picture is due at once
+  bool carried = false;  // somebody has it in the hands: nothing stands at `station`
 };
+
+// From being taken down at one place until it stands at another, so far away: our own estimate, of somebody who walks
+// with it, sets up, and levels on a tribrach.
+double carryingTime_s(const InstrumentBody& body, double distance_m);
 
 // All that stand in a scene, but for the desk's: that one works.
 struct InstrumentsInScene {

@@ -83,9 +83,21 @@ void act(InstrumentDesk& desk, const RehearsalAction& action) {
     done = desk.shown()->act(action.name, action.value);
   else if (action.kind == Kind::hand)
     done = desk.shown()->hand(action.name, action.value);
+  else if (action.kind == Kind::wait)
+    desk.shown()->tick(action.seconds);
   desk.said = done ? desk.shown()->state().moved_along : done.error().message;
   desk.view.pointed.clear();
   if (done && desk.records()) desk.recording->note(action, *desk.shown());
+}
+
+void carryTo(InstrumentDesk& desk, const Document& document, const std::string& station) {
+  const std::string from = desk.shown()->state().around.station;
+  act(desk, {Kind::hand, "stand_at", station, 0, {}});
+  if (from == station || desk.shown()->state().around.station != station) return;
+  const auto *before = stationOf(document, from), *after = stationOf(document, station);
+  const double way_m =
+      before == nullptr || after == nullptr ? 0 : (after->true_pose.translation - before->true_pose.translation).norm();
+  act(desk, {Kind::wait, "", "", carryingTime_s(bodyOf(desk.shown()->type().instrument.id), way_m), {}});
 }
 
 void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& device, const std::string& instrument) {
@@ -129,7 +141,7 @@ void showInScene(InstrumentDesk& desk, Editor& editor) {
   auto& held = editor.held;
   const bool ticks = device.busy() && !desk.running()->clockStands() && !desk.ended();
   held.instrument = device.type().instrument.id;
-  held.station = station_name;
+  if (!held.carried) held.station = station_name;
   const double before_rad = held.motion.head_rad;
   held.motion = desk.motion.of(device, std::chrono::duration<double>(desk.last.time_since_epoch()).count(), ticks);
   held.moves = ticks && (held.motion.mirror_turns || held.motion.head_rad != before_rad);
@@ -143,9 +155,11 @@ void showInScene(InstrumentDesk& desk, Editor& editor) {
   if (!desk.growing) return editor.growing.clear();
   if (station != nullptr) desk.growing->foresee(editor.picker.scene(), standing(*station, held.instrument));
   const bool measured = device.state().running && device.state().laser_s > 0;  // and it takes pictures, or stores
-  editor.growing = desk.growing->shown(turns      ? std::optional(std::min(*turns, 1.0))
-                                       : measured ? std::optional(1.0)
-                                                  : std::nullopt);
+  auto growing = desk.growing->shown(turns      ? std::optional(std::min(*turns, 1.0))
+                                     : measured ? std::optional(1.0)
+                                                : std::nullopt);
+  held.moves |= growing != editor.growing;
+  editor.growing = std::move(growing);
 }
 
 }  // namespace

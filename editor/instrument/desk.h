@@ -87,6 +87,8 @@ struct InstrumentDesk {
 
 // All that is done to the device goes through here: it is recorded, and marked where an exercise runs.
 void act(InstrumentDesk& desk, const RehearsalAction& action);
+// Its instrument is taken to a station; the device's clock goes on meanwhile, by the way between both places.
+void carryTo(InstrumentDesk& desk, const Document& document, const std::string& station);
 void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& device, const std::string& instrument);
 // A project that was opened or imported has its own device, with its memory filled from what the project holds.
 void followProject(InstrumentDesk& desk, Editor& editor);

@@ -33,7 +33,7 @@ void stationChoice(InstrumentDesk& desk, const Document& document) {
   if (ImGui::BeginCombo("##station", now.empty() ? tr("not set up").c_str() : now.c_str())) {
     if (document.job)
       for (const auto& s : document.job->stations)
-        if (ImGui::Selectable(s.name.c_str(), s.name == now)) act(desk, {Kind::hand, "stand_at", s.name, 0, {}});
+        if (ImGui::Selectable(s.name.c_str(), s.name == now)) carryTo(desk, document, s.name);
     ImGui::EndCombo();
   }
 }

@@ -188,6 +188,14 @@ void attachInstrument(Editor& editor) {
     panel->takeWishes(e);
   };
   connect(panel->desk(), editor.session);
+  editor.fieldwork.carry = [panel, &editor](const std::string& station) {
+    auto& desk = panel->desk();
+    if (desk.shown() == nullptr) return;
+    carryTo(desk, desk.rehearsal ? desk.rehearsal->document() : editor.session.document(), station);
+  };
+  editor.fieldwork.spend = [panel](double seconds) {
+    if (panel->desk().shown() != nullptr) act(panel->desk(), {RehearsalAction::Kind::wait, "", "", seconds, {}});
+  };
 }
 
 }  // namespace standpoint

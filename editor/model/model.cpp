@@ -205,6 +205,7 @@ void Model::update() {
   followPointColours();
   followWalking(*this);
   followStationView(*this);
+  followFieldwork(*this);
   followPreview();
   startWaitingCloud();
   if (only_cloud_.empty()) underlays.follow(session.document(), wake);  // else it would be read twice

@@ -30,6 +30,7 @@
 #include "editor/model/budget_preview.h"
 #include "editor/model/catalogue.h"
 #include "editor/model/expected_view.h"
+#include "editor/model/fieldwork.h"
 #include "editor/model/fly.h"
 #include "editor/model/graphics.h"
 #include "editor/model/guide.h"
@@ -198,7 +199,8 @@ struct Model : Style {
   Tour tour;
   PlacementView placement;  // of what is picked
   PlaceFigures place_figures;
-  HeldInstrument held;                 // what the desk has in the scene
+  HeldInstrument held;  // what the desk has in the scene
+  Fieldwork fieldwork;
   std::vector<ShownUnderlay> growing;  // what its scan has measured so far
   Walk walk;                           // while the tool is Tool::walk
   Fly fly;                             // while the tool is Tool::fly

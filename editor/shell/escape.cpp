@@ -98,7 +98,8 @@ EscapeLayer escapeLayer(const Editor& editor) {
   if (const auto* top = topPopup()) return isModal(*top) ? EscapeLayer::modal : EscapeLayer::popup;
   if (editor.preview.isOpen()) return EscapeLayer::preview;
   const auto tool = editor.view.tool;
-  if (tool == Tool::walk || tool == Tool::fly || editor.walk_ground.preparing()) return EscapeLayer::walk;
+  if (tool == Tool::walk || tool == Tool::fly || editor.walk_ground.preparing() || editor.fieldwork.at_screen)
+    return EscapeLayer::walk;
   if (editor.view.tool != Tool::select) return EscapeLayer::tool;
   const auto& survey = editor.survey;
   const bool chosen = !editor.selection.empty() || survey.station >= 0 || survey.target >= 0 || survey.underlay >= 0 ||
@@ -125,6 +126,7 @@ void closeTopmost(Editor& editor) {
 void leaveTool(Editor& editor) {
   if (editor.walk_ground.preparing()) return editor.walk_ground.cancel();
   editor.view.refused_place.reset();
+  if (editor.fieldwork.at_screen) return lookUp(editor);
   if (editor.view.row_from) return editor.view.row_from.reset();  // the first end is chosen anew
   if (editor.view.tool == Tool::measure && !editor.view.measuring.points.empty())
     return editor.view.measuring.points.clear();  // begun anew

@@ -28,6 +28,12 @@ constexpr int kTightRingCorners = 32;
 
 double axis(int less, int more) { return (keyboard::held(more) ? 1.0 : 0.0) - (keyboard::held(less) ? 1.0 : 0.0); }
 
+// The panel beside the view has the same device.
+void lookAtScreen(Editor& editor) {
+  lookAtInstrument(editor);
+  editor.workspace = Workspace::instrument;
+}
+
 bool moves(const Editor& editor) { return editor.view.tool == Tool::walk || editor.view.tool == Tool::fly; }
 
 // The figures of a place in the file's frame, without "-0.00".
@@ -48,6 +54,38 @@ std::string walkLine(const Editor& editor) {
 
 }  // namespace
 
+void clickWalking(Editor& editor) {
+  if (!instrumentInReach(editor)) return;
+  constexpr double kRadius_m = 0.25;  // around the beam's origin: the whole of any instrument
+  const ImVec2 p = ImGui::GetIO().MousePos, low = ImGui::GetItemRectMin();
+  const auto ray = rayThrough(editor.view.camera, {p.x - low.x, p.y - low.y}, editor.view.size);
+  const auto scene = editor.viewState().working;
+  if (!scene) return;
+  const Eigen::Vector3d to = scene->stands.centre_m - ray.origin;
+  const double along = to.dot(ray.direction);
+  if (along > 0 && (to - along * ray.direction).norm() < kRadius_m) lookAtScreen(editor);
+}
+
+namespace {
+
+// What hands do: with the instrument, and with a sphere.
+void handleHands(Editor& editor) {
+  if (editor.fieldwork.at_screen) {
+    if (keyboard::pressed('F')) lookUp(editor);
+    return;
+  }
+  if (!editor.walk.active()) return;
+  if (keyboard::pressed('F') && instrumentInReach(editor)) return lookAtScreen(editor);
+  if (keyboard::pressed('G') && editor.held.carried) return putDownInstrument(editor);
+  if (keyboard::pressed('G') && !editor.held.instrument.empty()) {
+    if (const auto why = whyNotPickUp(editor); !why.empty()) return editor.say(tr(why));
+    return pickUpInstrument(editor);
+  }
+  if (keyboard::pressed('B') && !putUpSphere(editor)) editor.say(tr("No surface within 3 m to put a sphere on"));
+}
+
+}  // namespace
+
 void handleMoving(Editor& editor) {
   const auto& io = ImGui::GetIO();
   const bool keys_are_ours =
@@ -57,6 +95,7 @@ void handleMoving(Editor& editor) {
     if (keys_are_ours) keys = {{axis('A', 'D'), axis('S', 'W'), axis('Q', 'E')}, io.KeyShift};
     editor.fly.go(keys, io.DeltaTime, editor.view.camera);
   }
+  if (keys_are_ours) handleHands(editor);
   if (!editor.walk.active()) return;
   WalkKeys keys;
   if (keys_are_ours) keys = {{axis('A', 'D'), axis('S', 'W')}, io.KeyShift, keyboard::held('C')};
@@ -95,7 +134,10 @@ void handleWheel(Editor& editor, ImVec2 origin) {
 }
 
 bool movesByKey(const Editor& editor, int key) {
-  return moves(editor) && key > 0 && key < 128 && std::strchr("WASDCEQ", key) != nullptr;
+  const bool letter = key > 0 && key < 128;
+  if (editor.fieldwork.at_screen && key == 'F') return true;
+  if (editor.view.tool == Tool::walk && letter && std::strchr("FGB", key) != nullptr) return true;
+  return moves(editor) && letter && std::strchr("WASDCEQ", key) != nullptr;
 }
 
 void movingChips(Editor& editor) {
@@ -118,10 +160,14 @@ void movingChips(Editor& editor) {
 const char* movingHint(const Editor& editor) {
   if (editor.view.tool == Tool::fly)
     return "W A S D to fly, E up, Q down, Shift faster, U to walk, drag to look around   Esc to leave";
+  if (editor.fieldwork.at_screen) return "F to look up   Esc to leave";
   if (editor.view.tool != Tool::walk) return nullptr;
+  if (editor.held.carried) return "G to put the instrument down here   W A S D to walk, Shift to run   Esc to leave";
+  if (instrumentInReach(editor))
+    return "F to look at the instrument's screen, G to carry it, B to put up a sphere   W A S D to walk   Esc to leave";
   return editor.walk.doorInReach(editor.view.camera)
              ? "E to open or close the door   W A S D to walk, Shift to run, C to crouch, T to teleport   Esc to leave"
-             : "W A S D to walk, Shift to run, C to crouch, T to teleport, drag to look around   Esc to leave";
+             : "W A S D to walk, Shift to run, C to crouch, T to teleport, B to put up a sphere   Esc to leave";
 }
 
 void drawMovingLine(const Editor& editor, ImVec2 origin, ImVec2 size, float above_pt) {

@@ -79,12 +79,6 @@ void continueDrag(Editor& editor) {
     pan(view.camera, drag, view.size, view.pivot_depth_m);
 }
 
-std::string nextName(const char* prefix, const std::vector<std::string>& taken) {
-  for (int i = 1;; ++i)
-    if (const auto name = fmt::format("{}{}", prefix, i); std::find(taken.begin(), taken.end(), name) == taken.end())
-      return name;
-}
-
 void placeStation(Editor& editor, const RayHit& hit) {
   const HeldStation held{"", kUsualHeight_m, Eigen::Quaterniond::Identity()};
   if (const auto verdict = verdictUnderPointer(editor, held); verdict.verdict == Verdict::bad)
@@ -111,10 +105,7 @@ void layRow(Editor& editor, const RayHit& hit) {
 }
 
 void placeTarget(Editor& editor, const RayHit& hit) {
-  std::vector<std::string> names;
-  if (const auto& job = editor.session.document().job)
-    for (const auto& t : job->targets) names.push_back(t.name);
-  const auto name = nextName("T", names);
+  const auto name = freeTargetName(editor.session.document().job.get());
   constexpr double kBefore_m = 0.05;  // says on which side of what was clicked it sticks
   const Eigen::Vector3d p = hit.position + hit.normal * kBefore_m + editor.shift_m();
   TargetOptions options{.add = name};
@@ -140,7 +131,7 @@ void click(Editor& editor) {
     case Tool::takeMaterial: act = takeMaterial; break;
     case Tool::paintMaterial: act = paintMaterial; break;
     case Tool::layWay: act = layWay; break;
-    case Tool::walk:
+    case Tool::walk: return clickWalking(editor);
     case Tool::fly: return;
     case Tool::select: break;
   }

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/model/fieldwork.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "editor/model/model.h"
+#include "editor/model/station_steps.h"
+#include "editor/model/walking.h"
+#include "editor/words/words.h"
+#include "project/survey/survey_verbs.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr double kReach_m = 1.6;      // of a hand, from the middle of the body
+constexpr double kToDisplay_m = 0.5;  // of the eyes
+constexpr double kAhead_m = 0.9;      // where one puts down what one carries
+constexpr double kSamePlace_m = 1.0;  // of a station that is there already
+constexpr double kSphereReach_m = 3;
+constexpr double kLookDown_rad = 0.3;
+
+const Station* heldStation(const Model& model) {
+  const auto& job = model.session.document().job;
+  if (!job || model.held.instrument.empty() || model.held.carried) return nullptr;
+  const auto found = std::find_if(job->stations.begin(), job->stations.end(),
+                                  [&](const Station& s) { return s.name == model.held.station; });
+  return found == job->stations.end() ? nullptr : &*found;
+}
+
+Eigen::Vector3d ahead(const Model& model) {
+  Eigen::Vector3d way = model.view.camera.forward();
+  way.z() = 0;
+  return way.norm() > 1e-6 ? Eigen::Vector3d(way.normalized()) : Eigen::Vector3d(0, 1, 0);
+}
+
+const Station* stationNear(const Model& model, const Eigen::Vector3d& floor) {
+  const auto& job = model.session.document().job;
+  if (!job) return nullptr;
+  const Station* nearest = nullptr;
+  double least = kSamePlace_m;
+  for (const auto& s : job->stations) {
+    const Eigen::Vector3d foot = s.true_pose.translation - Eigen::Vector3d(0, 0, s.instrument_height_m);
+    if (const double away = (foot - floor).norm(); away < least) least = away, nearest = &s;
+  }
+  return nearest;
+}
+
+}  // namespace
+
+bool instrumentInReach(const Model& model) {
+  const auto* station = heldStation(model);
+  if (station == nullptr || !model.walk.active()) return false;
+  const Eigen::Vector3d foot = station->true_pose.translation - Eigen::Vector3d(0, 0, station->instrument_height_m);
+  const Eigen::Vector3d away = foot - model.walk.feet();
+  return away.head<2>().norm() < kReach_m && std::abs(away.z()) < 1;
+}
+
+void lookAtInstrument(Model& model) {
+  const auto* station = heldStation(model);
+  if (station == nullptr || model.fieldwork.at_screen) return;
+  const auto stands = standing(*station, model.held.instrument);
+  const Eigen::Matrix3d local_from_head =
+      (stands.rotation * Eigen::AngleAxisd(-model.held.motion.head_rad, Eigen::Vector3d::UnitZ())).toRotationMatrix();
+  const Eigen::Vector3d way = -(local_from_head * stands.body->face_faces);
+  rememberView(model);
+  stopWalking(model);
+  model.fieldwork.at_screen = true;
+  auto& camera = model.view.camera;
+  camera.orthographic = false;
+  camera.view_angle_rad = Walk::kUsualViewAngle_rad;
+  camera.target = stands.centre_m + local_from_head * stands.body->face_m;
+  camera.distance_m = kToDisplay_m;
+  camera.azimuth_rad = std::atan2(-way.x(), way.y());
+  camera.elevation_rad = kLookDown_rad;
+}
+
+void lookUp(Model& model) {
+  if (!std::exchange(model.fieldwork.at_screen, false)) return;
+  goBackInViews(model);
+}
+
+std::string whyNotPickUp(const Model& model) {
+  if (!instrumentInReach(model)) return "The instrument is out of reach";
+  return model.held.motion.fans.empty() ? "" : "The instrument is scanning: moving it now would spoil the scan";
+}
+
+void pickUpInstrument(Model& model) {
+  if (whyNotPickUp(model).empty()) model.held.carried = true;
+}
+
+void putDownInstrument(Model& model) {
+  if (!model.held.carried || !model.walk.active() || !model.fieldwork.waits_for.empty()) return;
+  const Eigen::Vector3d floor = model.walk.feet() + kAhead_m * ahead(model);
+  if (const auto* station = stationNear(model, floor)) {
+    model.fieldwork.waits_for = station->name;
+    return followFieldwork(model);
+  }
+  const auto& job = model.session.document().job;
+  const auto name = freeStationName(job ? *job : Job());
+  const Eigen::Vector3d p = floor + model.shift_m();
+  if (model.session.start(StationOptions{.add = name, .on = FloorPlace{p.x(), p.y(), p.z()}},
+                          trf("Add station {}", name)))
+    model.fieldwork.waits_for = name;
+}
+
+bool putUpSphere(Model& model) {
+  const auto ray = rayThrough(model.view.camera, model.view.size / 2, model.view.size);
+  const auto hit = model.picker.pick(ray, model.viewState());
+  if (!hit || hit->range_m > kSphereReach_m) return false;
+  constexpr double kBefore_m = 0.05;  // says on which side of what was looked at it stands
+  const auto name = freeTargetName(model.session.document().job.get());
+  TargetOptions options{.add = name, .kind = TargetKind::sphere};
+  options.on_surface = hit->position + hit->normal * kBefore_m + model.shift_m();
+  if (!model.session.start(options, trf("Add target {}", name))) return false;
+  if (model.fieldwork.spend) model.fieldwork.spend(kPutUpTarget_s);
+  return true;
+}
+
+std::string freeTargetName(const Job* job) {
+  for (int i = 1;; ++i) {
+    const auto name = fmt::format("T{}", i);
+    const auto has_name = [&](const Target& t) { return t.name == name; };
+    if (job == nullptr || std::none_of(job->targets.begin(), job->targets.end(), has_name)) return name;
+  }
+}
+
+void followFieldwork(Model& model) {
+  auto& work = model.fieldwork;
+  if (work.at_screen && (model.walk.active() || heldStation(model) == nullptr)) work.at_screen = false;
+  if (work.waits_for.empty()) return;
+  const auto& job = model.session.document().job;
+  const bool there = job && std::any_of(job->stations.begin(), job->stations.end(),
+                                        [&](const Station& s) { return s.name == work.waits_for; });
+  if (!there && !model.session.running().empty()) return;
+  const auto station = std::exchange(work.waits_for, {});
+  if (!there) return;  // refused: the message says why
+  model.held.carried = false;
+  model.held.station = station;
+  if (work.carry) work.carry(station);
+}
+
+}  // namespace standpoint

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "core/survey.h"
+
+namespace standpoint {
+
+struct Model;
+
+// What somebody who walks through the model does with the desk's instrument and with targets.
+struct Fieldwork {
+  bool at_screen = false;  // the camera looks at what one works with on the instrument
+  std::string waits_for;   // the instrument is put down at this station, as soon as that is there
+  // Of the desk: carries its instrument to a station, and lets time pass on its clock. Empty: there is no desk.
+  std::function<void(const std::string& station)> carry;
+  std::function<void(double seconds)> spend;
+};
+
+constexpr double kPutUpTarget_s = 40;  // our own estimate: a magnet or a small tripod
+
+// Whoever walks could put a hand on it.
+bool instrumentInReach(const Model& model);
+// The eyes go before its display, else its key, as that is turned now; lookUp() goes back to where one stood.
+void lookAtInstrument(Model& model);
+void lookUp(Model& model);
+// "" or why the instrument cannot be taken along.
+std::string whyNotPickUp(const Model& model);
+void pickUpInstrument(Model& model);
+// A step ahead: at the station there, else at a new one. A place where it cannot stand is refused by the verb, and it
+// is still carried.
+void putDownInstrument(Model& model);
+// On what is looked at, not farther than an arm's reach and two steps; false where there is nothing.
+bool putUpSphere(Model& model);
+std::string freeTargetName(const Job* job);  // "T1", "T2", …; null: there is no job
+// To be called once a frame.
+void followFieldwork(Model& model);
+
+}  // namespace standpoint
