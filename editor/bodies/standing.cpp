@@ -6,12 +6,6 @@
 
 namespace standpoint {
 
-namespace {
-
-constexpr double kInside_m = 0.3;  // of an eye: one looks out of the instrument
-
-}  // namespace
-
 bool StandingInstrument::operator==(const StandingInstrument& other) const {
   return body == other.body && centre_m == other.centre_m && rotation.coeffs() == other.rotation.coeffs() &&
          height_m == other.height_m;
@@ -31,7 +25,7 @@ StandingScene StandingKeeper::of(const Job& job, const HeldInstrument& held, con
   std::vector<std::pair<double, const Station*>> near;
   for (const auto& station : job.stations) {
     const double away_m = (station.true_pose.translation - eye).norm();
-    if (away_m > kInside_m && kept(station)) near.emplace_back(away_m, &station);
+    if (away_m > kInsideInstrument_m && kept(station)) near.emplace_back(away_m, &station);
   }
   const auto most = std::min(near.size(), kMostInstruments);
   std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(most), near.end());

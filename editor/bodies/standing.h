@@ -69,6 +69,8 @@ struct WorkingInstrument {
   bool operator==(const WorkingInstrument&) const = default;
 };
 
+constexpr double kInsideInstrument_m = 0.3;  // of its centre: whoever is nearer looks out of it
+
 // Which stations have an instrument on them in a picture taken from `eye`: those nearest to it, but none that it is
 // inside of. A station shows what the desk has on it, else what its newest scan was made with, else the generic one.
 constexpr std::size_t kMostInstruments = 40;

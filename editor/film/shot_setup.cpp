@@ -94,6 +94,12 @@ std::shared_ptr<const HiddenProducts> withoutDoors(const Model& model) {
   return std::make_shared<const HiddenProducts>(std::move(hidden));
 }
 
+// Whoever looks from a station, or walks from one to the next, would be inside of them.
+void leaveOutInstruments(ViewState& view) {
+  view.instruments.reset();
+  view.working.reset();
+}
+
 }  // namespace
 
 ShotRequest shotOf(const Model& model, ShotKind kind) {
@@ -107,6 +113,7 @@ ShotRequest shotOf(const Model& model, ShotKind kind) {
   static const auto kNothing = std::make_shared<const std::vector<std::uint32_t>>();
   request.view.selected = kNothing;
   request.view.camera.orthographic = false;
+  if (kind != ShotKind::turntable) leaveOutInstruments(request.view);
   if (kind != ShotKind::walk_through) return request;
   request.view.hidden = withoutDoors(model);
   request.view.cut_height_m.reset();
@@ -117,6 +124,7 @@ ShotRequest shotOf(const Model& model, ShotKind kind) {
 Result<void> lookFrom(const Model& model, const ShotPlace& place, ShotRequest& request) {
   auto& camera = request.view.camera;
   if (place.station.empty() && !place.eye) return {};
+  leaveOutInstruments(request.view);
   camera.orthographic = false;
   camera.elevation_rad = 0;
   camera.view_angle_rad = kWide_rad;

@@ -86,7 +86,7 @@ void drawStations(Editor& editor, Pen& pen, const ViewState& state) {
   for (std::size_t i = 0; i < job->stations.size(); ++i) {
     const auto& station = job->stations[i];
     const Eigen::Vector3d centre = station.true_pose.translation;
-    if ((centre - editor.view.camera.eye()).norm() < 0.05) continue;  // one looks out of it
+    if ((centre - editor.view.camera.eye()).norm() < kInsideInstrument_m) continue;  // one looks out of it
     const auto place = pen.at(centre);
     if (!place) continue;
     const bool seen = editor.picker.sees(editor.view.camera.eyeOf(centre), centre, state);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "demo_verbs.h"
+#include "editor/film/shot_setup.h"
 #include "editor/instrument/desk.h"
 #include "editor/model/fieldwork.h"
 #include "editor/model/walking.h"
@@ -130,6 +131,16 @@ TEST_F(Fieldworker, PutsUpASphereOnTheFloorAndThatTakesTime) {
   ASSERT_EQ(editor.session.document().job->targets.size(), targets + 1);
   EXPECT_EQ(editor.session.document().job->targets.back().kind, TargetKind::sphere);
   EXPECT_EQ(spent_s, kPutUpTarget_s);
+}
+
+TEST_F(Fieldworker, LeavesInstrumentsOutOfPicturesThatAreTakenFromWhereTheyStand) {
+  EXPECT_TRUE(shotOf(editor, ShotKind::picture).view.working);
+  EXPECT_TRUE(shotOf(editor, ShotKind::turntable).view.working);
+  EXPECT_FALSE(shotOf(editor, ShotKind::panorama).view.working);
+  EXPECT_FALSE(shotOf(editor, ShotKind::walk_through).view.working);
+  auto request = shotOf(editor, ShotKind::picture);
+  ASSERT_TRUE(lookFrom(editor, {.station = station().name}, request));
+  EXPECT_FALSE(request.view.working || request.view.instruments);
 }
 
 TEST(CarryingTime, IsThatOfTheWayAndOfLevellingOnATribrach) {
