@@ -14,7 +14,7 @@
 #include "cli/man_pages.h"
 #include "cli/verb_list.h"
 #include "core/part_file.h"
-#include "emulated-ui/rehearsal/rehearse_verb.h"
+#include "emulated-ui/verbs/rehearse_verb.h"
 
 namespace {
 

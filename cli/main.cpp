@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cli/command_line.h"
-#include "emulated-ui/rehearsal/rehearse_verb.h"
+#include "emulated-ui/verbs/rehearse_verb.h"
 
 namespace {
 

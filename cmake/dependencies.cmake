@@ -34,6 +34,9 @@ find_package(CGAL REQUIRED)
 find_package(OpenMesh REQUIRED CONFIG)  # CGAL puts a module of its own in the way
 find_library(CARVE NAMES carve REQUIRED)
 pkg_check_modules(X264 REQUIRED IMPORTED_TARGET x264)
+pkg_check_modules(SODIUM REQUIRED IMPORTED_TARGET libsodium)  # hashes and signatures
+pkg_check_modules(LIBZIP REQUIRED IMPORTED_TARGET libzip)  # its own configuration asks for its tools
+find_file(TWEETNACL nacl-fast.min.js PATHS /usr/share/nodejs/tweetnacl REQUIRED)  # signatures in a browser
 pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
 target_link_libraries(PkgConfig::IMGUI INTERFACE Freetype::Freetype)  # imgui.pc forgets it
 pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet-float64)

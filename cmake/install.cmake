@@ -8,6 +8,8 @@ set(data_folders
   pointclouds/classes
   scanners/instruments scanners/stands scanners/targets)
 set(data_files materials/schema.json)
+# The page of a SCORM package. The code for its signatures is a file of Debian's, as it is.
+set(page_folder emulated-ui/classroom/sco)
 set(sample_pictures samples/pictures/house.ifc.png samples/pictures/street.ifc.png)
 set(built_data ${CMAKE_BINARY_DIR}/share/standpoint)
 
@@ -21,6 +23,12 @@ endfunction()
 foreach(data ${data_folders} ${data_files})
   standpoint_link(${PROJECT_SOURCE_DIR}/${data} ${built_data}/${data})
 endforeach()
+foreach(file index.html sco.js)
+  standpoint_link(${PROJECT_SOURCE_DIR}/${page_folder}/${file} ${built_data}/${page_folder}/${file})
+  install(FILES ${page_folder}/${file} DESTINATION ${CMAKE_INSTALL_DATADIR}/standpoint/${page_folder})
+endforeach()
+configure_file(${TWEETNACL} ${built_data}/${page_folder}/nacl-fast.min.js COPYONLY)
+install(FILES ${TWEETNACL} DESTINATION ${CMAKE_INSTALL_DATADIR}/standpoint/${page_folder})
 standpoint_link(${CMAKE_BINARY_DIR}/samples ${built_data}/samples)
 standpoint_link(${PROJECT_SOURCE_DIR}/samples/pictures ${built_data}/sample-pictures)
 

@@ -9,6 +9,8 @@
 
 #include "editor/instrument/preview_picture.h"
 #include "editor/words/words.h"
+#include "emulated-ui/classroom/dates.h"
+#include "emulated-ui/classroom/signed_result.h"
 #include "emulated-ui/rehearsal/marks.h"
 #include "emulated-ui/sighting.h"
 #include "project/storage/project_files.h"
@@ -264,8 +266,37 @@ nlohmann::json timedWay(const std::vector<WayPoint>& way) {
   return timed;
 }
 
+void openAssignment(InstrumentDesk& desk, const fs::path& file) {
+  desk.refused.clear();
+  auto read = readAssignment(file);
+  if (read)
+    desk.assignment = *std::move(read);
+  else
+    desk.refused = describe(read.error());
+}
+
+std::string whyNotStartAssigned(const InstrumentDesk& desk) {
+  if (desk.student.empty()) return tr("Enter your id as it is in the class list under Student.");
+  if (desk.assignment->variantOf(desk.student) == nullptr)
+    return tr("This id is not in the class list. Enter it under Student as your lecturer wrote it.");
+  return {};
+}
+
+void startAssigned(InstrumentDesk& desk, Editor& editor) {
+  const auto exercise = desk.assignment->exerciseWith(*desk.assignment->variantOf(desk.student));
+  if (!exercise) {
+    desk.refused = describe(exercise.error());
+    return;
+  }
+  startExercise(desk, editor, *exercise);
+  desk.assigned = desk.rehearsal != nullptr;
+  desk.started = utcNow();
+}
+
 void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercise) {
   desk.refused.clear();
+  desk.assigned = false;
+  desk.result.clear();
   const auto folder = freshFolder(exercise.id);
   Progress quiet;
   auto rehearsal = Rehearsal::start(exercise, isFor(exercise, desk.device->id) ? desk.device->id : std::string(),
@@ -295,10 +326,18 @@ void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercis
 }
 
 void finishExercise(InstrumentDesk& desk, Editor& editor) {
+  desk.rehearsal->keepWait();
   desk.marks = marksOf(*desk.rehearsal, desk.student, desk.rehearsal->device().state().language);
   desk.marks_folder = desk.rehearsal->folder();
   if (auto written = writeMarks(*desk.rehearsal, *desk.marks, desk.marks_folder); !written)
     desk.refused = describe(written.error());
+  if (desk.assigned) {
+    auto result = writeResult(*desk.rehearsal, *desk.marks, *desk.assignment, desk.started, desk.marks_folder);
+    if (result)
+      desk.result = *std::move(result);
+    else
+      desk.refused = describe(result.error());
+  }
   saveEnvironment(editor);
 }
 

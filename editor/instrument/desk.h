@@ -14,6 +14,7 @@
 #include "editor/instrument/motion.h"
 #include "editor/instrument/preview_picture.h"
 #include "editor/shell/editor.h"
+#include "emulated-ui/classroom/assignment.h"
 #include "emulated-ui/draw/device_view.h"
 #include "emulated-ui/host.h"
 #include "emulated-ui/menus.h"
@@ -55,7 +56,11 @@ struct InstrumentDesk {
   std::vector<std::string> exercises_refused;    // files of the user's folder, and why
   std::optional<std::uint64_t> exercises_stamp;  // of what was read
   std::string student;
-  std::optional<Marks> marks;  // of the exercise that was finished last
+  std::optional<Assignment> assignment;  // that was opened last
+  bool assigned = false;                 // the exercise that runs is the student's variant of it
+  std::string started;                   // when that one began, UTC
+  std::filesystem::path result;          // to be handed in; empty: none
+  std::optional<Marks> marks;            // of the exercise that was finished last
   std::filesystem::path marks_folder;
   DesktopOpener opener;                // of the certificate
   std::shared_ptr<const Job> adopted;  // of the exercise's document, as the editor shows it
@@ -101,6 +106,10 @@ void advance(InstrumentDesk& desk, Editor& editor);
 void connect(InstrumentDesk& desk, Session& session);
 
 void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercise);
+// A file that a lecturer gave to a class, and the variant of it that belongs to desk.student.
+void openAssignment(InstrumentDesk& desk, const std::filesystem::path& file);
+std::string whyNotStartAssigned(const InstrumentDesk& desk);  // for people; empty: it can
+void startAssigned(InstrumentDesk& desk, Editor& editor);
 // Marks it: it has ended, and its environment is saved where its result is.
 void finishExercise(InstrumentDesk& desk, Editor& editor);
 void leaveExercise(InstrumentDesk& desk, Editor& editor);

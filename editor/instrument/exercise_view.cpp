@@ -7,9 +7,11 @@
 #include <imgui_stdlib.h>
 
 #include "editor/instrument/desk.h"
+#include "editor/shell/dialogs.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "emulated-ui/classroom/dates.h"
 #include "emulated-ui/device/format.h"
 #include "emulated-ui/rehearsal/marks.h"
 
@@ -40,6 +42,25 @@ void readExercises(InstrumentDesk& desk) {
   for (const auto& error : known.refused) desk.exercises_refused.push_back(describe(error));
 }
 
+// The exercise that the student's lecturer gave; true: it was started.
+bool assigned(InstrumentDesk& desk, Editor& editor, const std::string& language, const std::string& why) {
+  const auto& assignment = *desk.assignment;
+  const auto* variant = assignment.variantOf(desk.student);
+  const auto exercise = assignment.exerciseWith(variant == nullptr ? assignment.variants.front() : *variant);
+  if (!exercise) return false;
+  const auto why_not = why.empty() ? whyNotStartAssigned(desk) : why;
+  if (ui::wideButton("###assigned", exercise->id + "  " + exercise->title.in(language), why_not,
+                     variant == nullptr ? nullptr : exercise->goal.in(language).c_str())) {
+    startAssigned(desk, editor);
+    return true;
+  }
+  if (!assignment.deadline.empty())
+    ui::dimWrapped(utcNow() > assignment.deadline ? trf("The deadline has passed: {}", localText(assignment.deadline))
+                                                  : trf("Deadline: {}", localText(assignment.deadline)));
+  if (!why_not.empty()) ui::dimWrapped(why_not);
+  return false;
+}
+
 void list(InstrumentDesk& desk, Editor& editor) {
   readExercises(desk);
   const auto& language = desk.shown()->state().language;
@@ -68,6 +89,11 @@ void list(InstrumentDesk& desk, Editor& editor) {
     ui::gap(editor);
   }
   const std::string why = unsaved ? "Save the project first." : editor.session.whyNot("open-project");
+  if (ui::button("Open an assigned exercise…###open-assignment"))
+    askForFile(editor, FileDialogState::Purpose::openFile, tr("Open an assigned exercise"), tr("Open"), {".json"}, "",
+               [&desk](const std::filesystem::path& file) { openAssignment(desk, file); });
+  if (desk.assignment && assigned(desk, editor, language, why)) return;
+  ui::gap(editor);
   bool any = false;
   for (const auto& known : desk.exercises) {
     if (!isFor(known.exercise, desk.device->id)) continue;
@@ -208,6 +234,7 @@ void demands(const InstrumentDesk& desk, const std::string& language) {
 }
 
 void certificate(InstrumentDesk& desk, Editor& editor) {
+  if (!desk.result.empty()) ui::wrapped(trf("Hand in this file: {}", desk.result.filename().string()));
   if (ui::wideButton("###certificate", "Open the certificate"))
     desk.opener.open(desk.marks_folder / "result.html", editor.wake);
   if (ui::wideButton("###result-folder", "Show the folder", {}, desk.marks_folder.c_str()))
@@ -277,7 +304,10 @@ void running(InstrumentDesk& desk, Editor& editor) {
   }
   ImGui::SameLine();
   if (ui::button("Leave###leave")) return leaveExercise(desk, editor);
-  if (again) startExercise(desk, editor, Exercise(e));
+  if (again && desk.assigned)
+    startAssigned(desk, editor);
+  else if (again)
+    startExercise(desk, editor, Exercise(e));
 }
 
 }  // namespace

@@ -15,6 +15,8 @@
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/events.h"
 #include "emulated-ui/rehearsal/exercise_words.h"
+#include "emulated-ui/rehearsal/variants.h"
+#include "emulated-ui/seals/seal.h"
 #include "project/verb.h"
 
 namespace standpoint {
@@ -212,14 +214,29 @@ Result<std::vector<RehearsalAction>> readActions(const fs::path& file) {
   return found;
 }
 
+nlohmann::json withoutSolution(nlohmann::json exercise) {
+  if (exercise.is_object())
+    for (const char* key : {"solution", "mistakes"}) exercise.erase(key);
+  return exercise;
+}
+
+std::string exerciseHash(const nlohmann::json& exercise) { return digestOf(withoutSolution(exercise).dump()); }
+
 Result<Exercise> readExercise(const fs::path& file) {
-  const auto json = readJsonFile(file);
-  if (!json) return failure(json.error());
-  JsonFault fault(file.filename().string());
-  JsonFields f(fault, *json, "");
+  TRY_ASSIGN(const auto json, readJsonFile(file));
+  return exerciseFrom(json, file);
+}
+
+Result<Exercise> exerciseFrom(const nlohmann::json& json, const fs::path& file) {
+  const auto file_name = file.filename().string();
+  TRY_ASSIGN(const auto figures, variantFigures(json, file_name));
+  TRY_ASSIGN(const auto standard, withFigures(json, standardFigures(figures), file_name));
+  JsonFault fault(file_name);
+  JsonFields f(fault, standard, "");
   Exercise e;
   e.file = file.filename().string();
   e.folder = file.parent_path();
+  e.hash = exerciseHash(standard);
   e.id = f.text("id", "E99");
   // It names a folder, too.
   if (e.id.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_") != std::string::npos)
@@ -304,6 +321,7 @@ Result<Exercise> readExercise(const fs::path& file) {
     if (one.has("score")) e.expect.score = one.number("score", 0, 1);
     e.expect.broken = one.texts("broken");
   });
+  f.list("mistakes", [&](JsonFields& one) { e.mistakes.push_back({one.text("id", "M03"), actions(one, "actions")}); });
   f.close();
   if (e.steps.empty() && e.rules.empty()) fault.say("/steps", "an exercise requires steps or rules");
   TRY(fault.result());

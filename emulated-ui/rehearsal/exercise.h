@@ -102,9 +102,16 @@ struct ExpectedOutcome {
   std::vector<std::string> broken;  // ids of the rules that it does not hold to, such as one of a bad example
 };
 
+// What must not pass: a mistake that students often make, as a list of actions. Checked for each variant.
+struct KnownMistake {
+  std::string id;  // "M03"
+  std::vector<RehearsalAction> actions;
+};
+
 struct Exercise {
   std::string file;              // name, for messages
   std::filesystem::path folder;  // that the file is in
+  std::string hash;              // of its content without solution and mistakes: see exerciseHash
   std::string id;
   bool tutorial = false;  // it is listed before the others
   Spoken title, goal;
@@ -130,6 +137,7 @@ struct Exercise {
   double pass_mark = 0.7;                 // share of the points
   std::vector<RehearsalAction> solution;  // one way to do it: to be watched, and it is tested
   ExpectedOutcome expect;                 // of the solution
+  std::vector<KnownMistake> mistakes;
 };
 // Of its environment; a file that is not there is an error, with its place in the exercise.
 Result<std::filesystem::path> modelOf(const Exercise& exercise);
@@ -140,7 +148,13 @@ void eachText(Exercise& exercise, const std::function<void(Spoken& text, const s
 // Whether it can be done on the device; "*" stands for all.
 bool isFor(const Exercise& exercise, const std::string& device);
 
+// One with variants is read with their standard figures.
 Result<Exercise> readExercise(const std::filesystem::path& file);
+Result<Exercise> exerciseFrom(const nlohmann::json& json, const std::filesystem::path& file);
+// Without what students must not see: solution and mistakes.
+nlohmann::json withoutSolution(nlohmann::json exercise);
+// Two exercises of the same hash ask and mark the same; 64 hexadecimal digits.
+std::string exerciseHash(const nlohmann::json& exercise);
 // Everything that is wrong with it beyond its form, each with file and JSON pointer: unknown devices, widgets, facts,
 // events, stations, hands, troubles, samples, options that a verb does not take, conditions that can never hold, texts
 // without a translation. Nothing is carried out for it.

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numeric>
 #include <set>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/data_folder.h"
 #include "core/nearest_name.h"
+#include "core/scratch_folder.h"
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/events.h"
 #include "emulated-ui/rehearsal/marks.h"
@@ -105,6 +104,9 @@ class Checker {
         fault("/expect/broken", fmt::format("unknown rule '{}'; {}", id, knownInstead(id, known)));
     checkActions(e_.start, "/start");
     checkActions(e_.solution, "/solution");
+    for (std::size_t i = 0; i < e_.mistakes.size(); ++i)
+      checkActions(e_.mistakes[i].actions, fmt::format("/mistakes/{}/actions", i));
+    checkIds(e_.mistakes, "mistakes");
     return std::move(faults_);
   }
 
@@ -305,30 +307,6 @@ class Checker {
   std::vector<Device> devices_;
   std::vector<std::string> stations_;  // that are put up so far
   std::vector<Error> faults_;
-};
-
-// A folder for what a start scans; it goes with this.
-class ScratchFolder {
- public:
-  static Result<ScratchFolder> make() {
-    auto pattern = (std::filesystem::temp_directory_path() / "standpoint-check-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr)
-      return failure(ErrorKind::file_system, "cannot create a temporary folder for the check", pattern);
-    return ScratchFolder(pattern);
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(ScratchFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(ScratchFolder&&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  explicit ScratchFolder(std::filesystem::path path) : path_(std::move(path)) {}
-  std::filesystem::path path_;
 };
 
 // "*" stands for all.

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "core/csv_text.h"
 #include "core/part_file.h"
 #include "emulated-ui/device/format.h"
 #include "emulated-ui/rehearsal/plain_words.h"
@@ -20,16 +21,8 @@ namespace {
 // A hint costs half of its step.
 constexpr double kHinted = 0.5;
 
-// Of a text that begins like a formula a spreadsheet would make one: the apostrophe says that it is text.
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  if (!text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos) out += '\'';
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
-
-std::string cellText(const char* text) { return quoted(text); }
-std::string cellText(const std::string& text) { return quoted(text); }
+std::string cellText(const char* text) { return csvText(text); }
+std::string cellText(const std::string& text) { return csvText(text); }
 std::string cellText(bool value) { return value ? "1" : "0"; }
 std::string cellText(double value) { return fmt::format("{}", value); }
 std::string cellText(const MarkedProof::Value& value) {
@@ -203,6 +196,7 @@ const AnswerFields<MarkedFile>& answerFields(const MarkedFile*) {
 const AnswerFields<Marks>& answerFields(const Marks*) {
   using A = Marks;
   static const AnswerFields<A> fields = {{"exercise", &A::exercise},
+                                         {"exercise_hash", &A::exercise_hash},
                                          {"title", &A::title},
                                          {"goal", &A::goal},
                                          {"language", &A::language},
@@ -236,6 +230,7 @@ Marks marksOf(const Rehearsal& rehearsal, const std::string& student, const std:
   const auto& device = rehearsal.device();
   const auto& instrument = device.type().instrument;
   Marks marks{.exercise = e.id,
+              .exercise_hash = e.hash,
               .title = e.title.in(language),
               .goal = e.goal.in(language),
               .language = language,

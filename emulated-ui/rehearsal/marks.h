@@ -61,7 +61,7 @@ struct AnswerValue<RehearsalAction> {
 // data, with the figure from the points that proves it; of a rule that nothing asked, that and no consequence. A rule
 // keeps the values that it was judged by.
 struct Marks {
-  std::string exercise, title, goal, language;
+  std::string exercise, exercise_hash, title, goal, language;
   std::string device, instrument, maker, model;
   std::string student, operator_name;  // may be empty
   bool passed = false;

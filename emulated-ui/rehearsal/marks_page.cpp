@@ -21,7 +21,9 @@ constexpr const char* kStyle =
     "td,th{border-bottom:1px solid #ddd;padding:.4em .5em;text-align:left;vertical-align:top}"
     ".about{width:auto}.about td,.about th{border:0;padding:.1em 1em .1em 0}.about th{font-weight:normal;color:#666}"
     ".n{text-align:right;white-space:nowrap}.no{color:#a11}.yes{color:#171}small{color:#666}"
-    "img{width:100%;margin:.3em 0 1em}.mark{font-size:1.3em;margin:.6em 0}@media print{body{margin:0}}";
+    "figure{margin:0}img{width:100%;margin:.3em 0 1em}.mark{font-size:1.3em;margin:.6em 0}"
+    "@page{size:A4;margin:18mm 16mm}tr,figure,img{break-inside:avoid}thead{display:table-header-group}"
+    "@media print{body{margin:0;max-width:none;padding:0;font-size:10.5pt}}";
 
 // The certificate in the making.
 class Page {
@@ -125,7 +127,7 @@ class Page {
         const auto picture = setupPicture(setup);
         if (picture.empty()) continue;
         html_ += fmt::format(
-            "<p>{}</p><img alt=\"{}\" src=\"data:image/png;base64,{}\">\n",
+            "<figure><figcaption>{}</figcaption><img alt=\"{}\" src=\"data:image/png;base64,{}\"></figure>\n",
             word("setup",
                  {{"{name}", setup.name}, {"{station}", setup.station}, {"{points}", fmt::format("{}", setup.points)}}),
             htmlText(setup.name), picture);

@@ -2,7 +2,7 @@
 #include "emulated-ui/rehearsal/rehearsal.h"
 
 #include <algorithm>
-#include <chrono>
+#include <cmath>
 #include <thread>
 
 #include <fmt/format.h>
@@ -208,44 +208,81 @@ Result<void> Rehearsal::apply(const RehearsalAction& action, Progress& progress)
 }
 
 Result<void> Rehearsal::act(const RehearsalAction& action, Progress& progress) {
+  keepWait();
   auto ok = apply(action, progress);
-  if (ok) actions_.push_back(action);
   watch();
+  if (ok) keep(action);
   return ok;
 }
 
+void Rehearsal::keep(const RehearsalAction& action) {
+  const auto since = std::chrono::steady_clock::now() - began_;
+  actions_.push_back(action);
+  traces_.push_back({std::chrono::duration_cast<std::chrono::milliseconds>(since).count(), state()});
+}
+
+// In whole milliseconds, so that it reads well; the rest belongs to the next one.
+void Rehearsal::keepWait() {
+  const double wait_s = std::floor(waited_s_ * 1000) / 1000;
+  if (wait_s <= 0) return;
+  waited_s_ -= wait_s;
+  keep({Kind::wait, "", "", wait_s, {}});
+}
+
+// Whole numbers and words only.
+std::string Rehearsal::state() const {
+  const auto screen = device().screen();
+  const auto& state = device().state();
+  auto text = fmt::format("{}|{}|{}|{}|{} mdeg|", screen.id, state.dialog, state.phase, state.around.station,
+                          std::lround(1000 * device().number("tilt")));
+  for (const auto& project : state.projects)
+    for (const auto& setup : project.setups) text += fmt::format("{}={} ", setup.name, setup.points);
+  text += '|';
+  for (const auto& step : steps_) text += step.done ? '1' : '0';
+  text += '|';
+  for (const auto& rule : rules_) text += rule.broken_at_s >= 0 ? '0' : '1';
+  return text;
+}
+
 void Rehearsal::did(const RehearsalAction& verb, std::shared_ptr<const Job> job) {
+  keepWait();
   document_.job = std::move(job);
   counts_["field." + verb.name] += 1;
-  actions_.push_back(verb);
   watch();
+  keep(verb);
 }
 
 void Rehearsal::pass(double seconds) {
+  const double before = device().state().clock_s;
+  update(seconds);
+  waited_s_ += device().state().clock_s - before;
+}
+
+void Rehearsal::update(double seconds) {
   if (auto stored = host_->update(document_, folder_ / "scans", seconds)) document_ = std::move(stored->document);
   watch();
 }
 
 Result<void> Rehearsal::passVirtually(double seconds, Progress& progress) {
   while (seconds > 0) {
-    pass(0);  // what was ordered meanwhile begins
+    update(0);  // what was ordered meanwhile begins
     while (host_->task() != nullptr) {
       if (auto going = progress.check(); !going) {
         host_->task()->progress().cancel();
         return going;
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
-      pass(0);
+      update(0);
     }
     const double step = std::min(seconds, kStep_s);
-    pass(step);
+    update(step);
     seconds -= step;
   }
   return {};
 }
 
 Result<void> Rehearsal::finish(Progress& progress) {
-  pass(0);
+  update(0);
   for (double waited = 0; host_->busy() && waited < kLongestFinish_s && device().state().dialog.empty();
        waited += kStep_s)
     if (auto ok = passVirtually(kStep_s, progress); !ok) return ok;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -70,6 +72,15 @@ class Rehearsal {
   // The step that is to be done now; null after the last.
   const ExerciseStep* nextStep() const;
   const std::vector<RehearsalAction>& actions() const { return actions_; }
+  // Beside each of them: when it was done, of the computer's clock since the start, and what device and marks were
+  // right after it, in one line that is the same on each computer: "home||ready|S1|tilt 20 mdeg|…".
+  struct Trace {
+    std::int64_t wall_ms = 0;
+    std::string state;
+  };
+  const std::vector<Trace>& traces() const { return traces_; }
+  // Keeps the device's time since the last action as a wait: before an end that is no action.
+  void keepWait();
   // What the device was asked for and could not do, with the reason: a scan that failed.
   struct Failure {
     double at_s = 0;
@@ -90,6 +101,9 @@ class Rehearsal {
   Result<void> prepareModel(Progress& progress);
   void knowControl();
   void watch();
+  void update(double seconds);
+  void keep(const RehearsalAction& action);
+  std::string state() const;
   void count(const DeviceEvent& event);
   void noteTargets();
   void breakRule(std::size_t index);
@@ -109,6 +123,9 @@ class Rehearsal {
   std::vector<std::vector<std::string>> shown_facts_;  // by rule: of its proof and texts, beside those of its condition
   std::vector<bool> event_happened_;
   std::vector<RehearsalAction> actions_;
+  std::vector<Trace> traces_;
+  double waited_s_ = 0;  // of the device's clock, in no action so far
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   std::vector<Failure> failures_;
   std::map<std::string, std::string> answers_;
   WalkedWay walk_;

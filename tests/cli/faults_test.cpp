@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/part_file.h"
-#include "emulated-ui/rehearsal/rehearse_verb.h"
+#include "emulated-ui/verbs/rehearse_verb.h"
 #include "project/storage/project_files.h"
 #include "tests/project/killed_process.h"
 #include "tests/project/support.h"
@@ -97,6 +97,15 @@ std::vector<Writer> writers() {
       {"instruments", "", {"instruments", "--copy", "leica-rtc360", "--as", "mine"}, {"own/mine.json"}, true},
       {"run", "", {"run", "job.json"}, {project, "o.glb"}},
       {"rehearse", "", {"rehearse", "E04", "--solution", "-o", "o"}, {"o/result.json", "o/result.csv"}},
+      {"assign",
+       "",
+       {"assign", "exercise.json", "--class", "class.csv", "--key", "class.key", "-o", "o.json"},
+       {"o.json"}},
+      {"collect",
+       "",
+       {"collect", "results.d", "--assignment", "given.json", "--class", "class.csv", "--key", "class.key", "-o", "o"},
+       {"o/table.csv", "o/criteria.csv", "o/moodle.csv", "o/xapi.json", "o/marks/C1-s-001.mark.json"}},
+      {"scorm", "", {"scorm", "given.json", "--class", "class.csv", "-o", "o.zip"}, {"o.zip"}},
   };
 }
 
@@ -160,9 +169,27 @@ class Faults : public ::testing::TestWithParam<Writer> {
       ASSERT_EQ(run({"underlay", "p", "--add", "s.e57"}, base.path()), 0);
     }
     if (writer().verb == std::string("locate")) fs::rename(base.path() / "s.e57", base.path() / "moved.e57");
+    if (std::set<std::string>{"assign", "collect", "scorm"}.contains(writer().verb)) setUpClass();
     if (!writer().makes_its_place)
       for (const auto& file : writer().files)
         if (file.rfind("p/", 0) != 0) put(base.path() / file, kOld);
+  }
+
+  // An exercise that takes a moment, a class of one, and its result.
+  void setUpClass() {
+    put(base.path() / "exercise.json", R"({"id": "C1", "title": {"en": "On"}, "goal": {"en": "Switch on."},
+      "devices": ["generic"], "model": "house", "pass_mark": 1,
+      "steps": [{"id": "on", "text": {"en": "Switch on."}, "done": "screen == home"}],
+      "solution": [{"press": "power"}, {"wait": 20}]})");
+    put(base.path() / "class.csv", "id\ns-001\n");
+    put(base.path() / "actions.json", R"([{"press": "power"}, {"wait": 20}])");
+    ASSERT_EQ(
+        run({"assign", "exercise.json", "--class", "class.csv", "--key", "class.key", "--new-key", "-o", "given.json"},
+            base.path()),
+        0);
+    ASSERT_EQ(run({"rehearse", "given.json", "--student", "s-001", "--actions", "actions.json", "-o", "results.d"},
+                  base.path(), {"XDG_CONFIG_HOME=" + (base.path() / "config").string()}),
+              0);
   }
 
   fs::path fresh() {

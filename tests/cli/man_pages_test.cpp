@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/option_words.h"
-#include "emulated-ui/rehearsal/rehearse_verb.h"
+#include "emulated-ui/verbs/rehearse_verb.h"
 
 namespace standpoint {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "emulated-ui/rehearsal/rehearse_verb.h"
+#include "emulated-ui/verbs/rehearse_verb.h"
 
 namespace standpoint {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "core/data_folder.h"
 #include "demo_verbs.h"
-#include "emulated-ui/rehearsal/rehearse_verb.h"
+#include "emulated-ui/verbs/rehearse_verb.h"
 #include "item_probe.h"
 #include "tests/project/support.h"
 

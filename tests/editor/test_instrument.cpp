@@ -12,6 +12,8 @@
 #include "editor/instrument/desk.h"
 #include "editor/instrument/instrument.h"
 #include "editor/widgets/theme.h"
+#include "emulated-ui/classroom/signed_result.h"
+#include "emulated-ui/classroom/verify.h"
 #include "item_probe.h"
 #include "project/storage/project_files.h"
 #include "tests/project/support.h"
@@ -101,6 +103,73 @@ TEST_F(InstrumentGui, OffersTheCertificateAndANewStartOnceItIsMarked) {
   gui.settle();
   EXPECT_NE(gui.find("###finish"), nullptr);
   EXPECT_EQ(gui.find("###certificate"), nullptr);
+}
+
+// As a lecturer gives it, and as a student works on it with the mouse.
+TEST_F(InstrumentGui, OpensAnAssignedExerciseForItsStudentsOnlyAndLeavesAResultThatIsVerified) {
+  setenv("XDG_CONFIG_HOME", (folder_.path() / "config").c_str(), 1);
+  const auto key = SigningKey::make(folder_.path() / "key");
+  ASSERT_TRUE(key);
+  const auto known = findExercise("T-RTC360");
+  const auto exercise = readJsonFile(known->file);
+  const auto given = assign({*exercise, "class", {{"s-001", "", "s-001", ""}}, "", {{7, {}}}}, *key);
+  const auto file = folder_.path() / "assigned.json";
+  std::ofstream(file) << fileText(given.seal);
+  InstrumentDesk desk;
+  openAssignment(desk, file);
+  ASSERT_TRUE(desk.assignment) << desk.refused;
+  EXPECT_NE(whyNotStartAssigned(desk), "");
+  desk.student = "s-002";
+  EXPECT_NE(whyNotStartAssigned(desk), "");
+  desk.student = "s-001";
+  EXPECT_EQ(whyNotStartAssigned(desk), "");
+  startAssigned(desk, editor);
+  ASSERT_NE(desk.rehearsal, nullptr) << desk.refused;
+  EXPECT_TRUE(desk.rehearsal->exercise().solution.empty());
+  // Time passes between the presses, in frames, as it does in the window.
+  desk.rehearsal->host().time_factor = 100;
+  const auto passTime = [&](int frames) {
+    for (int i = 0; i < frames; ++i) desk.rehearsal->pass(0.0371);
+  };
+  passTime(40);
+  for (const auto& action : known->exercise.solution) {
+    if (action.kind == RehearsalAction::Kind::wait || action.kind == RehearsalAction::Kind::finish) {
+      const auto& host = desk.rehearsal->host();
+      for (int i = 0; i < 20000 && (i < 60 || (host.busy() && host.device().state().dialog.empty())); ++i) {
+        desk.rehearsal->pass(0.0371);
+        if (desk.rehearsal->host().task() != nullptr) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      }
+      continue;
+    }
+    act(desk, action);
+    EXPECT_TRUE(desk.view.said.empty()) << desk.view.said;
+    passTime(9);
+  }
+  finishExercise(desk, editor);
+  EXPECT_TRUE(desk.marks->passed) << marksText(*desk.marks);
+  ASSERT_FALSE(desk.result.empty()) << desk.refused;
+  const auto result = readResult(desk.result);
+  ASSERT_TRUE(result) << describe(result.error());
+  Progress quiet;
+  const auto verified = verifyAlone(*result, "en", quiet);
+  ASSERT_TRUE(verified) << describe(verified.error());
+  EXPECT_TRUE(verified->verified()) << verified->why;
+  EXPECT_EQ(verified->marks->score, desk.marks->score);
+  EXPECT_NEAR(verified->marks->seconds, desk.marks->seconds, 0.01);
+  leaveExercise(desk, editor);
+}
+
+TEST_F(InstrumentGui, SaysWhyAFileIsNoAssignedExercise) {
+  const auto file = folder_.path() / "other.json";
+  std::ofstream(file) << "{}";
+  InstrumentDesk desk;
+  openAssignment(desk, file);
+  EXPECT_FALSE(desk.assignment);
+  EXPECT_NE(desk.refused.find("other.json"), std::string::npos) << desk.refused;
+  openTab("Exercise");
+  ASSERT_TRUE(gui.click("###open-assignment"));
+  gui.frames(2);
+  EXPECT_TRUE(editor.dialogs.file.open);
 }
 
 TEST_F(InstrumentGui, LocksOnlyTheFieldsOfDeviceAndScannerDuringAnExercise) {

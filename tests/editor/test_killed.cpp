@@ -8,7 +8,7 @@
 #include "core/data_folder.h"
 #include "editor/model/recovery_keeper.h"
 #include "emulated-ui/rehearsal/rehearsal.h"
-#include "emulated-ui/rehearsal/rehearse_verb.h"
+#include "emulated-ui/verbs/rehearse_verb.h"
 #include "item_probe.h"
 #include "project/storage/project_files.h"
 #include "project/storage/project_json.h"

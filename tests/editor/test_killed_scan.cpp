@@ -7,7 +7,7 @@
 
 #include "core/data_folder.h"
 #include "editor/model/recovery_keeper.h"
-#include "emulated-ui/rehearsal/rehearse_verb.h"
+#include "emulated-ui/verbs/rehearse_verb.h"
 #include "item_probe.h"
 #include "project/survey/survey_verbs.h"
 #include "tests/project/killed_process.h"

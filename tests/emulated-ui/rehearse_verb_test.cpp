@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "emulated-ui/rehearsal/rehearse_verb.h"
+#include "emulated-ui/verbs/rehearse_verb.h"
 
 #include <fstream>
 #include <iterator>

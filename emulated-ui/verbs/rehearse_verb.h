@@ -7,9 +7,9 @@
 
 namespace standpoint {
 
-// The verbs of the emulated instruments: `rehearse`. The doors join them with those of project/verbs/verbs.cpp.
+// The verb of the emulated instruments: `rehearse`.
 std::span<const Verb> rehearsalVerbs();
-// Both tables in one.
+// It, those of the classroom and those of project/verbs/verbs.cpp in one table, for the doors.
 std::span<const Verb> allVerbs();
 
 }  // namespace standpoint

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "emulated-ui/rehearsal/rehearse_verb.h"
+#include "emulated-ui/verbs/rehearse_verb.h"
 
 #include <filesystem>
 #include <set>
@@ -8,10 +8,16 @@
 #include <fmt/format.h>
 
 #include "core/json_fields.h"
+#include "core/json_file.h"
+#include "emulated-ui/classroom/assignment.h"
+#include "emulated-ui/classroom/dates.h"
+#include "emulated-ui/classroom/signed_result.h"
+#include "emulated-ui/classroom/verify.h"
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/exercise_words.h"
 #include "emulated-ui/rehearsal/marks.h"
 #include "emulated-ui/rehearsal/names.h"
+#include "emulated-ui/verbs/classroom_verbs.h"
 #include "project/fields.h"
 
 namespace standpoint {
@@ -23,6 +29,7 @@ struct RehearseOptions {
   std::filesystem::path actions;
   bool solution = false;
   std::vector<std::string> check;  // files
+  std::filesystem::path verify;    // a signed result
   bool names = false;
   bool words = false;
   std::string device;
@@ -82,7 +89,33 @@ const AnswerFields<CheckedFiles>& answerFields(const CheckedFiles*) {
   return fields;
 }
 
-using RehearseAnswer = std::variant<ExerciseList, CheckedFiles, NamedDevices, DeviceNames, Marks>;
+struct VerifiedResult {
+  bool verified = false;
+  std::string verdict, why, exercise, student, seed, finished, signed_by, assigned_by;
+  std::optional<std::size_t> from_action;
+  double claimed_score = 0;
+  std::optional<double> score;
+  std::optional<bool> passed;
+};
+const AnswerFields<VerifiedResult>& answerFields(const VerifiedResult*) {
+  using A = VerifiedResult;
+  static const AnswerFields<A> fields = {{"verified", &A::verified},
+                                         {"verdict", &A::verdict},
+                                         {"why", &A::why},
+                                         {"from_action", &A::from_action},
+                                         {"exercise", &A::exercise},
+                                         {"student", &A::student},
+                                         {"seed", &A::seed},
+                                         {"finished", &A::finished},
+                                         {"claimed_score", &A::claimed_score},
+                                         {"score", &A::score},
+                                         {"passed", &A::passed},
+                                         {"signed_by", &A::signed_by},
+                                         {"assigned_by", &A::assigned_by}};
+  return fields;
+}
+
+using RehearseAnswer = std::variant<ExerciseList, CheckedFiles, VerifiedResult, NamedDevices, DeviceNames, Marks>;
 using RehearseOutcome = Answered<RehearseAnswer>;
 
 RehearseOutcome listExercises(const Document& document, const std::string& language) {
@@ -192,30 +225,112 @@ Result<RehearseOutcome> listNames(const Document& document, const std::string& d
   return RehearseOutcome{document, std::move(names), {}, {}, std::move(text)};
 }
 
+Result<RehearseOutcome> verifyFile(const Document& document, const RehearseOptions& options, Progress& progress) {
+  TRY_ASSIGN(const auto result, readResult(options.verify));
+  TRY_ASSIGN(const auto found, verifyAlone(result, options.language, progress));
+  RehearseOutcome outcome{document};
+  VerifiedResult answer;
+  answer.verified = found.verified();
+  answer.verdict = wordOf(found.verdict);
+  answer.why = found.why;
+  answer.from_action = found.from_action;
+  answer.exercise = result.exercise;
+  answer.student = result.student;
+  answer.seed = result.seed;
+  answer.finished = result.finished;
+  answer.claimed_score = result.score;
+  answer.signed_by = fingerprint(result.seal.key);
+  if (const auto given = parseSeal(result.assignment, "assignment", kAssignmentKind))
+    answer.assigned_by = fingerprint(given->key);
+  const auto who = fmt::format("{} of {}", result.exercise, result.student);
+  if (found.marks) {
+    answer.score = found.marks->score;
+    answer.passed = found.marks->passed;
+  }
+  if (found.verified())
+    outcome.text =
+        fmt::format("{}: verified, score {}, {}; assignment signed with key {}\n", who, percentText(found.marks->score),
+                    found.marks->passed ? "passed" : "not passed", answer.assigned_by);
+  else
+    outcome.report.lose(options.verify.filename().string(), found.why);
+  outcome.description = fmt::format("Verified {}: {}", who, answer.verdict);
+  outcome.answer = std::move(answer);
+  return outcome;
+}
+
+// What is to be carried out: an exercise, or a student's variant of one that was assigned.
+struct Chosen {
+  Exercise exercise;
+  std::optional<Assignment> assignment;
+};
+
+Result<Chosen> chosenExercise(const RehearseOptions& options, Report& report) {
+  if (!isAssignment(options.exercise)) {
+    TRY_ASSIGN(auto known, findExercise(options.exercise));
+    return Chosen{std::move(known.exercise), {}};
+  }
+  TRY_ASSIGN(auto assignment, readAssignment(options.exercise));
+  if (options.student.empty())
+    return failure(ErrorKind::usage, "specify who you are: --student ID, as it is in your class list", "--student");
+  const auto* variant = assignment.variantOf(options.student);
+  if (variant == nullptr)
+    return failure(ErrorKind::usage,
+                   fmt::format("class {} has no student '{}': use your id as it is in the class list",
+                               assignment.class_name, options.student),
+                   "--student");
+  if (!assignment.deadline.empty() && utcNow() > assignment.deadline)
+    report.warn(options.exercise, fmt::format("the deadline has passed: {}", localText(assignment.deadline)));
+  TRY_ASSIGN(auto exercise, assignment.exerciseWith(*variant));
+  return Chosen{std::move(exercise), std::move(assignment)};
+}
+
+// A plain list fits anything; a result says what it is of.
+Result<void> checkBelongs(const std::filesystem::path& actions, const Exercise& exercise, Report& report) {
+  TRY_ASSIGN(const auto json, readJsonFile(actions));
+  const auto place = actions.filename().string();
+  const auto text = [&](const char* key) {
+    const auto found = json.is_object() ? json.find(key) : json.end();
+    return json.is_object() && found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
+  };
+  if (const auto id = text("exercise"); !id.empty() && id != exercise.id)
+    return failure(ErrorKind::unusable, fmt::format("is a result of {}, not of {}", id, exercise.id),
+                   place + " /exercise");
+  if (const auto hash = text("exercise_hash"); !hash.empty() && hash != exercise.hash)
+    report.warn(place + " /exercise_hash", fmt::format("is a result of another version of {}", exercise.id));
+  return {};
+}
+
 Result<RehearseOutcome> runRehearse(const Document& document, const RehearseOptions& options, Progress& progress) {
   if (static_cast<int>(!options.exercise.empty()) + static_cast<int>(!options.check.empty()) +
-          static_cast<int>(options.names) + static_cast<int>(options.words) >
+          static_cast<int>(options.names) + static_cast<int>(options.words) +
+          static_cast<int>(!options.verify.empty()) >
       1)
-    return failure(ErrorKind::usage, "--check, --names, --words and carrying out an exercise cannot be combined",
-                   "--check");
+    return failure(ErrorKind::usage,
+                   "--check, --verify, --names, --words and carrying out an exercise cannot be combined", "--check");
+  if (!options.verify.empty()) return verifyFile(document, options, progress);
   if (!options.check.empty()) return checkFiles(document, options.check, progress);
   if (options.names) return listNames(document, options.device);
   if (options.words) return checkWords(document);
   if (options.exercise.empty()) return listExercises(document, options.language);
-  TRY_ASSIGN(auto known, findExercise(options.exercise));
+  RehearseOutcome outcome{document};
+  TRY_ASSIGN(const auto chosen, chosenExercise(options, outcome.report));
+  const auto& exercise = chosen.exercise;
   std::vector<RehearsalAction> actions;
   if (options.solution == !options.actions.empty())
     return failure(ErrorKind::usage, "specify the actions: --actions FILE, or --solution for the sample solution",
                    "--actions");
   if (options.solution) {
-    actions = known.exercise.solution;
+    if (chosen.assignment)
+      return failure(ErrorKind::usage, "an assigned exercise has no solution; specify --actions FILE", "--solution");
+    actions = exercise.solution;
   } else {
+    TRY(checkBelongs(options.actions, exercise, outcome.report));
     TRY_ASSIGN(auto read, readActions(options.actions));
     actions = std::move(read);
   }
   const auto& folder = options.output;
-  TRY_ASSIGN(auto rehearsal, Rehearsal::start(known.exercise, options.device, folder, {}, progress));
-  RehearseOutcome outcome{document};
+  const auto started = utcNow();
+  TRY_ASSIGN(auto rehearsal, Rehearsal::start(exercise, options.device, folder, {}, progress));
   for (std::size_t i = 0; i < actions.size(); ++i)
     if (auto done = rehearsal->act(actions[i], progress); !done) {
       if (done.error().kind == ErrorKind::cancelled) return failure(done.error());
@@ -225,8 +340,12 @@ Result<RehearseOutcome> runRehearse(const Document& document, const RehearseOpti
   auto marks = marksOf(*rehearsal, options.student, options.language);
   TRY(writeMarks(*rehearsal, marks, folder));
   outcome.text = marksText(marks);
-  if (!marks.passed) outcome.report.lose(known.exercise.id, whyNotPassed(marks));
-  outcome.description = fmt::format("Rehearsed {}: {}", known.exercise.id, marks.passed ? "passed" : "not passed");
+  if (chosen.assignment) {
+    TRY_ASSIGN(const auto file, writeResult(*rehearsal, marks, *chosen.assignment, started, folder));
+    outcome.text += fmt::format("Hand in this file: {}\n", file.string());
+  }
+  if (!marks.passed) outcome.report.lose(exercise.id, whyNotPassed(marks));
+  outcome.description = fmt::format("Rehearsed {}: {}", exercise.id, marks.passed ? "passed" : "not passed");
   outcome.answer = std::move(marks);
   return outcome;
 }
@@ -234,18 +353,23 @@ Result<RehearseOutcome> runRehearse(const Document& document, const RehearseOpti
 const Fields<RehearseOptions>& rehearseFields() {
   using O = RehearseOptions;
   static const Fields<O> fields = {
-      {"exercise", &O::exercise, "file of the exercise, or its id such as E03", {.positional = true}},
+      {"exercise",
+       &O::exercise,
+       "file of the exercise or of an assigned one, or an id such as E03",
+       {.positional = true}},
       {"actions", &O::actions, "list of actions to carry out; an exported result replays"},
       {"solution", &O::solution, "carry out the exercise's own solution"},
       {"check", &O::check,
        "exercise files to check: what is wrong with them, and whether their solutions do what is expected of them "
        "(exit "
        "code 3: one is refused)"},
+      {"verify", &O::verify,
+       "a signed result to carry out again: is the mark what its actions give? (exit code 3: it is not)"},
       {"names", &O::names, "list the devices, or with --device all names and choices for its exercises"},
       {"words", &O::words,
        "list the texts of devices and exercises that a language lacks (exit code 3: there are some)"},
       {"device", &O::device, "id of the device, for an exercise with several"},
-      {"student", &O::student, "name on the certificate"},
+      {"student", &O::student, "name on the certificate; of an assigned exercise the id in the class list"},
       {"language", &O::language, "language of the texts"},
       {"output", &O::output, "folder for the scans and the result (JSON, CSV, HTML)"}};
   return fields;
@@ -268,6 +392,7 @@ std::span<const Verb> allVerbs() {
   static const std::vector<Verb> all = [] {
     std::vector<Verb> both(verbs().begin(), verbs().end());
     both.insert(both.end(), table().begin(), table().end());
+    both.insert(both.end(), classroomVerbs().begin(), classroomVerbs().end());
     return both;
   }();
   return all;
