@@ -218,13 +218,15 @@ TEST_F(Preview, OfADroppedCloudWaitsForAModelAndThenLiesUnderIt) {
   EXPECT_GT(cloud->colours[1][0], cloud->colours[0][0]) << "the brighter point is brighter";
 }
 
-TEST_F(Preview, OfACloudWithoutAnyModelSaysWhatToDo) {
+TEST_F(Preview, IsNoneOfACloudWithoutAModelWhichIsOpenedAlone) {
   const TemporaryFolder folder;
   const auto file = folder.write("points.xyz", "0 0 0\n");
   openFiles(editor, {file});
   gui.frames(1);
-  ASSERT_EQ(editor.session.errors().size(), 1u);
-  EXPECT_NE(editor.session.errors()[0].error.message.find("Import a model first"), std::string::npos);
+  EXPECT_FALSE(editor.preview.isOpen());
+  gui.settle();
+  EXPECT_TRUE(editor.session.errors().empty());
+  EXPECT_EQ(editor.session.document().underlays.size(), 1u);
 }
 
 }  // namespace
