@@ -25,7 +25,8 @@ Result<Words> Words::read(const std::filesystem::path& folder) {
     if (entry.path().extension() == ".json") files.push_back(entry.path());
   if (error) return failure(ErrorKind::file_system, "cannot read the folder: " + error.message(), folder.string());
   std::sort(files.begin(), files.end());
-  for (auto& file : languageFiles(folder, "common")) files.push_back(std::move(file));
+  for (const char* name : {"common", "facts"})
+    for (auto& file : languageFiles(folder, name)) files.push_back(std::move(file));
   Words words;
   for (const auto& file : files) TRY(words.take(file, {}));
   return words;
