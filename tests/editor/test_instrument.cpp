@@ -142,7 +142,7 @@ TEST_F(InstrumentGui, OpensAnAssignedExerciseForItsStudentsOnlyAndLeavesAResultT
       continue;
     }
     act(desk, action);
-    EXPECT_TRUE(desk.view.said.empty()) << desk.view.said;
+    EXPECT_TRUE(desk.said.empty()) << desk.said;
     passTime(9);
   }
   finishExercise(desk, editor);
