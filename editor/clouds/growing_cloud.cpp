@@ -44,7 +44,10 @@ std::shared_ptr<const Cloud> foreseenPart(const RayScene& scene, const StandingI
 
 Result<void> GrowingCloud::begin(const ScanHeader& header) {
   const std::lock_guard lock(mutex_);
-  maker_.begin(header);
+  ScanHeader where = header;
+  if (stands_.body != nullptr)
+    where.file_from_scanner = {stands_.rotation, stands_.centre_m + maker_.header().origin_m};
+  maker_.begin(where);
   columns_ = std::max(1U, header.columns);
   step_ = std::max<std::uint64_t>(1, columns_ * header.rows / kMostPoints);
   seen_ = 0;
@@ -91,6 +94,7 @@ double GrowingCloud::endOf(std::size_t part) const {
 }
 
 void GrowingCloud::foresee(std::shared_ptr<const RayScene> scene, const StandingInstrument& stands) {
+  const std::lock_guard lock(mutex_);
   scene_ = std::move(scene);
   stands_ = stands;
 }

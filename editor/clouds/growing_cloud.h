@@ -24,7 +24,8 @@ class GrowingCloud : public PointSink {
   Result<void> end() override { return {}; }
   Result<void> close() override { return {}; }
 
-  // From where it is scanned; without it nothing is shown ahead of the simulation.
+  // From where it is truly scanned: said before the scan begins, its points are shown where the beam was, whatever the
+  // surveyor believes of the station. Without a scene nothing is shown ahead of the simulation.
   void foresee(std::shared_ptr<const RayScene> scene, const StandingInstrument& stands);
   // What the beam has passed when the head has done that share of its turn; nothing: it measures no more, so what it
   // had passed, or all when all is simulated. Local frame.
@@ -44,7 +45,6 @@ class GrowingCloud : public PointSink {
       std::vector<std::shared_ptr<const Cloud>>(kParts);  // null: not all of it is there
   bool whole_ = false;                                    // all of them are
   double passed_ = 0;
-  // Of the thread that draws.
   std::shared_ptr<const RayScene> scene_;
   StandingInstrument stands_;
   std::vector<std::shared_ptr<const Cloud>> foreseen_ = std::vector<std::shared_ptr<const Cloud>>(kParts);

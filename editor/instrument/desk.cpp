@@ -136,6 +136,16 @@ void followProject(InstrumentDesk& desk, Editor& editor) {
 
 namespace {
 
+// As its foot screws have it; nothing where there is no such station.
+std::optional<StandingInstrument> standsAt(InstrumentDesk& desk, const Editor& editor, const std::string& name) {
+  const auto* station = stationOf(desk.rehearsal ? desk.rehearsal->document() : editor.session.document(), name);
+  if (station == nullptr) return std::nullopt;
+  const auto& around = desk.shown()->state().around;
+  auto stands = standing(*station, desk.shown()->type().instrument.id);
+  stands.rotation = leaning(stands.rotation, around.tilt_x_deg, around.tilt_y_deg);
+  return stands;
+}
+
 // What of the device is seen in the scene: where it stands, what moves on it, and what it has measured there.
 void showInScene(InstrumentDesk& desk, Editor& editor) {
   const auto& device = std::as_const(*desk.shown());
@@ -147,15 +157,13 @@ void showInScene(InstrumentDesk& desk, Editor& editor) {
   const double before_rad = held.motion.head_rad;
   held.motion = desk.motion.of(device, std::chrono::duration<double>(desk.last.time_since_epoch()).count(), ticks);
   held.moves = ticks && (held.motion.mirror_turns || held.motion.head_rad != before_rad);
-  const auto& document = desk.rehearsal ? desk.rehearsal->document() : editor.session.document();
-  const auto* station = stationOf(document, station_name);
+  const auto stands = standsAt(desk, editor, station_name);
   const auto turns = desk.motion.turns();
-  if (turns && station != nullptr && ticks)
-    held.motion.fans = fansOf(desk.motion.shape(device), std::fmod(*turns, 1.0), standing(*station, held.instrument),
-                              editor.picker.scene().get());
+  if (turns && stands && ticks)
+    held.motion.fans = fansOf(desk.motion.shape(device), std::fmod(*turns, 1.0), *stands, editor.picker.scene().get());
   if (desk.growing_at != station_name) desk.growing.reset();
   if (!desk.growing) return editor.growing.clear();
-  if (station != nullptr) desk.growing->foresee(editor.picker.scene(), standing(*station, held.instrument));
+  if (stands) desk.growing->foresee(editor.picker.scene(), *stands);
   const bool measured = device.state().running && device.state().laser_s > 0;  // and it takes pictures, or stores
   auto growing = desk.growing->shown(turns      ? std::optional(std::min(*turns, 1.0))
                                      : measured ? std::optional(1.0)
@@ -177,6 +185,8 @@ void advance(InstrumentDesk& desk, Editor& editor) {
   desk.running()->watch = [&desk, &editor](const ScanOrder& order) {
     desk.growing = std::make_shared<GrowingCloud>(desk.motion.shape(*desk.shown()), editor.shift_m());
     desk.growing_at = order.station;
+    if (const auto stands = standsAt(desk, editor, order.station))
+      desk.growing->foresee(editor.picker.scene(), *stands);
     return desk.growing;
   };
   if (desk.rehearsal) {

@@ -179,6 +179,23 @@ TEST(GrowingCloud, WaitsForTheSimulationAndIsWholeWhenThatIsDone) {
   EXPECT_EQ(pointsOf(scan.cloud.shown(std::nullopt)), 3 * kColumns);
 }
 
+TEST(GrowingCloud, LiesWhereTheBeamWasWhateverTheSurveyorBelieves) {
+  GrowingCloud cloud({0, std::numbers::pi, 2, -1, 1}, {100, 0, 0});
+  cloud.foresee(nullptr, {&bodyOf(""), {7, 0, 0}, Eigen::Quaterniond::Identity(), 1.5});
+  ScanHeader header;
+  header.columns = kColumns;
+  header.rows = 3;
+  header.file_from_scanner.translation = {600, 20, 0};
+  ASSERT_TRUE(cloud.begin(header));
+  ASSERT_TRUE(cloud.write(columnsOf(0, kColumns, kColumns)));
+  for (const auto& part : cloud.shown(1))
+    for (const auto& p : part.cloud->points) {
+      const Eigen::Vector4d local =
+          part.local_from_cloud * Eigen::Vector4d(p.position_m[0], p.position_m[1], p.position_m[2], 1);
+      EXPECT_NEAR(std::hypot(local.x() - 7, local.y()), 5, 1e-3);
+    }
+}
+
 TEST(GrowingCloud, IsThinnedToWhatIsDrawnSmoothly) {
   constexpr std::uint32_t kMany = 200000;
   GrowingCloud cloud({0, 2 * std::numbers::pi, 1, -1, 1}, Eigen::Vector3d::Zero());
