@@ -16,7 +16,7 @@ constexpr int kForeseenAtOnce = 4;  // parts in one picture: some milliseconds
 std::shared_ptr<const Cloud> foreseenPart(const RayScene& scene, const StandingInstrument& stands,
                                           const SweepShape& shape, std::size_t part) {
   constexpr int kColumns = 20, kRows = 80;
-  constexpr double kFarthest_m = 100, kInInstrument_m = 0.2;
+  constexpr double kSeen_m = 100, kOutside_m = 0.2;
   Cloud cloud;
   cloud.header.origin_m = stands.centre_m;
   for (int column = 0; column < kColumns; ++column)
@@ -27,10 +27,10 @@ std::shared_ptr<const Cloud> foreseenPart(const RayScene& scene, const StandingI
       const Eigen::Vector3d way =
           stands.rotation * Eigen::Vector3d(std::cos(azimuth) * std::cos(elevation),
                                             -std::sin(azimuth) * std::cos(elevation), std::sin(elevation));
-      const Eigen::Vector3d from = stands.centre_m + kInInstrument_m * way;
-      const auto hit = scene.intersect(from, way, kFarthest_m);
+      const Eigen::Vector3d from = stands.centre_m + kOutside_m * way;
+      const auto hit = scene.intersect(from, way, kSeen_m);
       if (!hit) continue;
-      const Eigen::Vector3f place = ((hit->range_m + kInInstrument_m) * way).cast<float>();
+      const Eigen::Vector3f place = ((hit->range_m + kOutside_m) * way).cast<float>();
       CloudPoint point;
       point.position_m = {place.x(), place.y(), place.z()};
       cloud.points.push_back(point);
