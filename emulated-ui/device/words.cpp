@@ -25,8 +25,7 @@ Result<Words> Words::read(const std::filesystem::path& folder) {
     if (entry.path().extension() == ".json") files.push_back(entry.path());
   if (error) return failure(ErrorKind::file_system, "cannot read the folder: " + error.message(), folder.string());
   std::sort(files.begin(), files.end());
-  for (const char* name : {"common", "facts"})
-    for (auto& file : languageFiles(folder, name)) files.push_back(std::move(file));
+  for (auto& file : languageFiles(folder, "common")) files.push_back(std::move(file));
   Words words;
   for (const auto& file : files) TRY(words.take(file, {}));
   return words;

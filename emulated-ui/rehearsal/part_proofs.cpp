@@ -184,7 +184,8 @@ std::map<std::string, double> readParts(const Exercise& exercise, const Device& 
       if (!seen[k].near(sample.place.position)) unseen.push_back(sample.place.position);
     }
     const double each = samples->each_m2(), seen_m2 = (all - static_cast<double>(unseen.size())) * each;
-    const auto figure = [&](const char* what) -> double& { return figures[std::string(kPart) + name + "." + what]; };
+    const auto prefix = std::string(kPart) + name + ".";
+    const auto figure = [&](const char* what) -> double& { return figures[prefix + what]; };
     figure("area") = all * each;
     figure("seen") = all > 0 ? seen_m2 / (all * each) : 0;
     figure("points") = seen[k].points;

@@ -87,12 +87,19 @@ std::vector<double> floorsAt(const RayScene& scene, double x_m, double y_m, doub
 
 std::optional<BlockedFloor> blockedFloorAt(const RayScene& scene, double x_m, double y_m, double instrument_height_m,
                                            std::optional<double> z_m) {
-  const auto heights = heightsBelow(scene, x_m, y_m);  // falling
-  for (auto h = heights.rbegin(); h != heights.rend(); ++h) {
-    if (z_m && std::abs(*z_m - *h) > kFloorSearch_m) continue;
-    if (const auto above =
-            scene.intersect({x_m, y_m, *h + 1e-3}, Eigen::Vector3d::UnitZ(), instrument_height_m + kRoomAbove_m))
-      return BlockedFloor{*h, above->range_m, above->product};
+  auto heights = heightsBelow(scene, x_m, y_m);
+  std::reverse(heights.begin(), heights.end());  // rising
+  if (z_m)
+    std::stable_sort(heights.begin(), heights.end(),
+                     [z = *z_m](double a, double b) { return std::abs(a - z) < std::abs(b - z); });
+  for (const double h : heights) {
+    if (z_m && std::abs(*z_m - h) > kFloorSearch_m) continue;
+    const auto above =
+        scene.intersect({x_m, y_m, h + 1e-3}, Eigen::Vector3d::UnitZ(), instrument_height_m + kRoomAbove_m);
+    if (!above) continue;
+    const auto* product = &scene.environment().products[above->product];
+    if (product == productAt(scene, {x_m, y_m, h})) continue;  // the underside of what one stands on
+    return BlockedFloor{h, above->range_m, above->product};
   }
   return std::nullopt;
 }
