@@ -52,7 +52,7 @@ std::vector<WidgetOption> stationRows(const Device& device) {
          fmt::format("{}  {}  {}{}", setups[i].name, setups[i].station,
                      device.word("registration=" + (i == 0 ? "reference" : registrationOf(device, setups[i]))),
                      setups[i].moved        ? "  !"
-                     : setups[i].unlevelled ? "  ∠"
+                     : setups[i].unlevelled ? "  ~"
                                             : ""),
          true,
          {}});
