@@ -75,9 +75,9 @@ class Replay {
   Result<std::optional<Verification>> act(Rehearsal& rehearsal, std::size_t i, Progress& progress) {
     const auto& recorded = result_.actions[i];
     const auto place = fmt::format("action {}", i + 1);
-    const auto json = parseJson(recorded.action, place);
-    if (!json) return std::optional(doesNotReplay(i + 1, describe(json.error())));
-    const auto action = actionFrom(*json, place, "");
+    const auto written = parseJson(recorded.action, place);
+    if (!written) return std::optional(doesNotReplay(i + 1, describe(written.error())));
+    const auto action = actionFrom(*written, place, "");
     if (!action) return std::optional(doesNotReplay(i + 1, describe(action.error())));
     if (auto done = rehearsal.act(*action, progress); !done) {
       if (done.error().kind == ErrorKind::cancelled) return failure(done.error());

@@ -286,11 +286,12 @@ Result<Chosen> chosenExercise(const RehearseOptions& options, Report& report) {
 
 // A plain list fits anything; a result says what it is of.
 Result<void> checkBelongs(const std::filesystem::path& actions, const Exercise& exercise, Report& report) {
-  TRY_ASSIGN(const auto json, readJsonFile(actions));
+  TRY_ASSIGN(const auto written, readJsonFile(actions));
   const auto place = actions.filename().string();
   const auto text = [&](const char* key) {
-    const auto found = json.is_object() ? json.find(key) : json.end();
-    return json.is_object() && found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
+    const auto found = written.is_object() ? written.find(key) : written.end();
+    return written.is_object() && found != written.end() && found->is_string() ? found->get<std::string>()
+                                                                               : std::string();
   };
   if (const auto id = text("exercise"); !id.empty() && id != exercise.id)
     return failure(ErrorKind::unusable, fmt::format("is a result of {}, not of {}", id, exercise.id),
