@@ -29,6 +29,13 @@ fs::path dataFolder() {
   return dataFolderOf(fs::read_symlink("/proc/self/exe", error));
 }
 
+fs::path ownPath(const char* variable, const char* name) {
+  if (const char* path = variable == nullptr ? nullptr : given(variable)) return path;
+  if (const char* config = given("XDG_CONFIG_HOME")) return fs::path(config) / "standpoint" / name;
+  const char* home = given("HOME");
+  return home == nullptr ? fs::path() : fs::path(home) / ".config" / "standpoint" / name;
+}
+
 fs::path samplesFolder() {
   if (const char* folder = given("STANDPOINT_SAMPLES")) return folder;
   return dataFolder() / "samples";

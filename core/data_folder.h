@@ -17,6 +17,11 @@ std::filesystem::path dataFolderOf(const std::filesystem::path& program);
 // A file by which such a folder is recognised.
 inline constexpr const char* kDataMark = "materials/schema.json";
 
+// Where a user keeps what belongs beside that data: what `variable` names, if there is one, else standpoint/`name`
+// among the settings of programs (XDG_CONFIG_HOME, else ~/.config). Empty where none of them is set; it need not be
+// there.
+std::filesystem::path ownPath(const char* variable, const char* name);
+
 // The models of the sample environments: STANDPOINT_SAMPLES, else with the data.
 std::filesystem::path samplesFolder();
 

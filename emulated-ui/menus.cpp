@@ -2,7 +2,6 @@
 #include "emulated-ui/menus.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 
 #include "core/data_folder.h"
@@ -68,14 +67,8 @@ Result<std::shared_ptr<const DeviceType>> loadDevice(const EmulatedDevice& devic
 }
 
 std::filesystem::path userLayout(const EmulatedDevice& device) {
-  namespace fs = std::filesystem;
-  const auto file = std::string(device.id) + ".json";
-  if (const char* folder = std::getenv("STANDPOINT_LAYOUTS"); folder != nullptr && *folder != '\0')
-    return fs::path(folder) / file;
-  if (const char* config = std::getenv("XDG_CONFIG_HOME"); config != nullptr && *config != '\0')
-    return fs::path(config) / "standpoint" / "layouts" / file;
-  const char* home = std::getenv("HOME");
-  return home == nullptr ? fs::path() : fs::path(home) / ".config" / "standpoint" / "layouts" / file;
+  const auto folder = ownPath("STANDPOINT_LAYOUTS", "layouts");
+  return folder.empty() ? folder : folder / (std::string(device.id) + ".json");
 }
 
 Result<Layout> loadLayout(const EmulatedDevice& device, const DeviceType& type) {

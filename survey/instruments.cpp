@@ -2,7 +2,6 @@
 #include "survey/instruments.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <string_view>
@@ -17,11 +16,6 @@ namespace standpoint {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path environmentPath(const char* variable) {
-  const char* value = std::getenv(variable);
-  return value == nullptr ? fs::path() : fs::path(value);
-}
 
 Result<void> addFrom(std::vector<KnownInstrument>& known, const fs::path& folder, bool own) {
   auto instruments = readInstruments(folder);
@@ -71,12 +65,7 @@ fs::path shippedInstrumentsFolder() { return dataFolder() / "scanners" / "instru
 
 fs::path tripodStandFile() { return dataFolder() / "scanners" / "stands" / "tripod.json"; }
 
-fs::path ownInstrumentsFolder() {
-  if (auto folder = environmentPath("STANDPOINT_INSTRUMENTS"); !folder.empty()) return folder;
-  if (auto config = environmentPath("XDG_CONFIG_HOME"); !config.empty()) return config / "standpoint" / "instruments";
-  const auto home = environmentPath("HOME");
-  return home.empty() ? fs::path() : home / ".config" / "standpoint" / "instruments";
-}
+fs::path ownInstrumentsFolder() { return ownPath("STANDPOINT_INSTRUMENTS", "instruments"); }
 
 Result<std::vector<KnownInstrument>> instrumentsWithFiles() {
   std::vector<KnownInstrument> known;

@@ -89,7 +89,9 @@ class Search {
     TRY_ASSIGN(const auto figures, variantFigures(exercise_, file_));
     const auto wanted = std::min(most, countVariants(figures));
     const auto tries = figures.empty() ? 1 : kTriedForEach * wanted;
-    for (std::size_t n = 0; n < tries && found_.size() < wanted; ++n) {
+    for (std::size_t n = 0; n < tries; ++n) {
+      if (found_.size() >= wanted) TRY(closeRing());
+      if (found_.size() >= wanted) break;
       const auto share = static_cast<double>(found_.size()) / static_cast<double>(wanted);
       progress_.stage(fmt::format("Checking variant {} of {}", found_.size() + 1, wanted), share, 1);
       const auto seed = seedFor(exercise_, n, key);
@@ -149,11 +151,13 @@ class Search {
     return copied.marks.passed;
   }
 
-  // The first one has the last one as its neighbour.
+  // The first one has the last one as its neighbour, whichever is the first then.
   Result<void> closeRing() {
-    if (found_.size() < 2) return {};
-    TRY_ASSIGN(const auto copied, copyPasses(found_.front(), found_.back()));
-    if (copied) found_.erase(found_.begin());
+    while (found_.size() > 1) {
+      TRY_ASSIGN(const auto copied, copyPasses(found_.front(), found_.back()));
+      if (!copied) break;
+      found_.erase(found_.begin());
+    }
     return {};
   }
 

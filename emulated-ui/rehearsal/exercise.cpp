@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -391,13 +390,7 @@ KnownExercises shipped(const Result<ExerciseWords>& words) {
 
 KnownExercises shippedExercises() { return shipped(ExerciseWords::read(wordsFolder())); }
 
-fs::path ownExercisesFolder() {
-  if (const char* folder = std::getenv("STANDPOINT_EXERCISES")) return folder;
-  if (const char* config = std::getenv("XDG_CONFIG_HOME"); config != nullptr && *config != '\0')
-    return fs::path(config) / "standpoint" / "exercises";
-  const char* home = std::getenv("HOME");
-  return home == nullptr ? fs::path() : fs::path(home) / ".config" / "standpoint" / "exercises";
-}
+fs::path ownExercisesFolder() { return ownPath("STANDPOINT_EXERCISES", "exercises"); }
 
 std::uint64_t ownExercisesStamp() {
   std::uint64_t stamp = 0;

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <optional>
@@ -12,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/data_folder.h"
 #include "core/json_fields.h"
 #include "core/json_file.h"
 
@@ -134,16 +134,9 @@ std::uint64_t SigningKey::drawn(std::string_view text) const {
 }
 
 Result<SigningKey> ownKey() {
-  const char* config = std::getenv("XDG_CONFIG_HOME");
-  const char* home = std::getenv("HOME");
-  fs::path folder;
-  if (config != nullptr && *config != '\0')
-    folder = config;
-  else if (home != nullptr)
-    folder = fs::path(home) / ".config";
-  else
+  const auto file = ownPath(nullptr, "student.key");
+  if (file.empty())
     return failure(ErrorKind::file_system, "no place for the key: HOME and XDG_CONFIG_HOME are not set", "student.key");
-  const auto file = folder / "standpoint" / "student.key";
   std::error_code error;
   return fs::exists(file, error) ? SigningKey::read(file) : SigningKey::make(file);
 }

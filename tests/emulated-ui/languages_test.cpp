@@ -163,8 +163,9 @@ TEST_P(DeviceLanguages, AreSwitchedAtAnyTimeAndHoldOnEveryScreen) {
       device.change().screen = screen.id;
       const auto shown = device.screen();
       EXPECT_EQ(device.value("language"), language);
-      if (const auto title = words.text(GetParam()->id, screen.id, language); title.find('{') == std::string::npos)
+      if (const auto title = words.text(GetParam()->id, screen.id, language); title.find('{') == std::string::npos) {
         EXPECT_EQ(shown.title, title) << screen.id;
+      }
       for (const auto& widget : shown.widgets)
         EXPECT_EQ(widget.label.find_first_of("{}"), std::string::npos)
             << screen.id << '/' << widget.id << ": " << widget.label;

@@ -41,8 +41,9 @@ TEST_P(Layouts, HaveAnIconForEachKeyOfTheHomeScreen) {
   ASSERT_TRUE(layout) << describe(layout.error());
   for (const auto& screen : (*type)->definition.screens)
     for (const auto& row : screen.widgets)
-      if (screen.entry && row.kind == WidgetKind::button)
+      if (screen.entry && row.kind == WidgetKind::button) {
         EXPECT_TRUE(layout->icons.contains(row.id)) << screen.id << '/' << row.id;
+      }
 }
 
 INSTANTIATE_TEST_SUITE_P(Device, Layouts, testing::ValuesIn(everyDevice()), deviceName);
