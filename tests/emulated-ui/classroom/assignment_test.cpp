@@ -86,7 +86,8 @@ std::string assigned(const std::function<void(json&)>& change, Report* report = 
   change(exercise);
   // Another key draws other variants: this one is that of RFC 8032, section 7.1, test 1.
   const auto key = *SigningKey::read(folder.write("k", R"({"format": "standpoint-key-1",
-    "secret": "nWGxne/9WmC6hEr0kuwsxERJxWl7MmkZcDusAxyuf2A=", "public": "11qYAYKxCrfVS/7TyWQHOg7hcvPapiMlrwIaaPcHURo="})"));
+    "secret": "nWGxne/9WmC6hEr0kuwsxERJxWl7MmkZcDusAxyuf2A=",
+    "public": "11qYAYKxCrfVS/7TyWQHOg7hcvPapiMlrwIaaPcHURo="})"));
   Report said;
   Progress quiet;
   const auto done = checkedVariants(exercise, "x.json", 3, key, said, quiet);
