@@ -14,11 +14,11 @@ $all || filter+=':WalkedBuildings.*'
 export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1
 export LSAN_OPTIONS="suppressions=$PWD/tests/leaks.supp:print_suppressions=0"
 
-run() {  # run PROGRAM: its last lines where it fails
+run() {  # run PROGRAM
   local log=$1.log since=$SECONDS
   # Drivers of OpenGL are unloaded before the end: what they keep has no name left by which it could be suppressed.
   [[ $1 != *editor_viewport ]] || ASAN_OPTIONS+=:detect_leaks=0
-  "$1" --gtest_brief=1 --gtest_filter="$filter" >"$log" 2>&1 || { tail -n 60 "$log"; echo "$1: failed"; return 1; }
+  "$1" --gtest_brief=1 --gtest_filter="$filter" >"$log" 2>&1 || { echo "$(basename "$1"): failed"; return 1; }
   echo "$(basename "$1"): $((SECONDS - since)) s"
 }
 
@@ -32,11 +32,19 @@ for name in ${known//test_/}; do
 done
 
 # Programs run while the next one is built.
-running=()
+declare -A running=()
 for name in "${programs[@]}"; do
   cmake --build --preset asan --target "test_$name"
   while (($(jobs -rp | wc -l) >= $(nproc))); do sleep 1; done
   run "build/asan/bin/test_$name" &
-  running+=($!)
+  running[$name]=$!
 done
-for job in "${running[@]}"; do wait "$job"; done
+failed=()
+for name in "${programs[@]}"; do wait "${running[$name]}" || failed+=("$name"); done
+# What failed comes last, where somebody who sees but the end of the output reads it.
+for name in ${failed[@]+"${failed[@]}"}; do
+  tail -n 60 "build/asan/bin/test_$name.log"
+  grep -E '^\[  FAILED|^SUMMARY: |runtime error: |^==[0-9]+==ERROR' "build/asan/bin/test_$name.log" | head -20 || true
+  echo "test_$name: failed"
+done
+((${#failed[@]} == 0))
