@@ -38,7 +38,7 @@ void put(std::string& record, const T* values, std::size_t count) {
 template <class T>
 bool take(std::string_view& record, T* values, std::size_t count) {
   if (count > record.size() / sizeof(T)) return false;
-  std::memcpy(values, record.data(), count * sizeof(T));
+  if (count > 0) std::memcpy(values, record.data(), count * sizeof(T));  // an empty vector's values are nowhere
   record.remove_prefix(count * sizeof(T));
   return true;
 }
