@@ -7,6 +7,7 @@
 
 #include "core/json_fields.h"
 #include "core/json_file.h"
+#include "emulated-ui/rehearsal/exercise_words.h"
 
 namespace standpoint {
 
@@ -42,8 +43,9 @@ const Variant* Assignment::variantOf(const std::string& student) const {
 }
 
 Result<Exercise> Assignment::exerciseWith(const Variant& variant) const {
-  TRY_ASSIGN(const auto filled, withFigures(exercise, variant.figures, id()));
-  return exerciseFrom(filled, id());
+  TRY_ASSIGN(auto given, exerciseFrom(exercise, id(), variant.figures));
+  if (const auto& words = ExerciseWords::shipped(); words) words->addTo(given);
+  return given;
 }
 
 std::uint64_t seedFor(const json& exercise, std::size_t n, const SigningKey& key) {

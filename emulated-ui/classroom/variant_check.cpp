@@ -115,8 +115,7 @@ class Search {
   }
 
   Result<void> consider(Variant variant) {
-    TRY_ASSIGN(const auto filled, withFigures(exercise_, variant.figures, file_));
-    TRY_ASSIGN(auto exercise, exerciseFrom(filled, file_));
+    TRY_ASSIGN(auto exercise, exerciseFrom(exercise_, file_, variant.figures));
     if (exercise.solution.empty())
       return failure(ErrorKind::unusable, "without a solution no variant can be checked", file_ + " /solution");
     TRY_ASSIGN(const auto solved, tried(exercise, exercise.solution, progress_));

@@ -14,7 +14,6 @@
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/events.h"
 #include "emulated-ui/rehearsal/exercise_words.h"
-#include "emulated-ui/rehearsal/variants.h"
 #include "emulated-ui/seals/seal.h"
 #include "project/verb.h"
 
@@ -226,16 +225,17 @@ Result<Exercise> readExercise(const fs::path& file) {
   return exerciseFrom(json, file);
 }
 
-Result<Exercise> exerciseFrom(const nlohmann::json& json, const fs::path& file) {
+Result<Exercise> exerciseFrom(const nlohmann::json& json, const fs::path& file, Figures figures) {
   const auto file_name = file.filename().string();
-  TRY_ASSIGN(const auto figures, variantFigures(json, file_name));
-  TRY_ASSIGN(const auto standard, withFigures(json, standardFigures(figures), file_name));
+  TRY_ASSIGN(const auto open, variantFigures(json, file_name));
+  figures.merge(standardFigures(open));
+  TRY_ASSIGN(const auto filled, withFigures(json, figures, file_name));
   JsonFault fault(file_name);
-  JsonFields f(fault, standard, "");
+  JsonFields f(fault, filled, "");
   Exercise e;
   e.file = file.filename().string();
   e.folder = file.parent_path();
-  e.hash = exerciseHash(standard);
+  e.hash = exerciseHash(filled);
   e.id = f.text("id", "E99");
   // It names a folder, too.
   if (e.id.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_") != std::string::npos)
@@ -324,6 +324,12 @@ Result<Exercise> exerciseFrom(const nlohmann::json& json, const fs::path& file) 
   f.close();
   if (e.steps.empty() && e.rules.empty()) fault.say("/steps", "an exercise requires steps or rules");
   TRY(fault.result());
+  if (!figures.empty())
+    eachText(e, [&](Spoken& text, const std::string& place) {
+      const nlohmann::json::json_pointer english(place + "/en");
+      if (json.contains(english)) text.english = json.at(english).get<std::string>();
+    });
+  e.figures = std::move(figures);
   return e;
 }
 
@@ -356,7 +362,8 @@ std::vector<fs::path> tutorials() {
   return files;
 }
 
-void take(KnownExercises& known, const std::vector<fs::path>& files, const Result<ExerciseWords>& words) {
+void take(KnownExercises& known, const std::vector<fs::path>& files) {
+  const auto& words = ExerciseWords::shipped();
   for (const auto& file : files) {
     auto exercise = readExercise(file);
     if (!exercise) {
@@ -376,19 +383,17 @@ void take(KnownExercises& known, const std::vector<fs::path>& files, const Resul
   }
 }
 
-KnownExercises shipped(const Result<ExerciseWords>& words) {
-  KnownExercises known;
-  if (!words) known.refused.push_back(words.error());
-  take(known, tutorials(), words);
-  auto& found = known.readable;
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.exercise.id < b.exercise.id; });
-  take(known, filesIn(dataFolder() / "emulated-ui" / "exercises"), words);
-  return known;
-}
-
 }  // namespace
 
-KnownExercises shippedExercises() { return shipped(ExerciseWords::read(wordsFolder())); }
+KnownExercises shippedExercises() {
+  KnownExercises known;
+  if (const auto& words = ExerciseWords::shipped(); !words) known.refused.push_back(words.error());
+  take(known, tutorials());
+  auto& found = known.readable;
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.exercise.id < b.exercise.id; });
+  take(known, filesIn(dataFolder() / "emulated-ui" / "exercises"));
+  return known;
+}
 
 fs::path ownExercisesFolder() { return ownPath("STANDPOINT_EXERCISES", "exercises"); }
 
@@ -403,9 +408,8 @@ std::uint64_t ownExercisesStamp() {
 }
 
 KnownExercises knownExercises() {
-  const auto words = ExerciseWords::read(wordsFolder());
-  auto known = shipped(words);
-  take(known, filesIn(ownExercisesFolder()), words);
+  auto known = shippedExercises();
+  take(known, filesIn(ownExercisesFolder()));
   // Students who are new begin with them.
   std::stable_partition(known.readable.begin(), known.readable.end(),
                         [](const KnownExercise& one) { return one.exercise.tutorial; });
@@ -416,8 +420,9 @@ Result<KnownExercise> findExercise(const std::string& name) {
   std::error_code error;
   if (fs::is_regular_file(name, error)) {
     TRY_ASSIGN(auto exercise, readExercise(name));
-    TRY_ASSIGN(const auto words, ExerciseWords::read(wordsFolder()));
-    words.addTo(exercise);
+    const auto& words = ExerciseWords::shipped();
+    if (!words) return failure(words.error());
+    words->addTo(exercise);
     return KnownExercise{std::move(exercise), name};
   }
   auto known = knownExercises();

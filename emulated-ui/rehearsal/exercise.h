@@ -16,6 +16,7 @@
 #include "core/report.h"
 #include "core/result.h"
 #include "emulated-ui/device/condition.h"
+#include "emulated-ui/rehearsal/variants.h"
 
 namespace standpoint {
 
@@ -23,6 +24,7 @@ namespace standpoint {
 class Spoken {
  public:
   std::map<std::string, std::string> texts;
+  std::string english;  // before the figures of a variant were filled in: "Scan at ${resolution}."
   const std::string& in(const std::string& language) const;
 };
 
@@ -112,6 +114,7 @@ struct Exercise {
   std::string file;              // name, for messages
   std::filesystem::path folder;  // that the file is in
   std::string hash;              // of its content without solution and mistakes: see exerciseHash
+  Figures figures;               // that its places "${...}" were filled with
   std::string id;
   bool tutorial = false;  // it is listed before the others
   Spoken title, goal;
@@ -148,9 +151,9 @@ void eachText(Exercise& exercise, const std::function<void(Spoken& text, const s
 // Whether it can be done on the device; "*" stands for all.
 bool isFor(const Exercise& exercise, const std::string& device);
 
-// One with variants is read with their standard figures.
+// One with variants is read with the figures that are given, and with its standard ones for the others.
 Result<Exercise> readExercise(const std::filesystem::path& file);
-Result<Exercise> exerciseFrom(const nlohmann::json& json, const std::filesystem::path& file);
+Result<Exercise> exerciseFrom(const nlohmann::json& json, const std::filesystem::path& file, Figures figures = {});
 // Without what students must not see: solution and mistakes.
 nlohmann::json withoutSolution(nlohmann::json exercise);
 // Two exercises of the same hash ask and mark the same; 64 hexadecimal digits.

@@ -15,9 +15,11 @@ namespace standpoint {
 // Texts of exercises in languages that their own files lack, by the English text, so that what several exercises say is
 // said once. exercises.json in the folder of a language is
 //   {"language": "pl", "exercises": {"Answer the question.": "Odpowiedz na pytanie."}}
+// An English text with places of figures, "Scan at ${resolution}.", is written with them, and so is its translation.
 class ExerciseWords {
  public:
   static Result<ExerciseWords> read(const std::filesystem::path& folder);  // of the folders of the languages
+  static const Result<ExerciseWords>& shipped();                           // of the program's own; read once
 
   // What the exercise's own file says stays.
   void addTo(Exercise& exercise) const;

@@ -47,6 +47,11 @@ std::string shown(const json& value) {
   return value.is_string() ? value.get<std::string>() : fmt::format("{}", value.get<double>());
 }
 
+// The end of the place "${name}" that begins at i; else npos.
+std::size_t endOfPlace(const std::string& text, std::size_t i) {
+  return text.compare(i, 2, "${") == 0 ? text.find('}', i) : std::string::npos;
+}
+
 class Filler {
  public:
   Filler(const Figures& figures, JsonFault& fault) : figures_(figures), fault_(fault) {}
@@ -68,7 +73,7 @@ class Filler {
   json filledText(const std::string& text, const JsonPlace& at) {
     std::string out;
     for (std::size_t i = 0; i < text.size();) {
-      const auto end = text.compare(i, 2, "${") == 0 ? text.find('}', i) : std::string::npos;
+      const auto end = endOfPlace(text, i);
       if (end == std::string::npos) {
         out += text[i++];
         continue;
@@ -133,6 +138,13 @@ std::size_t countVariants(const std::vector<VariantFigure>& figures) {
   std::size_t count = 1;
   for (const auto& figure : figures) count = std::min(kMostVariants, count * figure.values.size());
   return count;
+}
+
+std::set<std::string> figuresIn(const std::string& text) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (const auto end = endOfPlace(text, i); end != std::string::npos) names.insert(text.substr(i + 2, end - i - 2));
+  return names;
 }
 
 Result<json> withFigures(const json& exercise, const Figures& figures, const std::string& file_name) {

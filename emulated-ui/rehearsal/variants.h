@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ Figures standardFigures(const std::vector<VariantFigure>& figures);
 Figures drawnFigures(const std::vector<VariantFigure>& figures, std::uint64_t seed);
 // How many variants there can be, at most a million.
 std::size_t countVariants(const std::vector<VariantFigure>& figures);
+// The names of the places of figures in a text.
+std::set<std::string> figuresIn(const std::string& text);
 // The exercise with its figures in it and without "variants". A place without a figure is an error with its pointer.
 Result<nlohmann::json> withFigures(const nlohmann::json& exercise, const Figures& figures,
                                    const std::string& file_name);

@@ -197,9 +197,10 @@ void reportUnreadFiles(Report& report) {
 // What the languages lack: of the devices' words, and of the exercises that come with the program.
 Result<RehearseOutcome> checkWords(const Document& document) {
   TRY_ASSIGN(const auto words, wordsOfAllDevices());
-  TRY_ASSIGN(const auto of_exercises, ExerciseWords::read(wordsFolder()));
+  const auto& of_exercises = ExerciseWords::shipped();
+  if (!of_exercises) return failure(of_exercises.error());
   auto report = words.check();
-  report.append(of_exercises.check(shippedExercises().readable));
+  report.append(of_exercises->check(shippedExercises().readable));
   reportUnreadFiles(report);
   RehearseOutcome outcome{document};
   CheckedFile row{wordsFolder().string(), "words", report.losses() == 0, {}};

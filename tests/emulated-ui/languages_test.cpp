@@ -131,6 +131,28 @@ TEST_F(WordFiles, AddTextsToAnExerciseThatLacksThem) {
                           "exercises (pl): no exercise says 'Go home.'"));
 }
 
+TEST_F(WordFiles, AddTextsToEveryVariantOfAnExercise) {
+  write("pl/exercises.json", R"({"language": "pl", "exercises": {
+    "Scan at ${resolution}.": "Zeskanuj z ${resolution}.", "Wait ${time} s.": "Czekaj."}})");
+  const auto words = ExerciseWords::read(folder_.path());
+  ASSERT_TRUE(words) << describe(words.error());
+  const auto json = nlohmann::json::parse(R"({
+    "id": "E99", "title": {"en": "Scan at ${resolution}."}, "goal": {"en": "Wait."}, "devices": ["faro-focus"],
+    "model": "house", "variants": {"resolution": {"choices": ["1/20", "1/16"]}},
+    "rules": [{"id": "r", "text": {"en": "Wait ${resolution} s."}, "when": "end", "holds": "setups >= 1", "points": 1}]})");
+  for (const auto* resolution : {"1/16", "1/20"}) {
+    auto exercise = exerciseFrom(json, "x.json", {{"resolution", resolution}});
+    ASSERT_TRUE(exercise) << describe(exercise.error());
+    words->addTo(*exercise);
+    EXPECT_EQ(exercise->title.in("pl"), std::string("Zeskanuj z ") + resolution + ".");
+    EXPECT_THAT(lossesOf(words->check({{*exercise, "exercises/x.json"}})),
+                ElementsAre("exercises/x.json /goal: no text in 'pl' for 'Wait.'",
+                            "exercises/x.json /rules/0/text: no text in 'pl' for 'Wait ${resolution} s.'",
+                            "exercises (pl): no exercise says 'Wait ${time} s.'",
+                            "exercises (pl): 'Czekaj.' names other figures than 'Wait ${time} s.'"));
+  }
+}
+
 // At rest, with scans, on the screen.
 Device atRest(const std::shared_ptr<const DeviceType>& type, const std::string& screen) {
   const auto& phases = type->definition.phases;
