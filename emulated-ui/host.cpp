@@ -8,15 +8,13 @@
 #include <fmt/format.h>
 
 #include "core/json_file.h"
-#include "core/part_file.h"
 #include "core/units.h"
+#include "emulated-ui/hand_over.h"
 #include "emulated-ui/memory.h"
 #include "emulated-ui/preview.h"
 #include "emulated-ui/sensors.h"
 #include "emulated-ui/sighting.h"
-#include "pointclouds/files/file_access.h"
 #include "pointclouds/filters/cleaning.h"
-#include "pointclouds/formats.h"
 #include "project/survey/register_verb.h"
 #include "project/survey/scan_preparation.h"
 #include "project/survey/survey_verbs.h"
@@ -29,8 +27,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 namespace {
-
-const char* const kCopies = "office";  // folder beside the scans, where copies go
 
 void putOnPlan(StoredSetup& setup, const Pose& pose) {
   const Eigen::Vector3d forward = pose.rotation * Eigen::Vector3d::UnitX();
@@ -71,48 +67,6 @@ LinkResult linkFrom(const RegisterAnswer& answer, const Document& solved) {
   }
   link.joined = row.fit->settled && row.fit->free.empty();
   return link;
-}
-
-// Converted where another format is asked for; that the points are there is what convertCloud promises.
-Result<void> copyAs(const fs::path& from, const fs::path& to, Report& report, Progress& progress) {
-  TRY(convertCloud(from, to, "", report, progress));
-  return {};
-}
-
-constexpr std::size_t kCopiedAtOnce = 4U << 20U;
-
-// Byte for byte. A copy that was broken off is not taken for a whole one (PartFile).
-Result<void> copyFile(const fs::path& from, const fs::path& to, Progress& progress) {
-  TRY_ASSIGN(const auto in, InputFile::open(from));
-  TRY_ASSIGN(auto out, PartFile::create(to));
-  std::vector<std::uint8_t> buffer(kCopiedAtOnce);
-  while (out.size() < in.size()) {
-    TRY(progress.check());
-    TRY_ASSIGN(const auto read, in.read(out.size(), buffer));
-    if (read == 0) return failure(ErrorKind::file_system, "the file was truncated while copying", from.string());
-    if (auto written = out.append({buffer.data(), read}); !written) return written;
-    progress.advance(static_cast<double>(out.size()) / static_cast<double>(in.size()));
-  }
-  return out.commit();
-}
-
-Result<void> copyFiles(const TransferOrder& order, const fs::path& folder, Progress& progress) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), folder.string());
-  Report report;
-  const double each = 1.0 / static_cast<double>(order.files.size());
-  double from_fraction = 0;
-  for (const auto& file : order.files) {
-    TRY(progress.check());
-    fs::path to =
-        folder / (fs::path(file).parent_path().filename().string() + " - " + fs::path(file).filename().string());
-    progress.stage("Copying " + fs::path(file).filename().string(), from_fraction, from_fraction + each);
-    from_fraction += each;
-    TRY(order.extension.empty() ? copyFile(file, to, progress)
-                                : copyAs(file, to.replace_extension(order.extension), report, progress));
-  }
-  return {};
 }
 
 // Of the turn: where the operator stands; nothing where the scan does not look.
@@ -325,8 +279,9 @@ void DeviceHost::start(const Order& order, const Document& document, const fs::p
               });
   } else if (const auto* transfer = std::get_if<TransferOrder>(&order)) {
     startTask("Transfer",
-              [order = *transfer, folder = scans_folder.parent_path() / kCopies](Progress& p) -> Result<Delivery> {
-                TRY(copyFiles(order, folder, p));
+              [order = *transfer, links = linkedPlaces(device_.state()), shift = document.georeference->shift_m,
+               office = officeBeside(scans_folder)](Progress& p) -> Result<Delivery> {
+                TRY(handOver(order, links, shift, office, p));
                 return [files = order.files](DeviceHost& host, const Document&) { host.device_.transferDone(files); };
               });
   }

@@ -9,7 +9,7 @@
 
 #include "core/decompositions.h"
 #include "core/units.h"
-#include "emulated-ui/host.h"
+#include "emulated-ui/hand_over.h"
 #include "emulated-ui/rehearsal/all_setups.h"
 #include "emulated-ui/rehearsal/field_proofs.h"
 #include "emulated-ui/rehearsal/part_proofs.h"
@@ -200,20 +200,9 @@ std::optional<Fact> leastOverlap(const Device& device) {
   return factOf(least);
 }
 
-// Copies in the office: of another format once they are whole, else as large as their source on the card.
 double goodCopies(const Device& device, const fs::path& folder) {
   double good = 0;
-  for (const auto* s : allSetups(device)) {
-    const fs::path from = s->file;
-    const fs::path to = folder / "office" / (from.parent_path().filename().string() + " - " + from.filename().string());
-    std::error_code a, b;
-    const auto size = fs::file_size(from, a);
-    const bool same = !a && size == fs::file_size(to, b) && !b;
-    const auto converted = [&](const char* extension) {
-      return s->transferred && fs::exists(fs::path(to).replace_extension(extension), b);
-    };
-    good += same || converted(".las") || converted(".ptx") ? 1 : 0;
-  }
+  for (const auto* s : allSetups(device)) good += isHandedOver(*s, officeBeside(folder / "scans")) ? 1 : 0;
   return good;
 }
 
@@ -243,7 +232,7 @@ const std::vector<ProofRow>& proofRows() {
       {"links.failed", "", numbers(0, 1e4), "links not found"},
       {"links.overlap", "", numbers(0, 1), "smallest overlap of a joined link"},
       {"links.error", "mm", numbers(0, 1e6), "largest true error of a joined link"},
-      {"office.copies", "", numbers(0, 1e4), "complete copies in the office (same size, or converted in full)"},
+      {"office.copies", "", numbers(0, 1e4), "complete copies in the office"},
       {"survey.walls", "", numbers(0, 1), "fraction of the area's walls seen at 60° incidence or less"},
       {"survey.coverage", "", numbers(0, 1), "fraction of the area's surfaces covered by a station"},
       {"survey.reached", "", numbers(0, 1), "fraction of all surfaces visible from the area that a station covers"},

@@ -27,19 +27,15 @@ std::string guidAt(const ScanHeader& header, const Pose& pose) {
 
 class PosedSink final : public PointSink {
  public:
-  PosedSink(PointSink& to, const Job& job, const Eigen::Vector3d& shift_m, const fs::path& file)
-      : to_(to), job_(job), shift_m_(shift_m), stations_(job, file) {}
+  PosedSink(PointSink& to, const PoseOf& pose_of, const std::string& by) : to_(to), pose_of_(pose_of), by_(by) {}
 
   Result<void> begin(const ScanHeader& header) override {
-    TRY_ASSIGN(auto index, stations_.next(header));
-    const Station& station = job_.stations[index];
-    if (!station.solved_pose) return failure(ErrorKind::internal, "this station was not registered", station.name);
     ScanHeader posed = header;
-    posed.file_from_scanner = *station.solved_pose;
-    posed.file_from_scanner.translation += shift_m_;
+    TRY_ASSIGN(posed.file_from_scanner, pose_of_(header));
     moved_ = posed.file_from_scanner * inverse(header.file_from_scanner);
+    if (header.has_truth) posed.true_file_from_scanner = truePose(header);
     posed.guid = guidAt(header, posed.file_from_scanner);
-    posed.description += std::string(header.description.empty() ? "" : "; ") + "pose by registration";
+    posed.description += (header.description.empty() ? "pose by " : "; pose by ") + by_;
     return to_.begin(posed);
   }
   Result<void> write(const PointBlock& block) override { return to_.write(block); }
@@ -53,13 +49,19 @@ class PosedSink final : public PointSink {
 
  private:
   PointSink& to_;
-  const Job& job_;
-  Eigen::Vector3d shift_m_;
-  StationsOfFile stations_;
+  const PoseOf& pose_of_;
+  const std::string& by_;
   Pose moved_;  // from where the file had it to where it is now
 };
 
 }  // namespace
+
+Result<void> copyPosed(const fs::path& from, const fs::path& to, const PoseOf& pose_of, const std::string& by,
+                       Report& report, Progress& progress) {
+  const auto posed = [&](PointSink& writer) { return std::make_unique<PosedSink>(writer, pose_of, by); };
+  TRY(convertCloud(from, to, "", report, progress, posed));
+  return {};
+}
 
 Result<std::vector<fs::path>> registeredFiles(const std::vector<fs::path>& files, const fs::path& output) {
   std::vector<fs::path> to;
@@ -99,8 +101,14 @@ Result<void> writeRegistered(const Job& job, const Eigen::Vector3d& shift_m, con
     progress.stage("Writing " + to[i].filename().string(),
                    0.95 + 0.05 * static_cast<double>(i) / static_cast<double>(files.size()),
                    0.95 + 0.05 * static_cast<double>(i + 1) / static_cast<double>(files.size()));
-    const auto posed = [&](PointSink& writer) { return std::make_unique<PosedSink>(writer, job, shift_m, files[i]); };
-    TRY(convertCloud(files[i], to[i], "", report, progress, posed));
+    StationsOfFile stations(job, files[i]);
+    const auto solved = [&](const ScanHeader& header) -> Result<Pose> {
+      TRY_ASSIGN(const auto index, stations.next(header));
+      const Station& station = job.stations[index];
+      if (!station.solved_pose) return failure(ErrorKind::internal, "this station was not registered", station.name);
+      return Pose{station.solved_pose->rotation, station.solved_pose->translation + shift_m};
+    };
+    TRY(copyPosed(files[i], to[i], solved, "registration", report, progress));
   }
   return {};
 }
