@@ -40,6 +40,7 @@ struct Workshop {
   void display(const V& at, const V& out, double wide, double high) {
     body.face_m = at;
     body.face_faces = out;
+    body.display_m = {wide / 1000, high / 1000};
     const bool along_x = std::abs(out.x()) > 0.5;
     const V size = along_x ? mm(6, wide, high) : mm(wide, 6, high);
     const V frame = along_x ? mm(4, wide + 12, high + 12) : mm(wide + 12, 4, high + 12);

@@ -28,6 +28,7 @@ struct InstrumentBody {
   // Of the display, else of the key: what one looks at to work with it.
   Eigen::Vector3d face_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d face_faces = Eigen::Vector3d::UnitX();
+  Eigen::Vector2d display_m = Eigen::Vector2d::Zero();  // its width and height; zero: there is none
   BodyColour shell = {200, 202, 205}, trim = {70, 72, 76};
   BodyMesh foot;    // stands still
   BodyMesh head;    // turns about Z

@@ -174,6 +174,14 @@ void showInScene(InstrumentDesk& desk, Editor& editor) {
 
 }  // namespace
 
+bool displayIsSeen(const InstrumentDesk& desk, const Editor& editor) {
+  constexpr double kFar_m = 4;  // a display of 6 cm is some 10 pixels wide there
+  if (editor.held.carried || bodyOf(editor.held.instrument).display_m.x() <= 0) return false;
+  const auto* station =
+      stationOf(desk.rehearsal ? desk.rehearsal->document() : editor.session.document(), editor.held.station);
+  return station != nullptr && (station->true_pose.translation - editor.view.camera.eye()).norm() < kFar_m;
+}
+
 void advance(InstrumentDesk& desk, Editor& editor) {
   const auto now = std::chrono::steady_clock::now();
   // A window that slept gives no lump of time to a device that was idle meanwhile; in an exercise the clock always

@@ -99,6 +99,8 @@ void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& de
 void followProject(InstrumentDesk& desk, Editor& editor);
 // The clock goes on, and what was stored enters the project. Call before drawing.
 void advance(InstrumentDesk& desk, Editor& editor);
+// Whether somebody in the scene is near enough to its instrument to see what the display on its body shows.
+bool displayIsSeen(const InstrumentDesk& desk, const Editor& editor);
 
 // From now on an exercise has a say in what happens to the session's document, and what is done there in the survey
 // belongs to the exercise that runs or is recorded; the session can say what the device works on. The desk must live as

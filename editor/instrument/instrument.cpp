@@ -62,6 +62,8 @@ class InstrumentPanel {
                              ? std::optional(task->progress().fraction())
                              : std::nullopt;  // a scan has a bar of its own
     const auto press = drawDevice(*desk_.shown(), desk_.view, room.x, room.y - editor.px(kWordsBelow_pt));
+    if (displayIsSeen(desk_, editor))
+      editor.drawn_display = DrawnDisplay{ImGui::GetWindowDrawList()->_OwnerName, desk_.view.display};
     if (press) {
       act(desk_, {RehearsalAction::Kind::press, press->widget, press->value, 0, {}});
       const auto& device = *desk_.shown();
@@ -181,7 +183,7 @@ class InstrumentPanel {
 
 }  // namespace
 
-void attachInstrument(Editor& editor) {
+InstrumentDesk& attachInstrument(Editor& editor) {
   const auto panel = std::make_shared<InstrumentPanel>(editor.wake);
   editor.draw_instrument = [panel](Editor& e) {
     panel->draw(e);
@@ -196,6 +198,7 @@ void attachInstrument(Editor& editor) {
   editor.fieldwork.spend = [panel](double seconds) {
     if (panel->desk().shown() != nullptr) act(panel->desk(), {RehearsalAction::Kind::wait, "", "", seconds, {}});
   };
+  return panel->desk();
 }
 
 }  // namespace standpoint

@@ -16,10 +16,11 @@ namespace standpoint {
 
 namespace {
 
-constexpr double kReach_m = 1.6;      // of a hand, from the middle of the body
-constexpr double kToDisplay_m = 0.5;  // of the eyes
-constexpr double kAhead_m = 0.9;      // where one puts down what one carries
-constexpr double kSamePlace_m = 1.0;  // of a station that is there already
+constexpr double kReach_m = 1.6;                  // of a hand, from the middle of the body
+constexpr double kToDisplay_m = 0.5;              // of the eyes
+constexpr double kReading_rad = 32 * kRadPerDeg;  // who reads a display hardly sees what is around it
+constexpr double kAhead_m = 0.9;                  // where one puts down what one carries
+constexpr double kSamePlace_m = 1.0;              // of a station that is there already
 constexpr double kSphereReach_m = 3;
 constexpr double kLookDown_rad = 0.3;
 
@@ -71,7 +72,7 @@ void lookAtInstrument(Model& model) {
   model.fieldwork.at_screen = true;
   auto& camera = model.view.camera;
   camera.orthographic = false;
-  camera.view_angle_rad = Walk::kUsualViewAngle_rad;
+  camera.view_angle_rad = kReading_rad;
   camera.target = stands.centre_m + local_from_head * stands.body->face_m;
   camera.distance_m = kToDisplay_m;
   camera.azimuth_rad = std::atan2(-way.x(), way.y());

@@ -183,6 +183,7 @@ void Model::say(std::string text) {
 }
 
 void Model::update() {
+  drawn_display.reset();
   graphics.choose(settings.graphics);
   session.poll();
   followLiveScan();
@@ -393,6 +394,7 @@ ViewState Model::viewState() const {
     auto scene = standing_.of(*document.job, held, view.camera.eye(), kept);
     state.instruments = std::move(scene.still);
     state.working = std::move(scene.working);
+    if (state.working && state.working->stands.body->display_m.x() > 0) state.display = display;
   }
   return state;
 }

@@ -199,7 +199,9 @@ struct Model : Style {
   Tour tour;
   PlacementView placement;  // of what is picked
   PlaceFigures place_figures;
-  HeldInstrument held;  // what the desk has in the scene
+  HeldInstrument held;                          // what the desk has in the scene
+  std::optional<DrawnDisplay> drawn_display;    // of its device, in this frame; none: nobody would see it in the scene
+  std::shared_ptr<const PixelPicture> display;  // as it was seen last
   Fieldwork fieldwork;
   std::vector<ShownUnderlay> growing;  // what its scan has measured so far
   Walk walk;                           // while the tool is Tool::walk

@@ -49,6 +49,13 @@ struct PixelPicture {
   std::vector<std::array<std::uint8_t, 4>> rgba;
 };
 
+// Where the interface has drawn the display of the desk's device: within a window of this name, left, top, width and
+// height on the screen.
+struct DrawnDisplay {
+  std::string window;
+  std::array<float, 4> at{};
+};
+
 // All that a picture of the scene depends on, as a value: equal states give the same picture, so whoever draws compares
 // and redraws only when something differs. Parts of the document are compared by pointer.
 struct ViewState {
@@ -74,6 +81,7 @@ struct ViewState {
   std::vector<ShownUnderlay> underlays;
   std::shared_ptr<const InstrumentsInScene> instruments;  // on their tripods; null: none
   std::optional<WorkingInstrument> working;               // that of the desk, besides those
+  std::shared_ptr<const PixelPicture> display;            // what its display shows; null: it is dark
   Camera camera;
   bool still_light = false;  // the sun stays where it is when the camera turns: pictures that are put together
   GraphicsLook graphics;

@@ -9,6 +9,7 @@
 #include <vtkProperty.h>
 
 #include "editor/bodies/tripod.h"
+#include "editor/viewport/texture.h"
 
 namespace standpoint {
 
@@ -91,6 +92,15 @@ struct GlowMaker {
   }
 };
 
+vtkSmartPointer<vtkTexture> textureOf(const PixelPicture& picture) {
+  std::vector<Rgba> from_below;
+  const auto width = static_cast<std::ptrdiff_t>(picture.width);
+  for (auto row = picture.height - 1; row >= 0; --row)
+    from_below.insert(from_below.end(), picture.rgba.begin() + row * width, picture.rgba.begin() + (row + 1) * width);
+  for (auto& pixel : from_below) pixel[3] = 255;
+  return clampedTexture(picture.width, picture.height, from_below);
+}
+
 constexpr LampColour kBeam = {255, 70, 54};
 constexpr double kNearAlpha = 66, kFarAlpha = 30;
 
@@ -156,6 +166,25 @@ MergedTriangles mergeHead(const InstrumentBody& body, bool mirror_turns) {
   return all;
 }
 
+PaintedTriangles mergeDisplay(const InstrumentBody& body, const PixelPicture& shown) {
+  constexpr double kProud_m = 0.0045;  // of the glass and its frame
+  const double aspect = static_cast<double>(shown.width) / shown.height;
+  const double high = std::min(body.display_m.y(), body.display_m.x() / aspect), wide = high * aspect;
+  const Vector3d up = Vector3d::UnitZ(), right = up.cross(body.face_faces);
+  const Vector3d middle = body.face_m + kProud_m * body.face_faces;
+  PaintedTriangles painted;
+  painted.unlit = true;
+  for (const auto& [u, v] : {std::pair{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}) {
+    const Vector3d p = middle + (u - 0.5) * wide * right + (v - 0.5) * high * up;
+    for (const double x : {p.x(), p.y(), p.z()}) painted.triangles.positions.push_back(static_cast<float>(x));
+    painted.coordinates.push_back(static_cast<float>(u));
+    painted.coordinates.push_back(static_cast<float>(v));
+  }
+  for (const std::int64_t corner : {0, 1, 2, 0, 2, 3}) painted.triangles.corners.push_back(corner);
+  painted.triangles.colours.assign(2, {255, 255, 255, 255});
+  return painted;
+}
+
 MergedTriangles mergeGlow(const WorkingInstrument& working) {
   MergedTriangles all;
   all.graded = true;
@@ -173,14 +202,19 @@ MergedTriangles mergeGlow(const WorkingInstrument& working) {
 BodyLayers::BodyLayers() {
   solids_.drawSurface(0);
   head_.drawSurface(0);
+  display_.drawSurface(-1);
   glow_.drawSurface(0);
   glow_.actor->GetProperty()->SetLighting(false);
   glow_.actor->ForceTranslucentOn();
-  for (Layer* layer : {&solids_, &head_, &glow_}) layer->hide();
+  for (Layer* layer : {&solids_, &head_, &display_, &glow_}) layer->hide();
 }
 
 void BodyLayers::addSolids(vtkRenderer* renderer) const {
-  for (const Layer* layer : {&solids_, &head_}) renderer->AddActor(layer->actor);
+  for (const Layer* layer : {&solids_, &head_, &display_}) renderer->AddActor(layer->actor);
+}
+
+bool BodyLayers::moves(const vtkProp* prop) const {
+  return prop == head_.actor.Get() || prop == display_.actor.Get() || prop == glow_.actor.Get();
 }
 
 void BodyLayers::addGlow(vtkRenderer* renderer) const { renderer->AddActor(glow_.actor); }
@@ -198,8 +232,9 @@ void BodyLayers::update(const ViewState& state, const ViewState* last) {
     for (const auto& s : still) bounds_.extend(boundsOf(s));
     if (working) bounds_.extend(boundsOf(working->stands));
   }
-  if (last != nullptr && last->working == working) return;
+  if (last != nullptr && last->working == working && last->display == state.display) return;
   head_.reveal(working.has_value());
+  display_.hide();
   glow_.hide();
   if (!working) return;
   if (head_of_ != working->stands.body || head_without_mirror_ != working->motion.mirror_turns) {
@@ -212,6 +247,10 @@ void BodyLayers::update(const ViewState& state, const ViewState* last) {
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 4; ++column) matrix->SetElement(row, column, place(row, column));
   head_.actor->SetUserMatrix(matrix);
+  display_.actor->SetUserMatrix(matrix);
+  if (state.display && (last == nullptr || last->display != state.display || !display_.filled))
+    display_.show(mergeDisplay(*head_of_, *state.display), textureOf(*state.display));
+  display_.reveal(state.display != nullptr);
   glow_.show(mergeGlow(*working));
 }
 

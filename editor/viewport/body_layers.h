@@ -15,10 +15,12 @@ namespace standpoint {
 MergedTriangles mergeStanding(const std::vector<StandingInstrument>& still, const StandingInstrument* working);
 // What turns of the working one, in its scanner's frame before it has turned; without the mirror while that is a blur.
 MergedTriangles mergeHead(const InstrumentBody& body, bool mirror_turns);
+// What the display of the working one shows, in its scanner's frame before it has turned, as large as fits on it.
+PaintedTriangles mergeDisplay(const InstrumentBody& body, const PixelPicture& shown);
 // What shines or is seen through, local frame: the light and its halo, the mirror as a blurred disc, the fans.
 MergedTriangles mergeGlow(const WorkingInstrument& working);
 
-// The instruments of a scene: three things to be drawn, however many there are.
+// The instruments of a scene: four things to be drawn, however many there are.
 class BodyLayers {
  public:
   BodyLayers();
@@ -27,9 +29,10 @@ class BodyLayers {
   void addSolids(vtkRenderer* renderer) const;
   void addGlow(vtkRenderer* renderer) const;        // after all else that is translucent
   const Bounds& bounds() const { return bounds_; }  // of the solids, local frame
+  bool moves(const vtkProp* prop) const;            // while the working one works
 
  private:
-  Layer solids_, head_, glow_;
+  Layer solids_, head_, display_, glow_;
   const InstrumentBody* head_of_ = nullptr;
   bool head_without_mirror_ = false;
   Bounds bounds_;

@@ -12,6 +12,7 @@
 
 #include "editor/film/picture_file.h"
 #include "editor/shell/shell.h"
+#include "editor/viewport/display_picture.h"
 #include "editor/viewport/vtk_scene_view.h"
 #include "editor/widgets/theme.h"
 
@@ -99,12 +100,14 @@ class EglOffscreen : public Offscreen {
 
   void frame(Editor& editor) override {
     layOut([&] { drawShell(editor); });
+    takeDisplay(editor, display_, *ImGui::GetDrawData());
     paint();
     glFinish();
   }
 
   Result<void> picture(Editor& editor, const std::filesystem::path& png) override {
     const auto draw = [&] {
+      if (ImGui::GetDrawData() != nullptr) takeDisplay(editor, display_, *ImGui::GetDrawData());
       drawShell(editor);
       editor.expected.wait();
     };
@@ -153,6 +156,7 @@ class EglOffscreen : public Offscreen {
   float scale_;
   Fonts fonts_;
   std::unique_ptr<SceneView> scene_, beside_;
+  DisplayPicture display_;
   GLuint texture_ = 0, framebuffer_ = 0;
 };
 

@@ -3,9 +3,9 @@
 
 #include <utility>
 
-#include <vtkImageData.h>
-#include <vtkNew.h>
 #include <vtkProperty.h>
+
+#include "editor/viewport/texture.h"
 
 namespace standpoint {
 
@@ -15,21 +15,10 @@ constexpr double kShadowStrength = 0.62;
 
 // Black where the shadow is, else nothing.
 vtkSmartPointer<vtkTexture> textureOf(const GroundShadow& shadow) {
-  vtkNew<vtkImageData> data;
-  data->SetDimensions(GroundShadow::kSide, GroundShadow::kSide, 1);
-  data->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
-  auto* pixel = static_cast<std::uint8_t*>(data->GetScalarPointer());
-  for (const auto darkness : shadow.darkness) {
-    const auto alpha = static_cast<std::uint8_t>(kShadowStrength * darkness);
-    for (const std::uint8_t value : {std::uint8_t{0}, std::uint8_t{0}, std::uint8_t{0}, alpha}) *pixel++ = value;
-  }
-  auto texture = vtkSmartPointer<vtkTexture>::New();
-  texture->SetInputData(data);
-  texture->SetColorModeToDirectScalars();
-  texture->InterpolateOn();
-  texture->RepeatOff();
-  texture->EdgeClampOn();
-  return texture;
+  std::vector<Rgba> pixels;
+  for (const auto darkness : shadow.darkness)
+    pixels.push_back({0, 0, 0, static_cast<std::uint8_t>(kShadowStrength * darkness)});
+  return clampedTexture(GroundShadow::kSide, GroundShadow::kSide, pixels);
 }
 
 }  // namespace

@@ -29,6 +29,7 @@ class SceneLayers {
   void spareLines(bool spared);  // edges of the model and the grid, in pictures to come
   const Bounds& bounds() const { return bounds_; }  // of the environment
   const Bounds& bodies() const { return bodies_.bounds(); }
+  bool moves(const vtkProp* prop) const { return bodies_.moves(prop); }  // in pictures where all else stands still
 
  private:
   void arrange();

@@ -42,6 +42,20 @@ vtkSmartPointer<vtkTexture> decoded(const Image& image) {
 
 }  // namespace
 
+vtkSmartPointer<vtkTexture> clampedTexture(int width, int height, std::span<const std::array<std::uint8_t, 4>> pixels) {
+  vtkNew<vtkImageData> data;
+  data->SetDimensions(width, height, 1);
+  data->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  std::memcpy(data->GetScalarPointer(), pixels.data(), pixels.size_bytes());
+  auto texture = vtkSmartPointer<vtkTexture>::New();
+  texture->SetInputData(data);
+  texture->SetColorModeToDirectScalars();
+  texture->InterpolateOn();
+  texture->RepeatOff();
+  texture->EdgeClampOn();
+  return texture;
+}
+
 vtkSmartPointer<vtkTexture> TextureCache::of(const std::shared_ptr<const Image>& image) {
   std::erase_if(entries_, [](const auto& e) { return e.second.image.expired(); });
   auto& entry = entries_[image.get()];

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 
 #include <vtkSmartPointer.h>
 #include <vtkTexture.h>
@@ -24,5 +27,8 @@ class TextureCache {
   };
   std::map<const Image*, Entry> entries_;
 };
+
+// Of pixels, the lowest row first, that is not repeated beyond its rim.
+vtkSmartPointer<vtkTexture> clampedTexture(int width, int height, std::span<const std::array<std::uint8_t, 4>> pixels);
 
 }  // namespace standpoint

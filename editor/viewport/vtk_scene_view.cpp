@@ -20,6 +20,7 @@
 #include <vtkObjectFactory.h>
 #include <vtkOpaquePass.h>
 #include <vtkOpenGLFramebufferObject.h>
+#include <vtkRenderState.h>
 #include <vtkRenderStepsPass.h>
 #include <vtkRenderer.h>
 #include <vtkTextureObject.h>
@@ -32,6 +33,7 @@
 #include "editor/viewport/point_composer.h"
 #include "editor/viewport/point_layers.h"
 #include "editor/viewport/scene_layers.h"
+#include "editor/viewport/still_parts.h"
 
 namespace standpoint {
 
@@ -59,19 +61,46 @@ class ForeignContextWindow : public vtkGenericOpenGLRenderWindow {
 };
 vtkStandardNewMacro(ForeignContextWindow);
 
+// Those things of a picture that are to be drawn now.
+class SomeOfThem {
+ public:
+  SomeOfThem(const vtkRenderState& all, const std::function<bool(const vtkProp*)>& drawn) : state_(all.GetRenderer()) {
+    state_.SetFrameBuffer(all.GetFrameBuffer());
+    state_.SetRequiredKeys(all.GetRequiredKeys());
+    for (int i = 0; i < all.GetPropArrayCount(); ++i)
+      if (drawn(all.GetPropArray()[i])) props_.push_back(all.GetPropArray()[i]);
+    state_.SetPropArrayAndCount(props_.data(), static_cast<int>(props_.size()));
+  }
+  const vtkRenderState* state() const { return &state_; }
+
+ private:
+  std::vector<vtkProp*> props_;
+  vtkRenderState state_;
+};
+
 // What is opaque, with something behind it and something among it.
 class PassWithOurs : public vtkOpaquePass {
  public:
   static PassWithOurs* New();
   vtkTypeMacro(PassWithOurs, vtkOpaquePass);
   std::function<void()> draw_behind, draw_among;
+  std::function<bool(const vtkProp*)> drawn;
   void Render(const vtkRenderState* state) override {
-    if (draw_behind) draw_behind();
-    vtkOpaquePass::Render(state);
-    if (draw_among) draw_among();
+    draw_behind();
+    vtkOpaquePass::Render(SomeOfThem(*state, drawn).state());
+    draw_among();
   }
 };
 vtkStandardNewMacro(PassWithOurs);
+
+class TranslucentPass : public vtkTranslucentPass {
+ public:
+  static TranslucentPass* New();
+  vtkTypeMacro(TranslucentPass, vtkTranslucentPass);
+  std::function<bool(const vtkProp*)> drawn;
+  void Render(const vtkRenderState* state) override { vtkTranslucentPass::Render(SomeOfThem(*state, drawn).state()); }
+};
+vtkStandardNewMacro(TranslucentPass);
 
 bool drawnByProcessor() {
   const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
@@ -87,6 +116,16 @@ bool onlyCameraDiffers(const ViewState& a, const ViewState& b) {
   return moved == b && !(a.camera == b.camera);
 }
 
+// Of the working instrument, or points as they are measured.
+bool onlyPartsMove(const ViewState& a, const ViewState& b) {
+  if (!a.working || !b.working || !(a.working->stands == b.working->stands)) return false;
+  ViewState moved = a;
+  moved.working = b.working;
+  moved.display = b.display;
+  moved.underlays = b.underlays;
+  return moved == b;
+}
+
 class VtkSceneView : public SceneView {
  public:
   VtkSceneView() {
@@ -94,6 +133,7 @@ class VtkSceneView : public SceneView {
     setUpLights();
   }
   ~VtkSceneView() override {
+    still_.reset();
     backdrop_.reset();
     composer_.reset();
     finish_.reset();
@@ -240,7 +280,11 @@ class VtkSceneView : public SceneView {
   }
 
   void draw(const ViewState& state, bool fine) {
+    const bool parts = !fine && !layers_.building() && drawn_ && onlyPartsMove(*drawn_, state) &&
+                       drawn_width_ == width_ && drawn_height_ == height_;
     fine_ = fine;
+    drawn_width_ = width_;
+    drawn_height_ = height_;
     const std::int64_t pixels = std::int64_t{width_} * height_ * kFineFactor * kFineFactor;
     factor_ = fine && pixels <= kMostFinePixels ? kFineFactor : 1;
     window_->SetSize(width_ * factor_, height_ * factor_);
@@ -253,14 +297,34 @@ class VtkSceneView : public SceneView {
       points_.update(state);
     if (last == nullptr || last->graphics.theme != state.graphics.theme) updateTheme(state.graphics.theme);
     if (last == nullptr || last->still_light != state.still_light) updateSun(state.still_light);
-    updateCamera(state.camera);
+    // The depths of what stands still are those of the camera's range.
+    if (!parts || !still_ || !still_->kept()) updateCamera(state.camera);
     updateBackdrop(state);
     if (!points_.empty()) {
       points_.draw(state, pointLens(state.camera), width_, height_);
       takePoints();
     }
+    if (!parts && still_) still_->drop();
+    if (parts && keepsStill()) shown_parts_ = Parts::moving;
     window_->Render();
+    shown_parts_ = Parts::all;
     drawn_ = state;
+  }
+
+  // A scene in which an instrument works is drawn again and again: what stands still in it only once.
+  bool keepsStill() {
+    if (!still_) still_ = std::make_unique<StillParts>();
+    if (still_->kept()) return true;
+    shown_parts_ = Parts::still;
+    window_->Render();
+    shown_parts_ = Parts::all;
+    auto* drawn = window_->GetRenderFramebuffer();
+    auto* colours = drawn != nullptr ? drawn->GetColorAttachmentAsTextureObject(0) : nullptr;
+    auto* depths = drawn != nullptr ? drawn->GetDepthAttachmentAsTextureObject() : nullptr;
+    if (colours != nullptr && depths != nullptr)
+      still_->keep(drawn->GetFBOIndex(), colours->GetHandle(), depths->GetHandle(), width_ * factor_,
+                   height_ * factor_);
+    return still_->kept();
   }
 
   // A processor takes longer over thousands of lines than over the surfaces between them.
@@ -356,12 +420,17 @@ class VtkSceneView : public SceneView {
   // Plain blending into the same depth buffer: the renderer's own order-independent pass copies the depth first, which
   // fails for a multisampled framebuffer, and then everything translucent shines through walls.
   void setUpPasses() {
-    vtkNew<vtkTranslucentPass> translucent;
+    const auto drawn = [this](const vtkProp* prop) {
+      return shown_parts_ == Parts::all || layers_.moves(prop) == (shown_parts_ == Parts::moving);
+    };
+    vtkNew<TranslucentPass> translucent;
+    translucent->drawn = drawn;
     steps_->SetTranslucentPass(translucent);
     vtkNew<PassWithOurs> opaque;
-    opaque->draw_behind = [this] { drawBackdrop(); };
+    opaque->drawn = drawn;
+    opaque->draw_behind = [this] { shown_parts_ == Parts::moving ? still_->putBack() : drawBackdrop(); };
     opaque->draw_among = [this] {
-      if (composer_ && !points_.empty()) composer_->draw();
+      if (composer_ && !points_.empty() && shown_parts_ != Parts::still) composer_->draw();
     };
     steps_->SetOpaquePass(opaque);
     renderer_->SetPass(steps_);
@@ -469,7 +538,10 @@ class VtkSceneView : public SceneView {
   vtkNew<vtkRenderStepsPass> steps_;
   SceneLayers layers_{renderer_};
   PointLayers points_;
-  std::unique_ptr<PointComposer> composer_;  // made when the first points are drawn
+  enum class Parts { all, still, moving } shown_parts_ = Parts::all;  // of the picture that is being drawn
+  std::unique_ptr<StillParts> still_;                                 // made when an instrument works
+  int drawn_width_ = 0, drawn_height_ = 0;                            // of the last picture
+  std::unique_ptr<PointComposer> composer_;                           // made when the first points are drawn
   struct Sky {
     Camera camera;
     Theme theme;

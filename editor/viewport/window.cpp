@@ -18,6 +18,7 @@
 #include "editor/shell/actions.h"
 #include "editor/shell/import_preview.h"
 #include "editor/shell/shell.h"
+#include "editor/viewport/display_picture.h"
 #include "editor/viewport/lost_display.h"
 #include "editor/viewport/vtk_scene_view.h"
 #include "editor/widgets/keyboard.h"
@@ -257,6 +258,7 @@ class Window {
     glClearColor(0.09F, 0.10F, 0.11F, 1);
     glClear(GL_COLOR_BUFFER_BIT);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    if (takeDisplay(editor_, display_, *ImGui::GetDrawData())) pacer_.drawSome();
     glFinish();
     timeFrame(glfwGetTime() - now, scene_->movedPictures() != moved_pictures);
     glfwSwapBuffers(handle_);
@@ -290,6 +292,7 @@ class Window {
   InputQueue input_;
   std::unique_ptr<SceneView> scene_, beside_;
   GLFWcursor* cursors_[ImGuiMouseCursor_COUNT] = {};
+  DisplayPicture display_;
   FramePacer& pacer_;
   GlfwEvents events_;
   double last_moved_s_ = 0, last_frame_s_ = 0;

@@ -109,7 +109,8 @@ void display(Pen& pen, const Screen& screen, const DeviceFace& face, ImVec2 at, 
   const auto [left, top, face_width, face_height] = face.display;
   const ImVec2 size{face_width * scale, face_height * scale};
   const bool dark = screen.id.empty();
-  ImGui::SetCursorScreenPos({at.x + left * scale, at.y + top * scale});
+  pen.view.display = {at.x + left * scale, at.y + top * scale, size.x, size.y};
+  ImGui::SetCursorScreenPos({pen.view.display[0], pen.view.display[1]});
   ImGui::PushStyleColor(ImGuiCol_ChildBg, dark ? IM_COL32(10, 11, 12, 255) : pen.skin.display);
   const bool open =
       ImGui::BeginChild("display", size, false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);

@@ -48,9 +48,10 @@ struct DeviceView {
   std::function<std::uint64_t(const std::shared_ptr<const ScanPreview>&)> texture;
   // The font whose letters are made for about this height; empty or null: the current one.
   std::function<ImFont*(float pixels)> font;
-  bool still = false;             // for a picture: lamps do not flash
-  std::optional<double> working;  // share of what the device reads or computes just now
-  std::vector<std::string> cut;   // of the last frame: texts that do not fit where they stand, as "widget: text"
+  bool still = false;              // for a picture: lamps do not flash
+  std::optional<double> working;   // share of what the device reads or computes just now
+  std::array<float, 4> display{};  // where it was drawn in the last frame: left, top, width, height on the screen
+  std::vector<std::string> cut;    // of the last frame: texts that do not fit where they stand, as "widget: text"
 };
 
 // How wide and high a device is that fits into this room, in pixels.

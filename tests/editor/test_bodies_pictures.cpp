@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include <gtest/gtest.h>
+#include <vtk_glew.h>
 
 #include "core/units.h"
 #include "editor/film/picture_file.h"
@@ -83,6 +84,13 @@ class Bodies : public ::testing::Test {
     EXPECT_TRUE(writePicture(*picture, folder / (name + ".png")));
     return *picture;
   }
+  static PixelPicture readTexture(std::uint64_t texture) {
+    PixelPicture picture{kSheetWidth, kSheetHeight, {}};
+    picture.rgba.resize(static_cast<std::size_t>(kSheetWidth) * kSheetHeight);
+    glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(texture));
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, picture.rgba.data());
+    return picture;
+  }
   static std::size_t differing(const PixelPicture& a, const PixelPicture& b) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < a.rgba.size(); ++i) {
@@ -153,6 +161,76 @@ TEST_F(Bodies, ShowTheirLightTheBlurOfTheMirrorAndTheFansWhileTheyWork) {
     state.working = working;
     EXPECT_GT(differing(drawn(std::string(body.id) + "-works"), still), 8000U) << body.id;
   }
+}
+
+// A picture whose upper left quarter is red and lower right one is blue lies on the glass, and is read from before it.
+TEST_F(Bodies, ShowOnTheirDisplayWhatTheDeviceShows) {
+  PixelPicture shown{40, 60, {}};
+  for (int row = 0; row < shown.height; ++row)
+    for (int column = 0; column < shown.width; ++column) {
+      const bool left = column < shown.width / 2, upper = row < shown.height / 2;
+      shown.rgba.push_back({static_cast<std::uint8_t>(left && upper ? 255 : 0), 0,
+                            static_cast<std::uint8_t>(!left && !upper ? 255 : 0), 255});
+    }
+  int with_display = 0;
+  for (const auto& body : instrumentBodies()) {
+    state.instruments.reset();
+    state.working = WorkingInstrument{at(body), {}};
+    state.working->motion.head_rad = 0.4;
+    const Eigen::Quaterniond turned =
+        state.working->stands.rotation * Eigen::AngleAxisd(-0.4, Eigen::Vector3d::UnitZ());
+    const Eigen::Vector3d way = -(turned * body.face_faces);
+    state.camera.target = state.working->stands.centre_m + turned * body.face_m;
+    state.camera.distance_m = 0.4;
+    state.camera.azimuth_rad = std::atan2(-way.x(), way.y());
+    state.camera.elevation_rad = 0;
+    state.display = nullptr;
+    const auto dark = drawn(std::string(body.id) + "-dark");
+    if (body.display_m.x() <= 0) continue;
+    ++with_display;
+    state.display = std::make_shared<const PixelPicture>(shown);
+    const auto lit = drawn(std::string(body.id) + "-lit");
+    EXPECT_GT(differing(lit, dark), 500U) << body.id;
+    // Middles of where its colours are, to the right and down from the middle of the picture.
+    Eigen::Vector2d red(0, 0), blue(0, 0);
+    int reds = 0, blues = 0;
+    for (std::size_t i = 0; i < lit.rgba.size(); ++i) {
+      const auto& p = lit.rgba[i];
+      const Eigen::Vector2d place(static_cast<double>(i % kSheetWidth), static_cast<double>(i / kSheetWidth));
+      if (p[0] > 200 && p[1] < 40 && p[2] < 40) red += place, ++reds;
+      if (p[2] > 200 && p[1] < 40 && p[0] < 40) blue += place, ++blues;
+    }
+    ASSERT_GT(std::min(reds, blues), 200) << body.id;
+    const Eigen::Vector2d off = blue / blues - red / reds;
+    EXPECT_GT(off.x(), 5) << body.id << ": blue is at the right";
+    EXPECT_GT(off.y(), 5) << body.id << ": and below";
+    EXPECT_NEAR((blue / blues + red / reds - Eigen::Vector2d(kSheetWidth, kSheetHeight)).norm(), 0, 25) << body.id;
+  }
+  EXPECT_EQ(with_display, 5);
+}
+
+// What stands still is drawn once for many pictures in which only the instrument works: they show the same as whole
+// ones.
+TEST_F(Bodies, WorkInPicturesThatAreDrawnInPartsAsInWholeOnes) {
+  lookAt({0.2, 0, 1.4}, 2.2);
+  const auto& body = instrumentBodies().front();
+  WorkingInstrument working{at(body), {}};
+  working.motion.lamp = LampColour{255, 60, 40};
+  const auto pictureAt = [&](double head_rad, bool moved_before) {
+    auto& scene = offscreen->scene();
+    working.motion.head_rad = head_rad;
+    state.working = working;
+    if (moved_before) {  // the camera has been elsewhere: all is drawn
+      ViewState elsewhere = state;
+      elsewhere.camera.azimuth_rad += 0.3;
+      scene.texture(elsewhere, kSheetWidth, kSheetHeight, false);
+    }
+    return readTexture(scene.texture(state, kSheetWidth, kSheetHeight, false));
+  };
+  pictureAt(0, true);
+  const auto first = pictureAt(0.2, false), in_parts = pictureAt(1.1, false), whole = pictureAt(1.1, true);
+  EXPECT_GT(differing(in_parts, first), 500U) << "the head has turned";
+  EXPECT_LT(differing(in_parts, whole), 20U);
 }
 
 TEST(MergedBodies, AreOneMeshOfAllThatStandAndOneOfWhatTurns) {
