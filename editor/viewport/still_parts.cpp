@@ -30,16 +30,19 @@ GLuint madeTexture(GLint format, GLenum components, GLenum type, int width, int 
 StillParts::~StillParts() { forget(); }
 
 void StillParts::forget() {
-  if (framebuffer_ != 0) glDeleteFramebuffers(1, &framebuffer_);
-  if (colours_ != 0) glDeleteTextures(1, &colours_);
-  if (depths_ != 0) glDeleteTextures(1, &depths_);
-  framebuffer_ = colours_ = depths_ = 0;
+  for (GLuint* framebuffer : {&source_, &framebuffer_})
+    if (*framebuffer != 0) glDeleteFramebuffers(1, framebuffer);
+  for (GLuint* texture : {&colours_, &depths_})
+    if (*texture != 0) glDeleteTextures(1, texture);
+  source_ = framebuffer_ = colours_ = depths_ = 0;
 }
 
-void StillParts::keep(GLuint framebuffer, GLuint colours, GLuint depths, int width, int height) {
+void StillParts::keep(GLuint colours, GLuint depths, int width, int height) {
   const PlainDrawing plain;
   kept_ = false;
   const GLint colour_format = formatOf(colours), depth_format = formatOf(depths);
+  const bool with_stencil = depth_format == GL_DEPTH24_STENCIL8 || depth_format == GL_DEPTH32F_STENCIL8;
+  const GLenum depth_place = with_stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT;
   if (framebuffer_ == 0 || width != width_ || height != height_ || colour_format != colour_format_ ||
       depth_format != depth_format_) {
     forget();
@@ -47,19 +50,21 @@ void StillParts::keep(GLuint framebuffer, GLuint colours, GLuint depths, int wid
     height_ = height;
     colour_format_ = colour_format;
     depth_format_ = depth_format;
-    const bool with_stencil = depth_format == GL_DEPTH24_STENCIL8 || depth_format == GL_DEPTH32F_STENCIL8;
     colours_ = madeTexture(colour_format, GL_RGBA, GL_UNSIGNED_BYTE, width, height);
     depths_ = with_stencil ? madeTexture(depth_format, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, width, height)
                            : madeTexture(depth_format, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, width, height);
+    glGenFramebuffers(1, &source_);
     glGenFramebuffers(1, &framebuffer_);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colours_, 0);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, with_stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT,
-                           GL_TEXTURE_2D, depths_, 0);
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) return forget();
   }
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_);
+  const auto attach = [&](GLenum which, GLuint framebuffer, GLuint colour, GLuint depth) {
+    glBindFramebuffer(which, framebuffer);
+    glFramebufferTexture2D(which, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour, 0);
+    glFramebufferTexture2D(which, depth_place, GL_TEXTURE_2D, depth, 0);
+    return glCheckFramebufferStatus(which) == GL_FRAMEBUFFER_COMPLETE;
+  };
+  if (!attach(GL_READ_FRAMEBUFFER, source_, colours, depths) ||
+      !attach(GL_DRAW_FRAMEBUFFER, framebuffer_, colours_, depths_))
+    return forget();
   glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
   kept_ = glGetError() == GL_NO_ERROR;
 }

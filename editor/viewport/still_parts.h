@@ -16,14 +16,14 @@ class StillParts {
 
   bool kept() const { return kept_; }
   void drop() { kept_ = false; }
-  // From a framebuffer and the textures that are attached to it. Not kept where the driver cannot.
-  void keep(GLuint framebuffer, GLuint colours, GLuint depths, int width, int height);
+  // From textures of this size. Not kept where the driver cannot.
+  void keep(GLuint colours, GLuint depths, int width, int height);
   void putBack() const;  // into the framebuffer that is drawn to
 
  private:
   void forget();
 
-  GLuint framebuffer_ = 0, colours_ = 0, depths_ = 0;
+  GLuint source_ = 0, framebuffer_ = 0, colours_ = 0, depths_ = 0;
   GLint colour_format_ = 0, depth_format_ = 0;
   int width_ = 0, height_ = 0;
   bool kept_ = false;

@@ -305,25 +305,23 @@ class VtkSceneView : public SceneView {
       takePoints();
     }
     if (!parts && still_) still_->drop();
-    if (parts && keepsStill()) shown_parts_ = Parts::moving;
+    if (parts && keepsStill(state)) shown_parts_ = Parts::moving;
     window_->Render();
     shown_parts_ = Parts::all;
     drawn_ = state;
   }
 
-  // A scene in which an instrument works is drawn again and again: what stands still in it only once.
-  bool keepsStill() {
+  // A scene in which an instrument works is drawn again and again: what stands still in it only once, and the steps of
+  // its edges are softened once.
+  bool keepsStill(const ViewState& state) {
     if (!still_) still_ = std::make_unique<StillParts>();
     if (still_->kept()) return true;
     shown_parts_ = Parts::still;
     window_->Render();
     shown_parts_ = Parts::all;
-    auto* drawn = window_->GetRenderFramebuffer();
-    auto* colours = drawn != nullptr ? drawn->GetColorAttachmentAsTextureObject(0) : nullptr;
-    auto* depths = drawn != nullptr ? drawn->GetDepthAttachmentAsTextureObject() : nullptr;
-    if (colours != nullptr && depths != nullptr)
-      still_->keep(drawn->GetFBOIndex(), colours->GetHandle(), depths->GetHandle(), width_ * factor_,
-                   height_ * factor_);
+    const DrawnScene drawn = scene();
+    if (drawn.colours != 0 && drawn.depths != 0)
+      still_->keep(softened(state), drawn.depths, width_ * factor_, height_ * factor_);
     return still_->kept();
   }
 
@@ -377,12 +375,18 @@ class VtkSceneView : public SceneView {
   }
 
   GLuint finished(const ViewState& state) {
-    DrawnScene drawn = scene();
     if (shading_) {
-      const GLuint shaded = finish().shade(drawn, lens(state.camera));
+      const GLuint shaded = finish().shade(scene(), lens(state.camera));
       shading_ = shaded != 0;
-      if (shading_) drawn.colours = shaded;
+      if (shading_) return softened(state, shaded);
     }
+    return still_ && still_->kept() ? scene().colours : softened(state);
+  }
+
+  // What was drawn, or what became of it, with its edges softened where the level has that.
+  GLuint softened(const ViewState& state, GLuint colours = 0) {
+    DrawnScene drawn = scene();
+    if (colours != 0) drawn.colours = colours;
     const bool smooth_by_its_pixels = factor_ > 1;
     if (drawn.colours == 0 || smooth_by_its_pixels || state.graphics.level == GraphicsLevel::low) return drawn.colours;
     if (!finish().noSmoothing().empty()) return drawn.colours;

@@ -213,6 +213,7 @@ TEST_F(Bodies, ShowOnTheirDisplayWhatTheDeviceShows) {
 // ones.
 TEST_F(Bodies, WorkInPicturesThatAreDrawnInPartsAsInWholeOnes) {
   lookAt({0.2, 0, 1.4}, 2.2);
+  state.graphics.level = GraphicsLevel::low;  // above it, edges of what moves are softened in whole pictures only
   const auto& body = instrumentBodies().front();
   WorkingInstrument working{at(body), {}};
   working.motion.lamp = LampColour{255, 60, 40};
