@@ -82,7 +82,7 @@ void act(InstrumentDesk& desk, const RehearsalAction& action) {
   else if (desk.rehearsal)
     done = desk.rehearsal->act(action, quiet);
   else if (action.kind == Kind::press)
-    done = desk.shown()->act(action.name, action.value);
+    done = desk.shown()->act(action.name, action.value, action.by);
   else if (action.kind == Kind::hand)
     done = desk.shown()->hand(action.name, action.value);
   else if (action.kind == Kind::wait)

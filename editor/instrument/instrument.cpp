@@ -49,7 +49,7 @@ class InstrumentPanel {
     if (desk_.shown() != nullptr) ImGui::EndChild();
     const bool exercising = desk_.rehearsal != nullptr && !desk_.ended();
     desk_.was_busy = desk_.shown() != nullptr && (exercising || desk_.running()->busy());
-    ticker_.run(desk_.was_busy);
+    ticker_.run(desk_.was_busy || ImGui::IsMouseDown(ImGuiMouseButton_Left));  // a finger that stays down is a hold
   }
 
   InstrumentDesk& desk() { return desk_; }
@@ -65,7 +65,7 @@ class InstrumentPanel {
     if (displayIsSeen(desk_, editor))
       editor.drawn_display = DrawnDisplay{ImGui::GetWindowDrawList()->_OwnerName, desk_.view.display};
     if (press) {
-      act(desk_, {RehearsalAction::Kind::press, press->widget, press->value, 0, {}});
+      act(desk_, {RehearsalAction::Kind::press, press->widget, press->value, 0, {}, press->by});
       const auto& device = *desk_.shown();
       const auto& moved = device.state().moved_along;
       if (!moved.empty()) editor.session.say(LogLevel::note, device.type().definition.title, moved);

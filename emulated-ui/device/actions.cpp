@@ -10,6 +10,7 @@
 #include "emulated-ui/device/device.h"
 #include "emulated-ui/device/effects.h"
 #include "emulated-ui/device/format.h"
+#include "emulated-ui/device/linking.h"
 
 namespace standpoint {
 
@@ -246,6 +247,9 @@ const std::vector<DeviceAction>& sharedActions() {
       {"measure", measure},
       {"measure_targets", measureTargets},
       {"link_newest", linkNewest},
+      {"link_setups", linkSetups},
+      {"lay_cloud", layCloud},
+      {"lay_back", layBack},
       {"transfer_by_cable", transferByCable},
       {"transfer_by_wlan", transferByWlan},
       {"standard_settings", standardSettings},

@@ -97,6 +97,15 @@ class Checker {
     return std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return name == row.name; });
   }
 
+  void checkEffect(const WidgetEffect& effect, const std::string& place) {
+    if (!effect.does.empty() && !hasName(type_.program.actions, effect.does) && !hasName(sharedActions(), effect.does))
+      fault(place + "/does", fmt::format("unknown action '{}'", effect.does));
+    if (!effect.event.empty() && !known_.contains(effect.event))
+      fault(place + "/event", fmt::format("no phase handles the event '{}'", effect.event));
+    if (!effect.go.empty() && effect.go != "back" && findScreen(d(), effect.go) == nullptr)
+      fault(place + "/go", fmt::format("unknown screen '{}'", effect.go));
+  }
+
   void checkWidget(const WidgetRow& w, const std::string& place) {
     checkCondition(w.when, place + "/when");
     checkCondition(w.enabled, place + "/enabled");
@@ -110,12 +119,11 @@ class Checker {
       fault(place + "/value", fmt::format("unknown value '{}'", w.value));
     if (!w.list.empty() && !hasName(type_.program.lists, w.list) && !hasName(sharedLists(), w.list))
       fault(place + "/list", fmt::format("unknown list '{}'", w.list));
-    if (!w.does.empty() && !hasName(type_.program.actions, w.does) && !hasName(sharedActions(), w.does))
-      fault(place + "/does", fmt::format("unknown action '{}'", w.does));
-    if (!w.event.empty() && !known_.contains(w.event))
-      fault(place + "/event", fmt::format("no phase handles the event '{}'", w.event));
-    if (!w.go.empty() && w.go != "back" && findScreen(d(), w.go) == nullptr)
-      fault(place + "/go", fmt::format("unknown screen '{}'", w.go));
+    checkEffect(w, place);
+    for (const auto& [gesture, effect] : w.gestures)
+      checkEffect(effect, place + "/gestures/" + kGestureNames[static_cast<int>(gesture)]);
+    if (w.gestures.contains(Gesture::lay) && type_.program.laid == nullptr)
+      fault(place + "/gestures/lay", "this device has no cloud that can be laid by hand");
     if (w.shows.find('{') == std::string::npos && !w.shows.empty() && !device_.domain(w.shows))
       fault(place + "/shows", fmt::format("unknown fact '{}'", w.shows));
     for (auto open = w.shows.find('{'); open != std::string::npos; open = w.shows.find('{', open + 1)) {
@@ -124,8 +132,7 @@ class Checker {
     }
     const bool can_be_grey = !w.enabled.empty() || !w.warns.empty();
     if (can_be_grey && w.why_not.empty()) fault(place + "/why_not", "can be disabled or warn without giving a reason");
-    const bool acts = !w.does.empty() || !w.event.empty() || !w.go.empty();
-    if ((w.kind == WidgetKind::button || w.kind == WidgetKind::key) && !acts) fault(place, "has no effect");
+    if ((w.kind == WidgetKind::button || w.kind == WidgetKind::key) && w.empty()) fault(place, "has no effect");
   }
 
   void checkScreen(const ScreenRow& screen) {
@@ -226,6 +233,8 @@ class Checker {
       for (const auto& w : screen.widgets) {
         can_leave = can_leave || !w.go.empty() || !w.event.empty();
         if (!w.go.empty() && w.go != "back") graph[screen.id].insert(w.go);
+        for (const auto& [gesture, effect] : w.gestures)
+          if (!effect.go.empty() && effect.go != "back") graph[screen.id].insert(effect.go);
       }
       if (!can_leave) fault("/screens/" + screen.id, "this screen has no exit");
     }
@@ -246,6 +255,8 @@ class Checker {
     needWord(w.words, place);
     needWord(w.words + "?", place);
     if (!w.why_not.empty()) needWord(w.why_not, place);
+    for (const auto& [gesture, effect] : w.gestures)
+      needWord(effect.words, place + "/gestures/" + kGestureNames[static_cast<int>(gesture)]);
     for (const auto& setting : type_.instrument.settings)
       if (setting.key == w.setting)
         for (const auto& choice : setting.choices)

@@ -63,6 +63,7 @@ std::string widgetHelp(const Device& device, const WidgetRow& row) {
   const auto& type = device.type();
   const std::string key = row.words + "?";
   std::string text = type.words->has(type.definition.id, key, "en") ? device.word(key) : std::string();
+  for (const auto& [gesture, effect] : row.gestures) text += (text.empty() ? "" : "\n") + device.word(effect.words);
   const auto setting = std::find_if(type.instrument.settings.begin(), type.instrument.settings.end(),
                                     [&](const InstrumentSetting& s) { return s.key == row.setting; });
   if (setting != type.instrument.settings.end()) text += choiceCosts(device, *setting);

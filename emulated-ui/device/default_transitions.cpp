@@ -40,6 +40,8 @@ SharedRows power(const DeviceRoles& r) {
       {.from = {kBooting}, .event = Event::elapsed, .to = r.ready},
       {.from = r.rest, .event = "power_key", .ask = "shut_down"},
       {.from = r.rest, .event = "shut_down", .to = kShuttingDown},
+      {.from = {*r.off}, .event = "power_held", .guard = kCanRun, .to = kBooting},
+      {.from = r.rest, .event = "power_held", .to = kShuttingDown},
       {.from = {kShuttingDown}, .event = Event::elapsed, .to = r.off},
       {.from = {kAnyPhase}, .event = Event::battery_critical, .ask = "battery_critical"},
       {.from = {kAnyPhase}, .event = Event::battery_empty, .to = r.off, .effect = dropScan},
@@ -98,7 +100,7 @@ SharedRows troubles(const DeviceRoles& r) {
 SharedRows results(const DeviceRoles& r) {
   const auto linked = r.links ? r.idle : Phases{};
   return {
-      {.from = linked, .event = Event::linked, .guard = "link == joined", .ask = "link_joined"},
+      {.from = linked, .event = Event::linked, .guard = "linked == joined", .ask = "link_joined"},
       {.from = linked, .event = Event::linked, .ask = "link_failed"},
       {.from = r.rest, .event = Event::targets_measured, .show = r.targets},
       {.from = r.rest, .event = Event::transferred, .ask = "transferred"},

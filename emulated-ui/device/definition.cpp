@@ -24,6 +24,28 @@ WidgetKind kindOf(JsonFields& fields) {
   return found == kKinds.end() ? WidgetKind::readout : static_cast<WidgetKind>(found - kKinds.begin());
 }
 
+void readEffect(JsonFields& f, WidgetEffect& effect) {
+  effect.does = f.textOr("does", "");
+  effect.event = f.textOr("event", "");
+  effect.go = f.textOr("go", "");
+}
+
+// "gestures": {"hold": {"event": "power_held", "words": "held_power"}}
+void readGestures(JsonFields& f, WidgetRow& w) {
+  f.object("gestures", [&](JsonFields& gestures) {
+    for (int i = 1; i < static_cast<int>(std::size(kGestureNames)); ++i)
+      gestures.object(kGestureNames[i], [&](JsonFields& one) {
+        GestureEffect effect;
+        readEffect(one, effect);
+        effect.words = one.text("words");
+        if (effect.empty()) one.wrong("", "a gesture must have does, event or go");
+        if (w.kind != WidgetKind::plan && static_cast<Gesture>(i) != Gesture::hold)
+          one.wrong("", "only a plan takes this gesture; another widget can be held");
+        w.gestures[static_cast<Gesture>(i)] = std::move(effect);
+      });
+  });
+}
+
 WidgetRow widgetRow(JsonFields& f) {
   WidgetRow w;
   w.id = f.text("id");
@@ -33,9 +55,8 @@ WidgetRow widgetRow(JsonFields& f) {
   w.value = f.textOr("value", "");
   w.list = f.textOr("list", "");
   w.shows = f.textOr("shows", "");
-  w.does = f.textOr("does", "");
-  w.event = f.textOr("event", "");
-  w.go = f.textOr("go", "");
+  readEffect(f, w);
+  readGestures(f, w);
   w.when = conditionAt(f, "when");
   w.enabled = conditionAt(f, "enabled");
   w.warns = conditionAt(f, "warns");
@@ -320,9 +341,13 @@ Result<DeviceDefinition> readDefinition(const std::filesystem::path& file) {
 
 std::set<std::string> eventsSent(const DeviceDefinition& d) {
   std::set<std::string> sent;
+  const auto take = [&](const WidgetRow& w) {
+    sent.insert(w.event);
+    for (const auto& [gesture, effect] : w.gestures) sent.insert(effect.event);
+  };
   for (const auto& screen : d.screens)
-    for (const auto& w : screen.widgets) sent.insert(w.event);
-  for (const auto& key : d.keys) sent.insert(key.event);
+    for (const auto& w : screen.widgets) take(w);
+  for (const auto& key : d.keys) take(key);
   for (const auto& dialog : d.dialogs)
     for (const auto& button : dialog.buttons) sent.insert(button.event);
   sent.erase("");

@@ -21,7 +21,20 @@ namespace standpoint {
 // emulated-ui/devices/<id>/device.json; a label is a key of the words beside it. Each widget carries the mark of the
 // source that says the real device has it.
 
-struct WidgetRow {
+// What something that is done to a widget does, in this order.
+struct WidgetEffect {
+  std::string does;   // an action of the code; when that refuses, the rest is left out
+  std::string event;  // of the state machine
+  std::string go;     // screen to show; "back" = to where one came from
+
+  bool empty() const { return does.empty() && event.empty() && go.empty(); }
+};
+
+struct GestureEffect : WidgetEffect {
+  std::string words;  // key of a word that says so, for the widget's help
+};
+
+struct WidgetRow : WidgetEffect {  // of a press
   std::string id;
   WidgetKind kind = WidgetKind::readout;
   // What it is bound to; a widget has at most one of setting, value and list.
@@ -30,10 +43,7 @@ struct WidgetRow {
   std::string value;           // of this file
   std::string list;            // rows, of the code
   std::string shows;           // a fact, or a text with {facts} in it
-  // What it does when it is pressed, in this order.
-  std::string does;                      // an action of the code; when that refuses, the rest is left out
-  std::string event;                     // of the state machine
-  std::string go;                        // screen to show; "back" = to where one came from
+  std::map<Gesture, GestureEffect> gestures;
   Condition when;                        // it is there only then
   Condition enabled;                     // else it is grey, with the word why_not
   Condition warns;                       // then it is shown as a warning, with the word why_not

@@ -331,7 +331,10 @@ void Device::tick(double seconds) {
 // --- orders ---
 
 void Device::give(Order order) {
-  if (const auto* link = std::get_if<LinkOrder>(&order)) state_.linking = link->from_file;
+  if (const auto* link = std::get_if<LinkOrder>(&order)) {
+    state_.linking = link->from_file;
+    state_.linking_to = link->to_file;
+  }
   order_ = std::move(order);
   state_.engine_fraction = 0;
 }
@@ -368,7 +371,10 @@ void Device::scanDone(StoredSetup setup) {
 void Device::linkDone(const LinkResult& link) {
   for (auto& p : state_.projects)
     for (auto& setup : p.setups)
-      if (setup.file == state_.linking) setup.link = link;
+      if (setup.file == state_.linking) {
+        setup.link = link;
+        setup.link->to = state_.linking_to;
+      }
   note("linked", link.joined ? "joined" : "refused");
   fire(Event::linked);
 }

@@ -42,9 +42,9 @@ class Device {
   Screen screen() const;
   // What a widget of the present screen does, what its choices cost, and where it is on the device.
   std::string help(const std::string& widget) const;
-  // Presses, chooses, types. What is not there or is grey is an error of kind usage; what the device itself refuses, it
-  // says in a dialogue.
-  Result<void> act(const std::string& widget, const std::string& value = {});
+  // Presses, chooses, types, or does another gesture. What is not there or is grey is an error of kind usage; what the
+  // device itself refuses, it says in a dialogue.
+  Result<void> act(const std::string& widget, const std::string& value = {}, Gesture by = Gesture::tap);
   // What hands do to it: see handRows().
   Result<void> hand(const std::string& id, const std::string& value = {});
   // A trouble of the field: see troubleRows().
@@ -127,6 +127,7 @@ class Device {
   const WidgetRow* rowOf(const std::string& id) const;
   std::optional<Widget> widget(const WidgetRow& row) const;
   Result<void> press(const WidgetRow& row, const Widget& widget, const std::string& value);
+  Result<void> carryOut(const WidgetEffect& effect, const std::string& value, const Widget& widget);
   Result<void> bind(const WidgetRow& row, const Widget& widget, const std::string& value);
   void enter(const PhaseRow& phase);
   std::string movedAlong(const SettingValues& adapted, const std::string& key) const;

@@ -24,7 +24,8 @@ bool pressable(WidgetKind kind) {
     case WidgetKind::number:
     case WidgetKind::list:
     case WidgetKind::area:
-    case WidgetKind::preview: return true;
+    case WidgetKind::preview:
+    case WidgetKind::plan: return true;
     default: return false;
   }
 }
@@ -35,6 +36,15 @@ Result<void> checkEntry(const std::string& text, const std::string& id) {
   for (const char c : text)
     if (static_cast<unsigned char>(c) < 0x20)
       return failure(ErrorKind::usage, "control characters are not allowed", id);
+  return {};
+}
+
+// A list has the row that was pressed.
+Result<void> checkRow(const Widget& widget, const std::string& value) {
+  if (widget.kind != WidgetKind::list) return {};
+  const auto known = std::any_of(widget.options.begin(), widget.options.end(),
+                                 [&](const WidgetOption& o) { return o.value == value && o.enabled; });
+  if (!known) return failure(ErrorKind::usage, fmt::format("the list has no row '{}'", value), widget.id);
   return {};
 }
 
@@ -52,7 +62,7 @@ const WidgetRow* Device::rowOf(const std::string& id) const {
   return in(type_->definition.keys);
 }
 
-Result<void> Device::act(const std::string& id, const std::string& value) {
+Result<void> Device::act(const std::string& id, const std::string& value, Gesture by) {
   const bool slept = asleep();
   wake();
   state_.moved_along.clear();
@@ -76,14 +86,22 @@ Result<void> Device::act(const std::string& id, const std::string& value) {
   const WidgetRow* row = rowOf(id);
   if ((shown == nullptr || row == nullptr) && !on())
     return failure(ErrorKind::usage, fmt::format("the device is off: cannot press '{}'", id), id);
-  if (shown == nullptr || row == nullptr || !pressable(shown->kind))
+  const bool taken = row != nullptr && (row->kind != WidgetKind::plan || by != Gesture::tap || !row->empty());
+  if (shown == nullptr || !taken || !pressable(shown->kind))
     return failure(ErrorKind::usage,
                    fmt::format("screen '{}' has no control '{}'", now.has_dialog ? now.dialog.id : now.id, id), id);
   if (!shown->enabled) {
     note("refused", id);
     return failure(ErrorKind::usage, shown->why_not.empty() ? "disabled" : shown->why_not, id);
   }
-  return press(*row, *shown, value);
+  if (by == Gesture::tap) return press(*row, *shown, value);
+  const auto effect = row->gestures.find(by);
+  const char* name = kGestureNames[static_cast<int>(by)];
+  if (effect == row->gestures.end())
+    return failure(ErrorKind::usage, fmt::format("'{}' does not take the gesture '{}'", id, name), id);
+  if (auto ok = checkRow(*shown, value); !ok) return ok;
+  note("pressed", fmt::format("{}/{}={} ({})", state_.screen, id, value, name));
+  return carryOut(effect->second, value, *shown);
 }
 
 Result<void> Device::bind(const WidgetRow& row, const Widget& widget, const std::string& given) {
@@ -153,27 +171,25 @@ Result<void> Device::press(const WidgetRow& row, const Widget& widget, const std
     note("setting", "area=" + value);
     return {};
   }
-  if (widget.kind == WidgetKind::list) {
-    const auto known = std::any_of(widget.options.begin(), widget.options.end(),
-                                   [&](const WidgetOption& o) { return o.value == value && o.enabled; });
-    if (!known) return failure(ErrorKind::usage, fmt::format("the list has no row '{}'", value), row.id);
-  } else if (auto ok = bind(row, widget, value); !ok) {
-    return ok;
-  }
-  if (!row.does.empty()) {
-    const auto named = [&](const DeviceAction& a) { return row.does == a.name; };
+  if (auto ok = widget.kind == WidgetKind::list ? checkRow(widget, value) : bind(row, widget, value); !ok) return ok;
+  return carryOut(row, value, widget);
+}
+
+Result<void> Device::carryOut(const WidgetEffect& effect, const std::string& value, const Widget& widget) {
+  if (!effect.does.empty()) {
+    const auto named = [&](const DeviceAction& a) { return effect.does == a.name; };
     const auto& own = type_->program.actions;
     auto action = std::find_if(own.begin(), own.end(), named);
     if (action == own.end()) action = std::find_if(sharedActions().begin(), sharedActions().end(), named);
     if (auto done = action->act(*this, value); !done) {
-      note("refused", row.id);
+      note("refused", widget.id);
       ask("refused", done.error().message);
       return {};
     }
   }
-  if (!row.event.empty() && !fire(row.event))
-    return failure(ErrorKind::usage, fmt::format("{}: {}", widget.label, word("not_now")), row.id);
-  if (!row.go.empty() && state_.dialog.empty()) show(row.go);
+  if (!effect.event.empty() && !fire(effect.event))
+    return failure(ErrorKind::usage, fmt::format("{}: {}", widget.label, word("not_now")), widget.id);
+  if (!effect.go.empty() && state_.dialog.empty()) show(effect.go);
   return {};
 }
 

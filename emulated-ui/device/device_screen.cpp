@@ -204,7 +204,9 @@ std::optional<Widget> Device::widget(const WidgetRow& row) const {
   if (row.kind == WidgetKind::lamp) w.value = findPhase(type_->definition, state_.phase)->lamp;
   if (row.kind == WidgetKind::preview && shownSetup() != nullptr) w.value = shownSetup()->file;
   w.leads = leadsOf(row, type_->program, state_);
-  w.acts = row.kind != WidgetKind::list || !row.does.empty() || !row.event.empty() || !row.go.empty();
+  w.acts = (row.kind != WidgetKind::list && row.kind != WidgetKind::plan) || !row.empty();
+  for (const auto& [gesture, effect] : row.gestures) w.gestures.push_back(gesture);
+  if (w.takes(Gesture::lay)) w.laid = type_->program.laid(*this);
   w.enabled = row.enabled.holds(facts());
   if ((!w.enabled || (!row.warns.empty() && row.warns.holds(facts()))) && !row.why_not.empty())
     w.why_not = word(row.why_not);

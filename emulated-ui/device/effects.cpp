@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "emulated-ui/device/device.h"
+#include "emulated-ui/device/linking.h"
 
 namespace standpoint {
 
@@ -157,7 +158,9 @@ void keepPartial(Device& device) {
   });
 }
 
-double falseStart(const Device& device) { return device.number("value.false_start"); }
+double falseStart(const Device& device, const StoredSetup& newer, const StoredSetup& older) {
+  return hasReading(newer, "compass") && hasReading(older, "compass") ? 0 : device.number("value.false_start");
+}
 
 void mislay(Device& device, LinkOrder& order) {
   constexpr double kNothingThere_m = 1000;
@@ -174,8 +177,7 @@ void orderLink(Device& device) {
 
 void orderLinkTo(Device& device, const StoredSetup& newer, const StoredSetup& older) {
   LinkOrder order{newer.file, older.file};
-  // Compasses tell a room's two sides apart.
-  if (!hasReading(newer, "compass") || !hasReading(older, "compass")) order.turn_deg = falseStart(device);
+  order.turn_deg = falseStart(device, newer, older);
   mislay(device, order);
   device.give(std::move(order));
 }
@@ -230,7 +232,7 @@ const std::vector<NamedEffect>& namedEffects() {
       {"mark_moved", markMoved},          {"keep_partial", keepPartial},
       {"lose_tracking", loseTracking},    {"reset_tracking", resetTracking},
       {"delete_setup", deleteShownSetup}, {"delete_project", deleteOpenProject},
-      {"format_card", formatCard},
+      {"format_card", formatCard},        {"remove_link", removeLink},
   };
   return rows;
 }

@@ -22,9 +22,9 @@ void operatorComes(Device& device);
 void operatorGoes(Device& device);
 void somebodyWalksBy(Device& device);
 void keepPartial(Device& device);  // the columns that are done are kept as a scan of their own
-// Degrees by which the newest setup lies turned in plan before it is fitted, where a room looks the same from both
-// sides.
-double falseStart(const Device& device);
+// Degrees by which a setup lies turned in plan before it is fitted to an earlier one, where a room looks the same from
+// both sides and no compass tells them apart.
+double falseStart(const Device& device, const StoredSetup& newer, const StoredSetup& older);
 // The trouble of a registration that fails: it begins where there is nothing.
 void mislay(Device& device, LinkOrder& order);
 void orderLink(Device& device);  // of the newest setup to the one before, where there is one

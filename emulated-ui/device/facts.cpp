@@ -6,6 +6,7 @@
 
 #include "emulated-ui/device/device.h"
 #include "emulated-ui/device/format.h"
+#include "emulated-ui/device/linking.h"
 #include "emulated-ui/device/numbers.h"
 #include "emulated-ui/device/setup_facts.h"
 
@@ -89,6 +90,11 @@ double foundTargets(const StoredSetup* s) {
 std::string linkState(const StoredSetup* s) {
   if (s == nullptr || !s->link) return "none";
   return s->link->joined ? "joined" : "failed";
+}
+
+LinkResult lastLink(const Device& d) {
+  const auto* setup = setupOfFile(d, d.state().linking);
+  return setup != nullptr && setup->link ? *setup->link : LinkResult{};
 }
 
 std::string warmState(const Device& d) { return around(d).acclimatised_s >= body(d).warm_up_s ? "yes" : "no"; }
@@ -344,6 +350,27 @@ const std::vector<FactRow>& sharedFacts() {
                    d.newestSetup() != nullptr && d.newestSetup()->link ? d.newestSetup()->link->error_m * 1000 : 0);
              },
          .about = "RMS in millimetres"},
+        {.name = "linked",
+         .domain = {{"none", "joined", "failed"}},
+         .value = [](const Device& d) { return wordFact(linkState(setupOfFile(d, d.state().linking))); },
+         .about = "outcome of the link that was attempted last"},
+        {.name = "linked.to",
+         .value =
+             [](const Device& d) {
+               const auto* to = setupOfFile(d, d.state().linking_to);
+               return wordFact(to == nullptr ? "" : to->name);
+             },
+         .about = "setup that this link is to"},
+        {.name = "linked.overlap",
+         .unit = Unit::fraction,
+         .domain = numbers(0, 1),
+         .value = [](const Device& d) { return numberFact(lastLink(d).overlap); },
+         .about = "overlap of this link as a fraction of the newer cloud"},
+        {.name = "linked.error",
+         .unit = Unit::millimetres,
+         .domain = numbers(0, 1e6),
+         .value = [](const Device& d) { return numberFact(lastLink(d).error_m * 1000); },
+         .about = "RMS of this link in millimetres"},
         {.name = "shown.name",
          .value = [](const Device& d) { return wordFact(d.shownSetup() == nullptr ? "" : d.shownSetup()->name); },
          .about = "of the displayed setup"},

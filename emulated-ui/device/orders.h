@@ -130,7 +130,8 @@ struct StoredSetup {
   bool tracked = false;                     // the way from the setup before is known
   bool looked_at = false;                   // its preview was opened
   bool transferred = false;                 // a copy is in the office
-  std::optional<LinkResult> link;           // to the setup before
+  std::optional<LinkResult> link;           // to the setup before, or that it was joined with
+  std::string joined_with;                  // file of the setup that its user has joined it with; empty: nobody has
   std::vector<FittedTarget> targets;
   double plan_x_m = 0, plan_y_m = 0;           // where it is thought to stand, for the plan
   double plan_turn_rad = 0;                    // of its preview's frame there, counter-clockwise

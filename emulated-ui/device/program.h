@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -112,6 +113,8 @@ struct DeviceProgram {
   std::vector<FactRow> facts;
   std::vector<ListRow> lists;
   std::vector<OwnEvent> events;
+  // The cloud that is laid on a plan which takes that; nothing when there is none.
+  std::optional<LaidCloud> (*laid)(const Device&) = nullptr;
   // What the device's own values change in a scan: its name, filters, notes.
   void (*prepare)(const Device&, struct ScanOrder&) = nullptr;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +32,24 @@ inline constexpr const char* kWidgetKindNames[] = {"status", "readout", "button"
                                                    "toggle", "text",    "number", "list", "progress", "area",
                                                    "level",  "preview", "plan",   "note"};
 
+// What a finger does with a widget beside tapping it. The value of the press says on what: the row of a list, the
+// set-up of a mark on a plan.
+enum class Gesture {
+  tap,
+  hold,  // it stays down for half a second
+  join,  // of a plan: drawn from the mark of one set-up to that of another, "2,0"
+  part,  // of a plan: a link is held; the set-up that has the link
+  lay,   // of a plan: a cloud is moved and turned on another, "x,y,turn" in metres and degrees
+};
+inline constexpr const char* kGestureNames[] = {"tap", "hold", "join", "part", "lay"};
+
+// A cloud that can be laid by hand onto another before it is fitted.
+struct LaidCloud {
+  int setup = -1, onto = -1;                          // of the open project
+  double shift_x_m = 0, shift_y_m = 0, turn_deg = 0;  // from where it lay; about itself, anticlockwise
+  double start_turn_deg = 0;                          // that it lay turned, with nobody's doing
+};
+
 // Where a press leads: a mark of it is drawn.
 enum class Leads { nowhere, onwards, back };
 
@@ -51,7 +71,11 @@ struct Widget {
   bool enabled = true;
   std::string why_not;  // when it is not enabled; a warning when it is
   Leads leads = Leads::nowhere;
-  bool acts = true;  // a press does something; a list that only shows has rows that do not
+  bool acts = true;               // a press does something; a list that only shows has rows that do not
+  std::vector<Gesture> gestures;  // that do something, beside a tap
+  std::optional<LaidCloud> laid;  // of a plan on which a cloud is laid
+
+  bool takes(Gesture gesture) const { return std::find(gestures.begin(), gestures.end(), gesture) != gestures.end(); }
 };
 
 struct Dialog {

@@ -73,7 +73,7 @@ struct DeviceState {
   std::optional<ScanOrder> running;
   double scanned_s = 0, laser_s = 0;              // of the running scan: in all its phases, and with the laser on
   double engine_fraction = 0;                     // of the simulation behind it
-  std::string linking;                            // file of the setup whose link was ordered last
+  std::string linking, linking_to;                // files of the setups whose link was ordered last
   std::optional<StoredSetup> data;                // the simulation is done before the device's clock is
   bool moved = false;                             // since the scan began
   ControlList control;                            // known places, copied to the device

@@ -90,7 +90,7 @@ void lamp(Pen& pen, const Widget& w, const BodyKey& key, const Box& box) {
 
 void hardKey(Pen& pen, const Widget& w, const BodyKey& key, const Box& box) {
   ImDrawList* list = ImGui::GetWindowDrawList();
-  if (area(("##" + w.id).c_str(), {box.x, box.y}, {box.width, box.height})) pen.pressed(w.id);
+  touch(pen, w, ("##" + w.id).c_str(), {box.x, box.y}, {box.width, box.height});
   const bool hovered = ImGui::IsItemHovered(), down = ImGui::IsItemActive();
   tip(w.why_not.empty() ? w.label : w.why_not);
   const float r = std::min(box.width, box.height) / 2;

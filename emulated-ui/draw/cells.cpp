@@ -26,15 +26,13 @@ const WidgetOption* nextOption(const Widget& w) {
 
 // A press on the whole box; true while it is hovered and would do something.
 bool pressBox(Pen& pen, const Widget& w, const Box& box) {
-  if (area(("##" + w.id).c_str(), corner(box), sizeOf(box))) {
-    if (w.kind == WidgetKind::choice) {
-      const auto* next = nextOption(w);
-      if (next != nullptr) pen.pressed(w.id, next->value);
-    } else if (w.kind == WidgetKind::toggle) {
-      pen.pressed(w.id, w.value == "on" ? "off" : "on");
-    } else {
-      pen.pressed(w.id);
-    }
+  const auto id = "##" + w.id;
+  if (w.kind == WidgetKind::choice) {
+    const auto* next = nextOption(w);
+    if (area(id.c_str(), corner(box), sizeOf(box)) && next != nullptr) pen.pressed(w.id, next->value);
+  } else {
+    const bool toggles = w.kind == WidgetKind::toggle;
+    touch(pen, w, id.c_str(), corner(box), sizeOf(box), !toggles ? "" : w.value == "on" ? "off" : "on");
   }
   const bool hovered = ImGui::IsItemHovered() && w.enabled;
   tip(w.why_not);
@@ -132,17 +130,6 @@ void iconOnly(Pen& pen, const Widget& w, const Box& box) {
   plate(pen, box, pen.skin.tile, hovered, held(), true);
   drawIcon(pen, iconOf(pen, w.id), {box.x + box.width / 2, box.y + box.height / 2},
            0.62F * std::min(box.width, box.height), faded(pen.skin.tile_text, w.enabled));
-}
-
-void flat(Pen& pen, const Widget& w, const Box& box) {
-  const bool hovered = pressBox(pen, w, box);
-  if (hovered) plate(pen, box, IM_COL32(0, 0, 0, 0), true, held(), false);
-  const auto& icon = iconOf(pen, w.id);
-  const float side = icon.empty() ? 0 : std::min(0.8F * box.height, 1.5F * pen.text());
-  const ImU32 ink = faded(pen.skin.text, w.enabled);
-  drawIcon(pen, icon, {box.x + 0.4F * pen.unit + side / 2, box.y + box.height / 2}, side, ink);
-  const float left = box.x + 0.8F * pen.unit + side;
-  fitted(pen, w.id, {left, box.y, box.right() - left - 0.4F * pen.unit, box.height}, ink, w.label, Align::left);
 }
 
 ImU32 valueColour(const Pen& pen, const Widget& w) { return w.why_not.empty() ? pen.skin.text : pen.skin.warning; }
@@ -265,7 +252,7 @@ void thumbs(Pen& pen, const Widget& w, const Box& box) {
     const auto& option = w.options[i];
     const Box card{box.x + static_cast<float>(i % columns) * (width + gap),
                    box.y + static_cast<float>(i / columns) * (height + gap), width, height};
-    if (area(option.value.c_str(), corner(card), sizeOf(card))) pen.pressed(w.id, option.value);
+    touch(pen, w, option.value.c_str(), corner(card), sizeOf(card), option.value);
     plate(pen, card, pen.skin.tile, ImGui::IsItemHovered(), held(), true);
     const Box top{card.x, card.y, card.width, card.height - label};
     const bool stored =
@@ -297,7 +284,6 @@ void drawCell(Pen& pen, const Widget& w, const Region& region, const Box& box) {
     case Look::block: block(pen, w, box); break;
     case Look::round: roundKey(pen, w, box, !region.anchor.empty()); break;
     case Look::icon: iconOnly(pen, w, box); break;
-    case Look::flat: flat(pen, w, box); break;
     case Look::pair: pair(pen, w, box); break;
     case Look::figure: figure(pen, w, box); break;
     case Look::slider: slider(pen, w, box); break;

@@ -167,6 +167,10 @@ std::optional<Press> drawDevice(const Device& device, DeviceView& view, float wi
   const auto& face = shownFace(layout, view, screen.id);
   view.face = face.id;
   view.cut.clear();
+  if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+    view.scrolling = view.held = false;
+    view.grabbed.clear();
+  }
   const float scale = scaleOf(face, width, height);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const ImVec2 at{corner.x + std::max(0.0F, (width - face.box[0] * scale) / 2), corner.y};

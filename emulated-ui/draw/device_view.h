@@ -21,11 +21,20 @@ namespace standpoint {
 // What somebody did to a drawn device.
 struct Press {
   std::string widget, value;
+  Gesture by = Gesture::tap;
 };
 
 // A map that is moved and made larger by hand: its middle in shares of the picture, and how much larger.
 struct MapView {
   float x = 0, y = 0, zoom = 1;
+};
+
+// What of a map a finger holds since it came down.
+struct MapGrip {
+  enum class On { nothing, ground, mark, link, cloud, ring } on = On::nothing;
+  int setup = -1;                                        // of the mark or link
+  std::array<double, 3> laid{};                          // x, y, turn of the cloud: where it is drawn meanwhile
+  double from_x_m = 0, from_y_m = 0, from_turn_rad = 0;  // what the finger came down on, beside that
 };
 
 // What a drawn device keeps from one frame to the next. A plain value but for the ways to textures and fonts.
@@ -44,6 +53,8 @@ struct DeviceView {
   int dragged_edge = -1;
   std::string grabbed;     // the form that a finger lies on
   bool scrolling = false;  // the finger has moved it
+  bool held = false;       // what it lies on was held long enough
+  MapGrip grip;            // what of a map the finger holds
   // A texture of a preview; 0 or empty: none can be had.
   std::function<std::uint64_t(const std::shared_ptr<const ScanPreview>&)> texture;
   // The font whose letters are made for about this height; empty or null: the current one.

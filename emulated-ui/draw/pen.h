@@ -27,12 +27,12 @@ struct Pen {
   std::string screen = {};  // that is drawn
 
   // The press, or the wish to have the widget explained.
-  void pressed(const std::string& widget, const std::string& value = {}) {
-    if (view.scrolling) return;  // the finger moved the screen
+  void pressed(const std::string& widget, const std::string& value = {}, Gesture by = Gesture::tap) {
+    if (view.scrolling || view.held) return;  // the finger moved the screen, or has done what it came for
     if (view.asking)
       view.explained = widget;
     else
-      press = Press{widget, value};
+      press = Press{widget, value, by};
   }
   float text() const { return unit / 0.8F; }   // height of letters, in pixels
   float touch() const { return 2.6F * unit; }  // the least height of what is pressed by a finger
@@ -44,7 +44,14 @@ void useText(const Pen& pen);
 
 ImVec2 screenAt(const Pen& pen);  // the next widget's upper left
 bool area(const char* id, ImVec2 at,
-          ImVec2 size);             // an invisible button, also of what is grey: the device then says why
+          ImVec2 size);  // an invisible button, also of what is grey: the device then says why
+// The last area was held as long as that takes; a ring about the pointer grows meanwhile. From then on until the finger
+// comes down again nothing else is pressed. The right button of a mouse, and Shift+Enter where the pointer is, hold at
+// once.
+bool isHeldAtOnce();
+bool isHeld(Pen& pen);
+// An area that presses the widget when it is tapped, and does what holding it does where it takes that.
+void touch(Pen& pen, const Widget& w, const char* id, ImVec2 at, ImVec2 size, const std::string& value = {});
 void tip(const std::string& text);  // of the last item, when it is hovered
 void centred(ImDrawList* list, ImVec2 at, ImVec2 size, ImU32 colour, const std::string& text);
 void chevron(const Pen& pen, ImVec2 tip, bool to_the_right, ImU32 colour);  // points where a press leads
@@ -84,7 +91,6 @@ void drawPreview(Pen& pen, const Widget& w);
 void drawPlan(Pen& pen, const Widget& w);
 // The picture of a scan where there is one, else a grid of the sphere; false then.
 bool scanPicture(const Pen& pen, const std::shared_ptr<const ScanPreview>& preview, ImVec2 at, ImVec2 size);
-const std::shared_ptr<const ScanPreview>& newestPreview(const Device& device);
 
 // A widget that fills a box, as its region says it is drawn.
 void drawCell(Pen& pen, const Widget& w, const Region& region, const Box& box);

@@ -130,7 +130,7 @@ void slots(Pen& pen, const Screen& screen, const Region& region, const Box& box)
       list->AddRectFilled({slot.x, slot.y}, {slot.right(), slot.bottom()},
                           w == nullptr ? IM_COL32(255, 255, 255, 14) : IM_COL32(255, 255, 255, 40), rounding);
     if (w == nullptr) continue;
-    if (area(("##" + w->id).c_str(), {slot.x, slot.y}, {slot.width, slot.height})) pen.pressed(w->id);
+    touch(pen, *w, ("##" + w->id).c_str(), {slot.x, slot.y}, {slot.width, slot.height});
     if (ImGui::IsItemHovered() && w->enabled)
       list->AddRectFilled({slot.x, slot.y}, {slot.right(), slot.bottom()},
                           ImGui::IsItemActive() ? IM_COL32(0, 0, 0, 60) : IM_COL32(255, 255, 255, 30), rounding);
@@ -289,7 +289,6 @@ bool isPicture(const Screen& screen, const Region& region) {
 void drawRegions(Pen& pen, const Screen& screen, const Region& root, const Box& display, float covered) {
   const PlacingState state{[&](const std::string& id) { return onScreen(screen, id) != nullptr; },
                            [&](const Region& tabs) { return pen.view.tabs[tabsKey(pen, tabs)]; }, 2.2F * pen.text()};
-  if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) pen.view.scrolling = false, pen.view.grabbed.clear();
   int number = 0;
   for (const auto& placed : placeRegions(root, display, state)) {
     Box box = placed.box;

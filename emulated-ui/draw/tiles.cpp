@@ -52,7 +52,7 @@ void pressedRow(Pen& pen, const Widget& w, const Row& row) {
   const TwoTexts texts(row.label, row.shown, pen.width - left - right, inset);
   const ImVec2 size{pen.width, std::max(pen.touch(), texts.height() + inset)};
   const ImVec2 at = screenAt(pen);
-  if (area(row.id.c_str(), at, size)) pen.pressed(w.id, row.value);
+  touch(pen, w, row.id.c_str(), at, size, row.value);
   const bool hovered = ImGui::IsItemHovered() && row.enabled;
   tip(w.why_not);
   ImDrawList* list = ImGui::GetWindowDrawList();
@@ -108,7 +108,7 @@ void drawReadout(Pen& pen, const Widget& w) {
 void drawBigKey(Pen& pen, const Widget& w) {
   const ImVec2 size{pen.width, 1.35F * pen.touch()};
   const ImVec2 at = screenAt(pen);
-  if (area(("##" + w.id).c_str(), at, size)) pen.pressed(w.id);
+  touch(pen, w, ("##" + w.id).c_str(), at, size);
   const bool hovered = ImGui::IsItemHovered() && w.enabled;
   tip(w.why_not);
   ImDrawList* list = ImGui::GetWindowDrawList();

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -21,6 +22,50 @@ ImVec2 screenAt(const Pen& pen) {
 bool area(const char* id, ImVec2 at, ImVec2 size) {
   ImGui::SetCursorScreenPos(at);
   return ImGui::InvisibleButton(id, size);
+}
+
+namespace {
+
+constexpr float kHold_s = 0.5F, kShowsRing_s = 0.12F;
+
+void holdRing(const Pen& pen, float share) {
+  ImDrawList* list = ImGui::GetForegroundDrawList();
+  const ImVec2 at = ImGui::GetIO().MousePos;
+  constexpr float kTop = -std::numbers::pi_v<float> / 2;
+  const float r = 1.9F * pen.unit;
+  list->AddCircle(at, r, IM_COL32(0, 0, 0, 90), 40, pen.hair(5));
+  list->PathArcTo(at, r, kTop, kTop + share * 2 * std::numbers::pi_v<float>);
+  list->PathStroke(IM_COL32(255, 178, 0, 255), 0, pen.hair(4));
+}
+
+}  // namespace
+
+bool isHeldAtOnce() {
+  if (!ImGui::IsItemHovered()) return false;
+  const bool by_keys = ImGui::GetIO().KeyShift && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+  return by_keys || ImGui::IsMouseClicked(ImGuiMouseButton_Right);
+}
+
+bool isHeld(Pen& pen) {
+  auto& view = pen.view;
+  const auto& io = ImGui::GetIO();
+  if (isHeldAtOnce()) return true;
+  if (view.held || !ImGui::IsItemActive() || !ImGui::IsItemHovered() || !io.MouseDown[ImGuiMouseButton_Left])
+    return false;
+  const float moved = 0.6F * pen.unit, down_s = io.MouseDownDuration[ImGuiMouseButton_Left];
+  if (io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] > moved * moved) return false;
+  if (down_s < kHold_s) {
+    if (down_s > kShowsRing_s) holdRing(pen, (down_s - kShowsRing_s) / (kHold_s - kShowsRing_s));
+    return false;
+  }
+  return true;
+}
+
+void touch(Pen& pen, const Widget& w, const char* id, ImVec2 at, ImVec2 size, const std::string& value) {
+  if (area(id, at, size)) pen.pressed(w.id, value);
+  if (!w.takes(Gesture::hold) || !isHeld(pen)) return;
+  pen.pressed(w.id, value, Gesture::hold);
+  pen.view.held = true;
 }
 
 void tip(const std::string& text) {

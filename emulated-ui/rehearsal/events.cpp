@@ -93,6 +93,8 @@ std::vector<EventRow> sharedEvents() {
       {.name = "sighted", .detail = Detail::text, .about = "target measured: its name (P-series)"},
       {.name = "oriented", .detail = Detail::text, .about = "station set-up accepted: the method (P-series)"},
       {.name = "linked", .detail = Detail::text, .about = "link attempted: joined or refused"},
+      {.name = "unlinked", .detail = Detail::text, .about = "link removed: the setup's name"},
+      {.name = "laid", .detail = Detail::text, .about = "cloud laid by hand: x, y, turn"},
       {.name = "registration", .detail = Detail::text, .about = "link state (X7, VZ-i)"},
       {.name = "transferred", .detail = Detail::text, .about = "files copied to the office: number"},
       {.name = "card_formatted", .detail = Detail::text, .about = "number of setups lost without a copy"},

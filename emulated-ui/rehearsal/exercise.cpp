@@ -85,6 +85,11 @@ RehearsalAction action(JsonFields& f, bool prepares = false) {
   };
   if (named("press", Kind::press) || named("hand", Kind::hand) || named("answer", Kind::answer)) {
     a.value = f.textOr("value", "");
+    if (a.kind == Kind::press && f.has("by")) {
+      const std::vector<std::string> names(std::begin(kGestureNames), std::end(kGestureNames));
+      const auto found = std::find(names.begin(), names.end(), f.wordOf("by", names));
+      if (found != names.end()) a.by = static_cast<Gesture>(found - names.begin());
+    }
   } else if (named("verb", Kind::verb)) {
     const auto* options = f.raw("options");
     a.options = options == nullptr ? nlohmann::json::object() : *options;
@@ -194,6 +199,7 @@ nlohmann::json toJson(const RehearsalAction& a) {
   if (a.kind == Kind::verb) return {{name, a.name}, {"options", a.options}};
   nlohmann::json json = {{name, a.name}};
   if (!a.value.empty()) json["value"] = a.value;
+  if (a.by != Gesture::tap) json["by"] = kGestureNames[static_cast<int>(a.by)];
   return json;
 }
 

@@ -16,6 +16,7 @@
 #include "core/report.h"
 #include "core/result.h"
 #include "emulated-ui/device/condition.h"
+#include "emulated-ui/device/screen.h"
 #include "emulated-ui/rehearsal/variants.h"
 
 namespace standpoint {
@@ -30,6 +31,7 @@ class Spoken {
 
 // What a student, or the lecturer in the student's place, does. Written as one object of a list:
 //   {"press": "resolution", "value": "6mm"}   a widget of the screen, a key, or a dialogue's button
+//   {"press": "plan", "value": "1,0", "by": "join"}   another gesture than a tap: hold, join, part, lay
 //   {"hand": "level"}                         what hands do, see handRows()
 //   {"wait": 30}                              seconds of the device's clock
 //   {"finish": true}                          until the device and the simulation behind it rest
@@ -42,6 +44,7 @@ struct RehearsalAction {
   std::string name, value;
   double seconds = 0;
   nlohmann::json options;
+  Gesture by = Gesture::tap;  // of a press
 };
 // Whether a student may do it in an exercise: station, target, plan.
 bool isFieldVerb(std::string_view verb);

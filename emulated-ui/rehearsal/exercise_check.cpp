@@ -215,8 +215,9 @@ class Checker {
   void checkPress(const RehearsalAction& action, const std::string& place) {
     if (devices_.size() != 1) return;
     checkWidget(action.name, place + "/press");
-    if (action.value.empty()) return;
     const auto& device = devices_.front();
+    if (action.by != Gesture::tap) return checkGesture(device.type().definition, action, place + "/by");
+    if (action.value.empty()) return;
     std::vector<std::string> known;
     for (const auto& screen : device.type().definition.screens)
       for (const auto& w : screen.widgets) {
@@ -228,6 +229,18 @@ class Checker {
     if (!known.empty() && !among(known, action.value) && !isLabel(device, action.value))
       fault(place + "/value", fmt::format("'{}' is not a valid choice for '{}'; {}", action.value, action.name,
                                           knownInstead(action.value, known)));
+  }
+  void checkGesture(const DeviceDefinition& definition, const RehearsalAction& action, const std::string& place) {
+    const auto takes = [&](const WidgetRow& w) { return w.id == action.name && w.gestures.contains(action.by); };
+    const auto among_rows = [&](const std::vector<WidgetRow>& rows) {
+      return std::any_of(rows.begin(), rows.end(), takes);
+    };
+    const bool taken =
+        among_rows(definition.keys) || std::any_of(definition.screens.begin(), definition.screens.end(),
+                                                   [&](const ScreenRow& screen) { return among_rows(screen.widgets); });
+    if (!taken)
+      fault(place, fmt::format("'{}' does not take the gesture '{}'", action.name,
+                               kGestureNames[static_cast<int>(action.by)]));
   }
   // A choice may be pressed by its label, too.
   static bool isLabel(const Device& device, const std::string& value) {

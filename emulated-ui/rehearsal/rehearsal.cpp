@@ -165,7 +165,7 @@ Result<void> Rehearsal::runFieldVerb(const RehearsalAction& action, Progress& pr
 
 Result<void> Rehearsal::apply(const RehearsalAction& action, Progress& progress) {
   switch (action.kind) {
-    case Kind::press: return device().act(action.name, action.value);
+    case Kind::press: return device().act(action.name, action.value, action.by);
     case Kind::hand:
       if (action.name == "stand_at" && stationOf(document_, action.value) == nullptr)
         return failure(

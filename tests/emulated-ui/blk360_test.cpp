@@ -27,7 +27,7 @@ TEST(Blk360, StartsWithItsKeyWithoutTheAppAndSwitchesOffWhenItIsHeld) {
   EXPECT_EQ(d.fact("value.connection"), "Disconnected");
   EXPECT_EQ(d.shows("lamp"), "green");
   EXPECT_EQ(d.fact("device.state"), "Idle");
-  ASSERT_TRUE(d.press({"key_long"}));
+  ASSERT_TRUE(d->act("key", "", Gesture::hold));
   EXPECT_EQ(d.fact("device.state"), "ShuttingDown");
   d->tick(10);
   EXPECT_EQ(d.phase(), "off");
@@ -236,7 +236,7 @@ TEST(Blk360, ACancelledCaptureLeavesNothing) {
   EXPECT_TRUE(d->takeCancel());
   ASSERT_TRUE(d.press({"key"}));
   EXPECT_EQ(d.phase(), "self_timer");
-  ASSERT_TRUE(d.press({"key_long"})) << "held, the key cancels";
+  ASSERT_TRUE(d->act("key", "", Gesture::hold)) << "held, the key cancels";
   EXPECT_EQ(d.fact("capture"), "Cancelled");
 }
 
@@ -306,7 +306,7 @@ TEST(Blk360, GoesOnAloneWhenTheConnectionIsLostAndStoresTheScan) {
 
 TEST(Blk360, SwitchingOffDisconnectsTheApp) {
   TestDevice d = ready(kG1);
-  ASSERT_TRUE(d.press({"key_long"}));
+  ASSERT_TRUE(d->act("key", "", Gesture::hold));
   EXPECT_EQ(d.fact("value.connection"), "ForceDisconnected");
 }
 

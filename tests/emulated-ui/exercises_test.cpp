@@ -396,6 +396,31 @@ TEST(Mistake, ALinkThatIsTurnedRoundIsTakenWithoutALook) {
   EXPECT_GT(outcome.facts.at("links.error"), 500);
 }
 
+// E16 with the cloud laid by hand as its ring has it, instead of a number that is typed.
+CarriedOut laidInE16(const std::string& laid) {
+  return Mistaken("E16")
+      .edit([&](RehearsalAction& a) {
+        if (a.name == "turn") a = {Kind::press, "plan", laid, 0, {}, Gesture::lay};
+      })
+      .outcome({"links.wrong", "links.error", "links.joined"});
+}
+
+TEST(LaidByHand, ARingThatTurnsTheRoomRoundSolvesItAsTheTypedNumberDoes) {
+  const auto outcome = laidInE16("0.3,-0.2,177");
+  EXPECT_TRUE(outcome.marks.passed);
+  EXPECT_EQ(outcome.facts.at("links.wrong"), 0);
+  EXPECT_LT(outcome.facts.at("links.error"), 5) << "the fit refines what was laid roughly";
+}
+
+// Metres beside its place there are other walls, or none: no link, or a wrong one, as in the field.
+TEST(LaidByHand, TooFarFromItsPlaceTheFitFailsOrIsWrong) {
+  for (const char* laid : {"0,0,60", "6,4,180"}) {
+    const auto outcome = laidInE16(laid);
+    EXPECT_FALSE(outcome.marks.passed) << laid;
+    EXPECT_TRUE(outcome.facts.at("links.joined") == 0 || outcome.facts.at("links.error") > 100) << laid;
+  }
+}
+
 // The way of a handheld scanner is planned, and judged, as an action like others.
 RehearsalAction walk(const nlohmann::json& way) {
   const auto action = actionFrom({{"walk", way}}, "test", "");

@@ -75,7 +75,12 @@ class Monkey {
     else if (w.kind == WidgetKind::preview)
       value = "0.5,0.5";
     if (w.kind == WidgetKind::area) value = "10,200,-20,30";
-    (void)d_->act(w.id, value);
+    Gesture by = Gesture::tap;
+    if (!w.gestures.empty() && next(3) == 0) by = w.gestures[next(w.gestures.size())];
+    if (w.kind == WidgetKind::plan) value = std::to_string(next(3));
+    if (by == Gesture::join) value += "," + std::to_string(next(3));
+    if (by == Gesture::lay) value = "1.5,-" + value + ",30";
+    (void)d_->act(w.id, value, by);
   }
 
   // A careful hand mends what is wrong now and then, else nothing would ever be scanned.

@@ -54,7 +54,7 @@ TEST(Screen, CallsAShutdownByItsName) {
     ASSERT_TRUE(d.press({d->screen().body.front().id}));
     d->tick(d->fact("phase.lasts")->number.value() + 1);
     const bool held = row.id == std::string("leica-blk360");
-    ASSERT_TRUE(held ? d.press({"key_long"}) : d.press({"power", "yes"})) << row.id;
+    ASSERT_TRUE(held ? d->act("key", "", Gesture::hold).has_value() : bool(d.press({"power", "yes"}))) << row.id;
     EXPECT_EQ(d->screen().title, "Shutting down") << row.id;
   }
 }

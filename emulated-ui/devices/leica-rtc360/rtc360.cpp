@@ -4,6 +4,7 @@
 #include "emulated-ui/device/default_transitions.h"
 #include "emulated-ui/device/device.h"
 #include "emulated-ui/device/effects.h"
+#include "emulated-ui/device/linking.h"
 
 // Leica RTC360 with its touch display and what FIELD 360 adds: off, booting, idle, one or two passes of the laser,
 // pictures, storing, and the tracking of the way to the next setup. Transitions: instrument facts, section 2.2.
@@ -38,6 +39,15 @@ void storeAndFollow(Device& device) {
 void storeWithoutLink(Device& device) {
   storeScan(device);
   resetTracking(device);
+}
+
+std::optional<LaidCloud> laidNewest(const Device& device) { return laidCloud(device, device.newestSetup()); }
+
+Result<void> optimise(Device& device, const std::string&) {
+  const auto* newest = device.newestSetup();
+  if (newest == nullptr || !laidNewest(device)) return failure(ErrorKind::usage, device.word("link_needs_two"));
+  orderLaidLink(device, *newest);
+  return {};
 }
 
 // What the next press of the scan key does.
@@ -144,6 +154,12 @@ std::vector<Transition> transitions() {
            .source = "G1"},
           {.from = {phase::vis_tracking}, .event = Event::tracking_lost, .ask = "tracking_lost", .source = "G1"},
           {.from = {phase::finishing}, .event = Event::elapsed, .guard = "data == yes", .to = phase::storing},
+          {.from = kIdle,
+           .event = Event::linked,
+           .guard = "linked == joined",
+           .ask = "link_joined",
+           .effect = forgetLaid,
+           .source = "G1"},
           {.from = kIdle, .event = "delete_job", .ask = "delete_job_question", .source = "G1"},
           {.from = kIdle, .event = "delete_job_confirmed", .show = "jobs", .effect = deleteOpenProject, .source = "G1"},
       },
@@ -163,7 +179,9 @@ std::vector<FactRow> facts() {
 const DeviceProgram& program() {
   static const DeviceProgram all = {
       .transitions = transitions(),
+      .actions = {{"optimise", optimise}},
       .facts = facts(),
+      .laid = laidNewest,
   };
   return all;
 }

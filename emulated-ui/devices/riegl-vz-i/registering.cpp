@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "emulated-ui/device/effects.h"
+#include "emulated-ui/device/linking.h"
 #include "emulated-ui/devices/riegl-vz-i/positions.h"
 
 namespace standpoint::riegl_vz_i {
@@ -54,6 +55,13 @@ static const StoredSetup* registeredAgainst(const Device& device) {
   for (const auto& setup : project->setups)
     if (setup.file != newest->file && (nearest == nullptr || away(setup) <= away(*nearest))) nearest = &setup;
   return nearest;
+}
+
+Result<void> chooseReference(Device& device, const std::string& rows) {
+  TRY_ASSIGN(const auto pair, pairIn(device, rows));
+  if (pair.first != device.newestSetup()) return failure(ErrorKind::usage, device.word("newest_only"));
+  device.change().shown = static_cast<int>(pair.second - device.project()->setups.data());
+  return {};
 }
 
 void beginRegistration(Device& device) {

@@ -13,6 +13,8 @@ namespace standpoint::riegl_vz_i {
 double registrationSeconds(const Device& device);
 std::string registrationResult(const Device& device);  // "none", "ok", "fast_failed" or "scan_failed"
 void beginRegistration(Device& device);
+// "2,0", drawn on the plan: the earlier position that the newest is registered against.
+Result<void> chooseReference(Device& device, const std::string& rows);
 void judgeRegistration(Device& device);
 void storeAndRegister(Device& device);
 

@@ -266,6 +266,7 @@ const DeviceProgram& program() {
                   {"propose_pattern", proposePattern},
                   {"take_pattern", takePattern},
                   {"whole_field", wholeField},
+                  {"choose_reference", chooseReference},
                   {"add_point", addPoint},
                   {"clear_points", clearPoints},
                   {"georeference", georeference}},

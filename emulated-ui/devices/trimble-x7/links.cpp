@@ -16,30 +16,21 @@ const std::string kState = "registration.";  // + file: a value of the device
 constexpr const char* kLeft = "links_left";  // an entry
 
 std::string judged(const Device& device, const StoredSetup& setup, const LinkResult& link) {
-  const auto* before = setupBefore(device, setup);
-  if (before == nullptr || !link.joined || tiltDifference_deg(setup, *before) >= kMostTiltDifference_deg)
+  const auto* partner = partnerOf(device, setup);
+  if (partner == nullptr || !link.joined || tiltDifference_deg(setup, *partner) >= kMostTiltDifference_deg)
     return "failed";
   const double confidence = confidenceOf(link);
   return confidence >= kGreenConfidence ? "registered" : confidence >= kAmberConfidence ? "check" : "failed";
 }
 
-void forgetShift(Device& device) {
-  for (const char* value : {"shift_x", "shift_y", "turn"}) device.change().values[value] = std::string(1, '0');
-}
-
-void orderRefine(Device& device, const StoredSetup& setup, bool with_shift) {
-  const auto* before = setupBefore(device, setup);
-  if (before == nullptr) return;
-  LinkOrder order{setup.file, before->file};
-  order.turn_deg = falseStart(device);
-  if (with_shift) {
-    order.shift_x_m = device.number("value.shift_x");
-    order.shift_y_m = device.number("value.shift_y");
-    order.turn_deg += device.number("value.turn");
-  }
-  mislay(device, order);
+void orderRefine(Device& device, const StoredSetup& setup, bool laid) {
+  const auto* partner = partnerOf(device, setup);
+  if (partner == nullptr) return;
   forgetRegistration(device, setup);
-  device.give(std::move(order));
+  if (laid)
+    orderLaidLink(device, setup);
+  else
+    orderLinkTo(device, setup, *partner);
 }
 
 }  // namespace
@@ -66,26 +57,11 @@ void setRegistration(Device& device, const StoredSetup& setup, const std::string
   device.note("registration", setup.name + "=" + state);
 }
 
-const StoredSetup* setupBefore(const Device& device, const StoredSetup& setup) {
-  const auto* project = device.project();
-  if (project == nullptr) return nullptr;
-  for (std::size_t i = 1; i < project->setups.size(); ++i)
-    if (project->setups[i].file == setup.file) return &project->setups[i - 1];
-  return nullptr;
-}
-
-const StoredSetup* setupOfFile(const Device& device, const std::string& file) {
-  for (const auto& p : device.state().projects)
-    for (const auto& setup : p.setups)
-      if (setup.file == file) return &setup;
-  return nullptr;
-}
-
 const StoredSetup* linkedSetup(const Device& device) {
   const auto* shown = device.shownSetup();
-  if (shown != nullptr && setupBefore(device, *shown) != nullptr) return shown;
+  if (shown != nullptr && partnerOf(device, *shown) != nullptr) return shown;
   const auto* newest = device.newestSetup();
-  return newest != nullptr && setupBefore(device, *newest) != nullptr ? newest : nullptr;
+  return newest != nullptr && partnerOf(device, *newest) != nullptr ? newest : nullptr;
 }
 
 void refineShown(Device& device) {
@@ -105,7 +81,7 @@ void judgeLink(Device& device) {
   const auto* setup = setupOfFile(device, device.state().linking);
   if (setup == nullptr || !setup->link) return;
   setRegistration(device, *setup, judged(device, *setup, *setup->link));
-  forgetShift(device);
+  forgetLaid(device);
 }
 
 void judgeAndRefineNext(Device& device) {
@@ -118,8 +94,20 @@ void judgeAndRefineNext(Device& device) {
 
 Result<void> chooseLink(Device& device, const std::string& row) {
   device.change().shown = std::atoi(row.c_str());
-  forgetShift(device);
+  forgetLaid(device);
   return {};
+}
+
+// Two stations that a line on the plan has joined.
+Result<void> choosePair(Device& device, const std::string& rows) {
+  TRY_ASSIGN(const auto pair, pairIn(device, rows));
+  pair.first->joined_with = pair.second->file;
+  return chooseLink(device, std::to_string(pair.first - device.project()->setups.data()));
+}
+
+void forgetLink(Device& device) {
+  if (const auto* setup = device.shownSetup()) forgetRegistration(device, *setup);
+  removeLink(device);
 }
 
 Result<void> applyLink(Device& device, const std::string&) {
@@ -137,7 +125,7 @@ std::vector<WidgetOption> linkRows(const Device& device) {
   const auto* project = device.project();
   for (std::size_t i = 1; project != nullptr && i < project->setups.size(); ++i) {
     const auto& setup = project->setups[i];
-    std::string text = fmt::format("{} – {}  {}", project->setups[i - 1].name, setup.name,
+    std::string text = fmt::format("{} – {}  {}", partnerOf(device, setup)->name, setup.name,
                                    device.word("registration=" + registrationOf(device, setup)));
     if (setup.link && setup.link->joined)
       text += fmt::format("  {:.1f} mm  {:.0f} %  {:.0f}", setup.link->error_m * 1000, setup.link->overlap * 100,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "emulated-ui/device/device.h"
+#include "emulated-ui/device/linking.h"
 
 namespace standpoint::trimble_x7 {
 
@@ -26,19 +27,19 @@ double tiltDifference_deg(const StoredSetup& a, const StoredSetup& b);
 std::string registrationOf(const Device& device, const StoredSetup& setup);
 void forgetRegistration(Device& device, const StoredSetup& setup);
 void setRegistration(Device& device, const StoredSetup& setup, const std::string& state);
-// The station whose link is on view, and the one before it; null where there is none.
+// The station whose link is on view; null where none has a partner.
 const StoredSetup* linkedSetup(const Device& device);
-const StoredSetup* setupBefore(const Device& device, const StoredSetup& setup);
-const StoredSetup* setupOfFile(const Device& device, const std::string& file);
 
 // Effects.
 void refineShown(Device& device);  // from where the user has laid it
 void refineFirst(Device& device);  // of all
 void judgeLink(Device& device);
 void judgeAndRefineNext(Device& device);
+void forgetLink(Device& device);      // of the station on view
 int linksLeft(const Device& device);  // of those that are refined in one go
 
 Result<void> chooseLink(Device& device, const std::string& row);
+Result<void> choosePair(Device& device, const std::string& rows);
 Result<void> applyLink(Device& device, const std::string&);
 Result<void> rejectLink(Device& device, const std::string&);
 std::vector<WidgetOption> linkRows(const Device& device);

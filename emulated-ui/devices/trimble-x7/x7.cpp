@@ -41,7 +41,7 @@ double wholeConsistency(const LinkResult& link) { return std::floor(consistencyO
 
 double differenceOnView(const Device& device) {
   const auto* setup = linkedSetup(device);
-  return setup == nullptr ? 0 : tiltDifference_deg(*setup, *setupBefore(device, *setup));
+  return setup == nullptr ? 0 : tiltDifference_deg(*setup, *partnerOf(device, *setup));
 }
 
 bool judgedNow(const Device& device) {
@@ -69,7 +69,7 @@ double worstLink(const Device& device) {
 
 std::string pairOnView(const Device& device) {
   const auto* setup = linkedSetup(device);
-  return setup == nullptr ? "" : setupBefore(device, *setup)->name + " – " + setup->name;
+  return setup == nullptr ? "" : partnerOf(device, *setup)->name + " – " + setup->name;
 }
 
 std::string pointerAngles(const Device& device) {
@@ -348,6 +348,7 @@ std::vector<Transition> transitions() {
            .show = "registration",
            .source = "S14"},
           {.from = {phase::idle}, .event = "refine", .to = phase::refining, .effect = refineShown, .source = "S14"},
+          {.from = kRest, .event = "unlink_confirmed", .effect = forgetLink},
           {.from = {phase::idle}, .event = "refine_all", .to = phase::refining, .effect = refineFirst, .source = "G1"},
           {.from = {phase::refining},
            .event = Event::linked,
@@ -380,6 +381,7 @@ const DeviceProgram& program() {
                   {"propose_area", proposeArea},
                   {"take_area", takeArea},
                   {"choose_link", chooseLink},
+                  {"choose_pair", choosePair},
                   {"apply_link", applyLink},
                   {"reject_link", rejectLink},
                   {"switch_pointer", switchPointer},
@@ -397,6 +399,7 @@ const DeviceProgram& program() {
               {.name = "annotation", .about = "its text (X7)"},
               {.name = "pointed", .about = "laser pointer aimed (X7)"},
           },
+      .laid = [](const Device& d) { return laidCloud(d, linkedSetup(d)); },
       .prepare = prepareScan,
   };
   return all;
