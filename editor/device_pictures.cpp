@@ -10,6 +10,7 @@
 #include "core/data_folder.h"
 #include "editor/instrument/preview_picture.h"
 #include "emulated-ui/draw/device_view.h"
+#include "emulated-ui/host.h"
 #include "emulated-ui/menus.h"
 #include "emulated-ui/preview.h"
 
@@ -57,10 +58,7 @@ Result<std::vector<StoredSetup>> scannedHouse(const fs::path& folder) {
     s.points = station.scans.back().points;
     s.bytes = static_cast<double>(s.points) * 26;
     s.instrument_seconds = station.scans.back().instrument_seconds;
-    s.plan_x_m = station.true_pose.translation.x();
-    s.plan_y_m = station.true_pose.translation.y();
-    const Eigen::Vector3d forward = station.true_pose.rotation * Eigen::Vector3d::UnitX();
-    s.plan_turn_rad = std::atan2(forward.y(), forward.x());
+    putOnPlan(s, station.true_pose);
     TRY_ASSIGN(auto preview, readPreview(s.file, quiet));
     s.preview = preview;
     if (s.number == 2) s.link = LinkResult{true, 0.0021, 0.43, 0.001, 0.01};

@@ -28,13 +28,6 @@ using nlohmann::json;
 
 namespace {
 
-void putOnPlan(StoredSetup& setup, const Pose& pose) {
-  const Eigen::Vector3d forward = pose.rotation * Eigen::Vector3d::UnitX();
-  setup.plan_x_m = pose.translation.x();
-  setup.plan_y_m = pose.translation.y();
-  setup.plan_turn_rad = std::atan2(forward.y(), forward.x());
-}
-
 // Adds a scan to a station of the document as it is now.
 Document withScan(Document document, const std::string& station_name, const Scan& scan) {
   Job job = *document.job;
@@ -120,6 +113,13 @@ Result<Scan> scanned(const Document& document, const ScanOrder& order, const Sca
 }
 
 }  // namespace
+
+void putOnPlan(StoredSetup& setup, const Pose& pose) {
+  const Eigen::Vector3d forward = pose.rotation * Eigen::Vector3d::UnitX();
+  setup.plan_x_m = pose.translation.x();
+  setup.plan_y_m = pose.translation.y();
+  setup.plan_turn_rad = std::atan2(forward.y(), forward.x());
+}
 
 fs::path scanFile(const fs::path& scans_folder, const ScanOrder& order) {
   const fs::path folder =
@@ -248,9 +248,9 @@ void DeviceHost::start(const Order& order, const Document& document, const fs::p
       options.start_offset = StartOffset{link->shift_x_m, link->shift_y_m, link->turn_deg};
     startTask("Link", [document, options](Progress& p) -> Result<Delivery> {
       TRY_ASSIGN(const auto outcome, runRegister(document, options, p));
-      auto result = linkFrom(outcome.answer, outcome.document);
-      result.to = options.files.front().string();
-      return [link = std::move(result)](DeviceHost& host, const Document&) { host.device_.linkDone(link); };
+      return [link = linkFrom(outcome.answer, outcome.document)](DeviceHost& host, const Document&) {
+        host.device_.linkDone(link);
+      };
     });
   } else if (const auto* targets = std::get_if<TargetOrder>(&order)) {
     startTask("Targets", [document, file = targets->file, s = seed](Progress& p) -> Result<Delivery> {

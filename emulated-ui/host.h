@@ -18,6 +18,8 @@ namespace standpoint {
 // Where a device's setup is stored in a project: scans/<project>/[<cluster>/]<name>.e57. The names are the record: a
 // project that is opened again fills the device's memory from them.
 std::filesystem::path scanFile(const std::filesystem::path& scans_folder, const ScanOrder& order);
+// Where it stands on the device's map, and how its cloud is turned there.
+void putOnPlan(StoredSetup& setup, const Pose& pose);
 std::vector<StoredSetup> storedSetups(const Document& document, const DeviceType& type);
 
 // Runs an emulated device against a document: its orders become tasks, its clock goes as fast as the user wants, and a

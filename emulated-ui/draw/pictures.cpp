@@ -16,14 +16,15 @@ namespace {
 
 ImVec2 plus(ImVec2 a, ImVec2 b) { return {a.x + b.x, a.y + b.y}; }
 
-}  // namespace
-
+// Of the setup on view, else of the newest.
 const std::shared_ptr<const ScanPreview>& newestPreview(const Device& device) {
   static const std::shared_ptr<const ScanPreview> kNone;
   if (const auto* shown = device.shownSetup(); shown != nullptr && shown->preview) return shown->preview;
   if (const auto* newest = device.newestSetup(); newest != nullptr) return newest->preview;
   return kNone;
 }
+
+}  // namespace
 
 // The picture where there is one, else a grid of the sphere.
 bool scanPicture(const Pen& pen, const std::shared_ptr<const ScanPreview>& preview, ImVec2 at, ImVec2 size) {

@@ -28,8 +28,7 @@ std::set<WidgetKind> kindsFor(Look as) {
     case Look::tile: return {WidgetKind::button, WidgetKind::key, WidgetKind::choice, WidgetKind::toggle};
     case Look::block:
     case Look::round:
-    case Look::icon:
-    case Look::flat: return {WidgetKind::button, WidgetKind::key};
+    case Look::icon: return {WidgetKind::button, WidgetKind::key};
     case Look::pair:
     case Look::figure: return {WidgetKind::readout, WidgetKind::status};
     case Look::slider: return {WidgetKind::choice};

@@ -42,7 +42,6 @@ enum class Look : std::uint8_t {
   block,   // a large key, its label beside its icon
   round,   // the same as a disc, with its label below
   icon,    // the icon alone
-  flat,    // label and icon without a plate, as in a drawer
   pair,    // a small caption above the value
   figure,  // the value alone, large
   slider,  // a choice as a slider with a stop for each option
@@ -50,8 +49,8 @@ enum class Look : std::uint8_t {
   sweep,   // progress as a picture that grows from the left
   thumbs,  // a list as pictures beside one another
 };
-inline constexpr const char* kLookNames[] = {"normal", "tile",   "block",  "round", "icon",  "flat",
-                                             "pair",   "figure", "slider", "ring",  "sweep", "thumbs"};
+inline constexpr const char* kLookNames[] = {"normal", "tile",   "block", "round", "icon",  "pair",
+                                             "figure", "slider", "ring",  "sweep", "thumbs"};
 
 struct Region {
   RegionKind kind = RegionKind::empty;
@@ -100,7 +99,6 @@ struct DeviceFace {
   float text = 20;                 // height of letters
   std::vector<BodyShape> shapes;   // the later ones on top
   std::vector<BodyKey> keys;
-  bool turns_with_head = false;
 };
 
 struct Layout {

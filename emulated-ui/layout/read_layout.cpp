@@ -177,7 +177,6 @@ DeviceFace readFace(JsonFields& f) {
   face.box = readNumbers<2>(f, "box", 10);
   face.display = readNumbers<4>(f, "display", 0);
   face.text = static_cast<float>(f.number("text", 4, 200));
-  face.turns_with_head = f.flagOr("turns_with_head", false);
   f.list("shapes", [&](JsonFields& shape) { face.shapes.push_back(readShape(shape)); });
   f.list("keys", [&](JsonFields& key) {
     BodyKey k;
