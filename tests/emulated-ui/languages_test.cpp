@@ -137,9 +137,11 @@ TEST_F(WordFiles, AddTextsToEveryVariantOfAnExercise) {
   const auto words = ExerciseWords::read(folder_.path());
   ASSERT_TRUE(words) << describe(words.error());
   const auto json = nlohmann::json::parse(R"({
-    "id": "E99", "title": {"en": "Scan at ${resolution}."}, "goal": {"en": "Wait."}, "devices": ["faro-focus"],
+    "id": "E99", "title": {"en": "Scan at ${resolution}."}, "goal": {"en": "Wait."},
+    "devices": ["faro-focus"],
     "model": "house", "variants": {"resolution": {"choices": ["1/20", "1/16"]}},
-    "rules": [{"id": "r", "text": {"en": "Wait ${resolution} s."}, "when": "end", "holds": "setups >= 1", "points": 1}]})");
+    "rules": [{"id": "r", "text": {"en": "Wait ${resolution} s."}, "when": "end",
+               "holds": "setups >= 1", "points": 1}]})");
   for (const auto* resolution : {"1/16", "1/20"}) {
     auto exercise = exerciseFrom(json, "x.json", {{"resolution", resolution}});
     ASSERT_TRUE(exercise) << describe(exercise.error());
