@@ -177,6 +177,8 @@ void showInScene(InstrumentDesk& desk, Editor& editor) {
 bool displayIsSeen(const InstrumentDesk& desk, const Editor& editor) {
   constexpr double kFar_m = 4;  // a display of 6 cm is some 10 pixels wide there
   if (editor.held.carried || bodyOf(editor.held.instrument).display_m.x() <= 0) return false;
+  const bool on_tablet = desk.view.layout && desk.view.face != desk.view.layout->faces.front().id;
+  if (on_tablet) return false;
   const auto* station =
       stationOf(desk.rehearsal ? desk.rehearsal->document() : editor.session.document(), editor.held.station);
   return station != nullptr && (station->true_pose.translation - editor.view.camera.eye()).norm() < kFar_m;
