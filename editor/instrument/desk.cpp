@@ -107,6 +107,7 @@ void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& de
   desk.instrument = instrument;
   desk.host.reset();
   desk.growing.reset();
+  desk.view.face.clear();  // of the device before
   desk.refused.clear();
   desk.said.clear();
   auto type = loadDevice(device, instrument);
@@ -315,6 +316,7 @@ void startAssigned(InstrumentDesk& desk, Editor& editor) {
 
 void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercise) {
   desk.refused.clear();
+  desk.view.face.clear();
   desk.assigned = false;
   desk.result.clear();
   const auto folder = freshFolder(exercise.id);

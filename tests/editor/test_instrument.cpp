@@ -92,6 +92,21 @@ TEST_F(InstrumentGui, TellsWhatIsMarkedOnlyWhereHelpIsAllowed) {
   EXPECT_EQ(gui.find("###demands"), nullptr);
 }
 
+// The tablet on which it was worked last is not what one switches the next device on with.
+TEST_F(InstrumentGui, BeginsEachDeviceAtItsFirstFace) {
+  InstrumentDesk desk;
+  const auto& device = *findDevice("leica-rtc360");
+  chooseDevice(desk, editor, device, "");
+  desk.view.face = "tablet";
+  chooseDevice(desk, editor, device, "");
+  EXPECT_EQ(desk.view.face, "");
+  desk.view.face = "tablet";
+  startExercise(desk, editor, findExercise("T-RTC360")->exercise);
+  ASSERT_NE(desk.rehearsal, nullptr) << desk.refused;
+  EXPECT_EQ(desk.view.face, "");
+  leaveExercise(desk, editor);
+}
+
 TEST_F(InstrumentGui, OffersTheCertificateAndANewStartOnceItIsMarked) {
   begin("T-RTC360");
   EXPECT_EQ(gui.find("###certificate"), nullptr);
