@@ -94,19 +94,18 @@ class InstrumentPanel {
 
   void tabs(Editor& editor) {
     if (!ImGui::BeginTabBar("desk")) return;
-    if (ImGui::BeginTabItem(ui::Label("Equipment"))) {
-      drawHands(desk_, editor);
-      ImGui::EndTabItem();
-    }
-    if (ImGui::BeginTabItem(ui::Label("Exercise"))) {
-      drawExercises(desk_, editor);
-      ImGui::EndTabItem();
-    }
-    if (desk_.shown() != nullptr && ImGui::BeginTabItem(ui::Label("Help"))) {
-      drawHelp(desk_, editor);
-      ImGui::EndTabItem();
-    }
+    page("Equipment", drawHands, editor);
+    page("Exercise", drawExercises, editor);
+    if (desk_.shown() != nullptr) page("Help", drawHelp, editor);
     ImGui::EndTabBar();
+  }
+
+  // What is on it scrolls; the tabs stay.
+  void page(const char* title, void (*draw)(InstrumentDesk&, Editor&), Editor& editor) {
+    if (!ImGui::BeginTabItem(ui::Label(title))) return;
+    if (ImGui::BeginChild(title)) draw(desk_, editor);
+    ImGui::EndChild();
+    ImGui::EndTabItem();
   }
 
   // On the open project the tripod begins at its first station; in an exercise the student carries it there.
