@@ -139,6 +139,7 @@ TEST_F(X7, MayTakeAWrongMatchInASymmetricalRoomForAGoodOne) {
   EXPECT_EQ(d.fact("registration"), "registered");
   ASSERT_TRUE(d.press({"registration", "reject"}));
   EXPECT_EQ(d.fact("registration"), "rejected") << "the eye of the operator is the last check";
+  EXPECT_FALSE(d->newestSetup()->link->joined) << "neither the map nor what is handed over goes by it";
 }
 
 TEST_F(X7, ASymmetricalRoomTurnsTheStartOfEveryLinkByHalfATurn) {

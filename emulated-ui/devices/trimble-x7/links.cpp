@@ -116,7 +116,12 @@ Result<void> applyLink(Device& device, const std::string&) {
 }
 
 Result<void> rejectLink(Device& device, const std::string&) {
-  if (const auto* setup = linkedSetup(device)) setRegistration(device, *setup, "rejected");
+  const auto* setup = linkedSetup(device);
+  if (setup == nullptr) return {};
+  setRegistration(device, *setup, "rejected");
+  for (auto& project : device.change().projects)
+    for (auto& one : project.setups)
+      if (&one == setup && one.link) one.link->joined = false;  // nothing is placed by it
   return {};
 }
 
