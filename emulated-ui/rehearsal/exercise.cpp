@@ -152,8 +152,8 @@ const std::string& Spoken::in(const std::string& language) const {
   static const std::string kNothing;
   const auto found = texts.find(language);
   if (found != texts.end()) return found->second;
-  const auto english = texts.find("en");
-  return english == texts.end() ? kNothing : english->second;
+  const auto fallback = texts.find("en");
+  return fallback == texts.end() ? kNothing : fallback->second;
 }
 
 void eachText(Exercise& e, const std::function<void(Spoken& text, const std::string& place)>& visit) {
