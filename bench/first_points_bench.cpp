@@ -50,9 +50,11 @@ struct Times {
 
 Times once(Editor& editor, Offscreen& offscreen, const std::filesystem::path& file) {
   const auto& asked = editor.scan_choice;
-  auto options = scanOptions(asked);
-  options["output"] = file.string();
-  options["stations"] = editor.session.document().job->stations.front().name;
+  ScanVerbOptions options;
+  options.instrument = asked.instrument;
+  options.settings = asked.settings;
+  options.output = file;
+  options.stations.names = {editor.session.document().job->stations.front().name};
   Times times;
   editor.fine_picture = false;  // as after any input
   offscreen.frame(editor);
