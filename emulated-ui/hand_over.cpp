@@ -2,11 +2,11 @@
 #include "emulated-ui/hand_over.h"
 
 #include <cstdint>
-#include <set>
 #include <vector>
 
 #include "core/part_file.h"
 #include "core/report.h"
+#include "emulated-ui/device/linking.h"
 #include "pointclouds/files/file_access.h"
 #include "pointclouds/formats.h"
 #include "survey/registration/registered_clouds.h"
@@ -33,24 +33,6 @@ Result<void> copyFile(const fs::path& from, const fs::path& to, Progress& progre
   return out.commit();
 }
 
-// The link of a set-up is to one whose own link may have moved it.
-class Chain {
- public:
-  explicit Chain(const std::map<std::string, const LinkResult*>& links) : links_(links) {}
-
-  Pose movedBy(const std::string& file) {
-    const auto found = links_.find(file);
-    if (found == links_.end() || !on_the_way_.insert(file).second) return {};  // the first one, or a ring of links
-    const Pose moved = movedBy(found->second->to) * found->second->error;
-    on_the_way_.erase(file);
-    return moved;
-  }
-
- private:
-  const std::map<std::string, const LinkResult*>& links_;
-  std::set<std::string> on_the_way_;
-};
-
 Result<void> copyLinked(const fs::path& from, const fs::path& to, const Pose& moved, const Eigen::Vector3d& shift_m,
                         Progress& progress) {
   const auto linked = [&](const ScanHeader& header) -> Result<Pose> {
@@ -74,12 +56,9 @@ Result<void> convert(const fs::path& from, const fs::path& to, Progress& progres
 
 LinkedPlaces linkedPlaces(const DeviceState& state) {
   LinkedPlaces places;
-  for (const auto& project : state.projects) {
-    std::map<std::string, const LinkResult*> links;
+  for (const auto& project : state.projects)
     for (const auto& setup : project.setups)
-      if (setup.link && setup.link->joined) links[setup.file] = &*setup.link;
-    for (const auto& [file, link] : links) places[file] = Chain(links).movedBy(file);
-  }
+      if (setup.link && setup.link->joined) places[setup.file] = movedByLinks(project.setups, setup);
   return places;
 }
 

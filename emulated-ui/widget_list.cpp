@@ -24,7 +24,7 @@ std::string effectOf(const WidgetRow& w) {
   add("event", w.event);
   add("opens", w.go);
   for (const auto& [gesture, effect] : w.gestures) {
-    const std::string by = kGestureNames[static_cast<int>(gesture)];
+    const std::string by = nameOf(gesture);
     for (const auto& [what, name] : {std::pair{" does", effect.does}, {": event", effect.event}, {" opens", effect.go}})
       add((by + what).c_str(), name);
   }
@@ -101,8 +101,7 @@ Result<std::string> widgetList() {
       "the tables. {} distinct widgets, {} of them interactive.\n\n{}\nSource codes: S… = read in that source, D = "
       "derived, G1 and G2 = general knowledge (weak: correct the label in its words.json), P = a choice of this "
       "emulator. The place is where the widget stands on its screens: S as a source shows it, K by general knowledge, "
-      "P "
-      "a proposal that the device's layout.json can correct.\n\n| device | widget | label | kind | what it does | "
+      "P a proposal that the device's layout.json can correct.\n\n| device | widget | label | kind | what it does | "
       "screens | source | place | test |\n|---|---|---|---|---|---|---|---|---|\n{}",
       all, all_act, summary, rows);
 }

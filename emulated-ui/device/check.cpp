@@ -120,8 +120,7 @@ class Checker {
     if (!w.list.empty() && !hasName(type_.program.lists, w.list) && !hasName(sharedLists(), w.list))
       fault(place + "/list", fmt::format("unknown list '{}'", w.list));
     checkEffect(w, place);
-    for (const auto& [gesture, effect] : w.gestures)
-      checkEffect(effect, place + "/gestures/" + kGestureNames[static_cast<int>(gesture)]);
+    for (const auto& [gesture, effect] : w.gestures) checkEffect(effect, place + "/gestures/" + nameOf(gesture));
     if (w.gestures.contains(Gesture::lay) && type_.program.laid == nullptr)
       fault(place + "/gestures/lay", "this device has no cloud that can be laid by hand");
     if (w.shows.find('{') == std::string::npos && !w.shows.empty() && !device_.domain(w.shows))
@@ -255,8 +254,7 @@ class Checker {
     needWord(w.words, place);
     needWord(w.words + "?", place);
     if (!w.why_not.empty()) needWord(w.why_not, place);
-    for (const auto& [gesture, effect] : w.gestures)
-      needWord(effect.words, place + "/gestures/" + kGestureNames[static_cast<int>(gesture)]);
+    for (const auto& [gesture, effect] : w.gestures) needWord(effect.words, place + "/gestures/" + nameOf(gesture));
     for (const auto& setting : type_.instrument.settings)
       if (setting.key == w.setting)
         for (const auto& choice : setting.choices)

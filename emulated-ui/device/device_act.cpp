@@ -96,7 +96,7 @@ Result<void> Device::act(const std::string& id, const std::string& value, Gestur
   }
   if (by == Gesture::tap) return press(*row, *shown, value);
   const auto effect = row->gestures.find(by);
-  const char* name = kGestureNames[static_cast<int>(by)];
+  const char* name = nameOf(by);
   if (effect == row->gestures.end())
     return failure(ErrorKind::usage, fmt::format("'{}' does not take the gesture '{}'", id, name), id);
   if (auto ok = checkRow(*shown, value); !ok) return ok;

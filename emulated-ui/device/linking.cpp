@@ -23,10 +23,24 @@ int rowOf(const Device& device, const StoredSetup& setup) {
 
 }  // namespace
 
+const StoredSetup* setupWithFile(const std::vector<StoredSetup>& setups, const std::string& file) {
+  const auto found = std::find_if(setups.begin(), setups.end(), [&](const StoredSetup& s) { return s.file == file; });
+  return found == setups.end() ? nullptr : &*found;
+}
+
+Pose movedByLinks(const std::vector<StoredSetup>& setups, const StoredSetup& setup) {
+  Pose moved;
+  const auto* s = &setup;
+  for (std::size_t i = 0; s != nullptr && s->link && s->link->joined && i < setups.size(); ++i) {
+    moved = s->link->error * moved;
+    s = setupWithFile(setups, s->link->to);
+  }
+  return moved;
+}
+
 const StoredSetup* setupOfFile(const Device& device, const std::string& file) {
   for (const auto& p : device.state().projects)
-    for (const auto& setup : p.setups)
-      if (setup.file == file) return &setup;
+    if (const auto* setup = setupWithFile(p.setups, file)) return setup;
   return nullptr;
 }
 

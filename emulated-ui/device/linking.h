@@ -3,6 +3,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "emulated-ui/device/device.h"
 
@@ -11,6 +12,10 @@ namespace standpoint {
 // Links that a user makes between set-ups: by a line from mark to mark on the map, or by laying one cloud onto another
 // before it is fitted. A set-up has one link, to one that was there before it.
 
+const StoredSetup* setupWithFile(const std::vector<StoredSetup>& setups, const std::string& file);
+// What joined links, one after the other, make of a place that the set-up has by itself, local frame; as it is without
+// one. A ring of links comes to an end.
+Pose movedByLinks(const std::vector<StoredSetup>& setups, const StoredSetup& setup);
 const StoredSetup* setupOfFile(const Device& device, const std::string& file);
 // What the set-up is linked to, or would be: what its user joined it with, else the one before it; null: none.
 const StoredSetup* partnerOf(const Device& device, const StoredSetup& setup);

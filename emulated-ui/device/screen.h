@@ -42,6 +42,7 @@ enum class Gesture {
   lay,   // of a plan: a cloud is moved and turned on another, "x,y,turn" in metres and degrees
 };
 inline constexpr const char* kGestureNames[] = {"tap", "hold", "join", "part", "lay"};
+inline constexpr const char* nameOf(Gesture gesture) { return kGestureNames[static_cast<int>(gesture)]; }
 
 // A cloud that can be laid by hand onto another before it is fitted.
 struct LaidCloud {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "emulated-ui/device/linking.h"
 #include "emulated-ui/draw/pen.h"
 
 namespace standpoint {
@@ -54,19 +55,10 @@ struct CloudPlace {
   }
 };
 
-const StoredSetup* withFile(const std::vector<StoredSetup>& setups, const std::string& file) {
-  const auto found = std::find_if(setups.begin(), setups.end(), [&](const StoredSetup& s) { return s.file == file; });
-  return found == setups.end() ? nullptr : &*found;
-}
-
-// What its links make of it, one after the other: a wrong match is seen as walls that are double.
+// What its links make of it: a wrong match is seen as walls that are double.
 CloudPlace linkedPlace(const std::vector<StoredSetup>& setups, const StoredSetup& setup) {
   CloudPlace place(setup);
-  const auto* s = &setup;
-  for (std::size_t i = 0; s != nullptr && s->link && s->link->joined && i < setups.size(); ++i) {
-    place.move(s->link->error);
-    s = withFile(setups, s->link->to);
-  }
+  place.move(movedByLinks(setups, setup));
   return place;
 }
 
@@ -92,7 +84,7 @@ void eachPoint(const StoredSetup& setup, const CloudPlace& place, const Each& ea
       each(place.x_m + c * p.x_m[i] - s * p.y_m[i], place.y_m + s * p.x_m[i] + c * p.y_m[i]);
 }
 
-MapFrame frameOf(const std::vector<StoredSetup>& setups, ImVec2 at, ImVec2 size, float margin, const MapView& view) {
+Extent extentOf(const std::vector<StoredSetup>& setups) {
   constexpr double kFar_m = 40;  // a window's view of the street makes no room small
   Extent extent;
   for (const auto& setup : setups) {
@@ -101,6 +93,10 @@ MapFrame frameOf(const std::vector<StoredSetup>& setups, ImVec2 at, ImVec2 size,
       if (std::hypot(x - setup.plan_x_m, y - setup.plan_y_m) < kFar_m) extent.add(x, y);
     });
   }
+  return extent;
+}
+
+MapFrame frameOf(const Extent& extent, ImVec2 at, ImVec2 size, float margin, const MapView& view) {
   MapFrame frame;
   frame.x_m = (extent.low_x + extent.high_x) / 2, frame.y_m = (extent.low_y + extent.high_y) / 2;
   frame.scale = view.zoom * std::min((size.x - 2 * margin) / std::max(2.0, extent.high_x - extent.low_x),
@@ -156,13 +152,13 @@ struct MapLink {
 // A map as it is drawn just now, and what fingers do on it.
 class Map {
  public:
-  Map(Pen& pen, const Widget& w, ImVec2 at, ImVec2 size, const std::vector<StoredSetup>& setups)
+  Map(Pen& pen, const Widget& w, ImVec2 at, ImVec2 size, const std::vector<StoredSetup>& setups, const Extent& extent)
       : pen_(pen),
         w_(w),
         at_(at),
         size_(size),
         setups_(setups),
-        frame_(frameOf(setups, at, size, w.laid ? ringRadius() + pen.unit : 1.6F * pen.unit,
+        frame_(frameOf(extent, at, size, w.laid ? ringRadius() + pen.unit : 1.6F * pen.unit,
                        pen.view.maps[pen.screen + "/" + w.id])) {
     by_ = grip().on == On::cloud || grip().on == On::ring ? grip().laid
           : w.laid ? std::array{w.laid->shift_x_m, w.laid->shift_y_m, w.laid->turn_deg}
@@ -227,7 +223,7 @@ class Map {
   void findLinks() {
     for (std::size_t i = 1; i < setups_.size(); ++i) {
       const auto& link = setups_[i].link;
-      const auto* to = link ? withFile(setups_, link->to) : nullptr;
+      const auto* to = link ? setupWithFile(setups_, link->to) : nullptr;
       const std::size_t other = to == nullptr ? i - 1 : static_cast<std::size_t>(to - setups_.data());
       if (link || setups_[i].tracked)
         links_.push_back({static_cast<int>(i), marks_[other], marks_[i], link ? &*link : nullptr});
@@ -361,10 +357,11 @@ void drawPlan(Pen& pen, const Widget& w) {
   if (area(("##" + w.id).c_str(), at, size) && pen.view.asking) pen.pressed(w.id);
   const auto* project = pen.device.project();
   if (project == nullptr || project->setups.empty()) return centred(list, at, size, kProposed, "–");
-  Map(pen, w, at, size, project->setups).handle();
+  const auto extent = extentOf(project->setups);  // however the map is moved
+  Map(pen, w, at, size, project->setups, extent).handle();
   moveMap(pen.view.maps[pen.screen + "/" + w.id], pen.view.grip, at, size);
   list->PushClipRect(at, {at.x + size.x, at.y + size.y}, true);
-  Map(pen, w, at, size, project->setups).draw();  // as it lies now
+  Map(pen, w, at, size, project->setups, extent).draw();  // as it lies now
   list->PopClipRect();
 }
 

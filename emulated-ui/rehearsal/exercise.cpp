@@ -199,7 +199,7 @@ nlohmann::json toJson(const RehearsalAction& a) {
   if (a.kind == Kind::verb) return {{name, a.name}, {"options", a.options}};
   nlohmann::json json = {{name, a.name}};
   if (!a.value.empty()) json["value"] = a.value;
-  if (a.by != Gesture::tap) json["by"] = kGestureNames[static_cast<int>(a.by)];
+  if (a.by != Gesture::tap) json["by"] = nameOf(a.by);
   return json;
 }
 

@@ -238,9 +238,7 @@ class Checker {
     const bool taken =
         among_rows(definition.keys) || std::any_of(definition.screens.begin(), definition.screens.end(),
                                                    [&](const ScreenRow& screen) { return among_rows(screen.widgets); });
-    if (!taken)
-      fault(place, fmt::format("'{}' does not take the gesture '{}'", action.name,
-                               kGestureNames[static_cast<int>(action.by)]));
+    if (!taken) fault(place, fmt::format("'{}' does not take the gesture '{}'", action.name, nameOf(action.by)));
   }
   // A choice may be pressed by its label, too.
   static bool isLabel(const Device& device, const std::string& value) {

@@ -44,26 +44,6 @@ class DrawnGestures : public Draw {
     const auto& face = faceOf(*view.layout, d->screen().id);
     return 0.8F * face.text * std::min((kWidth - 16) / face.box[0], (kHeight - 16) / face.box[1]);
   }
-  // Goes down at `from`, along to `to`, and lifts.
-  std::optional<Press> drag(ImVec2 from, ImVec2 to) {
-    auto& io = ImGui::GetIO();
-    std::optional<Press> press;
-    const auto step = [&] {
-      if (auto p = frame()) press = p;
-    };
-    io.MousePos = from;
-    step();
-    io.MouseDown[0] = true;
-    for (int i = 0; i <= 5; ++i) {
-      io.MousePos = {from.x + (to.x - from.x) * static_cast<float>(i) / 5,
-                     from.y + (to.y - from.y) * static_cast<float>(i) / 5};
-      step();
-    }
-    io.MouseDown[0] = false;
-    step();
-    step();
-    return press;
-  }
   // Stays down so long; what came by then, and what came when it lifted.
   std::pair<std::vector<Press>, std::vector<Press>> hold(ImVec2 at, double seconds, ImVec2 then_by = {}) {
     auto& io = ImGui::GetIO();

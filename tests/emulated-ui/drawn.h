@@ -53,19 +53,19 @@ class Draw : public testing::Test {
     ImGui::EndFrame();
     return press;
   }
-  // The finger goes down, moves by `by`, and lifts.
-  std::optional<Press> finger(ImVec2 at, float by) {
+  // Goes down at `from`, along to `to`, and lifts.
+  std::optional<Press> drag(ImVec2 from, ImVec2 to) {
     auto& io = ImGui::GetIO();
     std::optional<Press> press;
     const auto step = [&] {
       if (auto p = frame()) press = p;
     };
-    io.MousePos = at;
+    io.MousePos = from;
     step();
     io.MouseDown[0] = true;
-    step();
-    for (int i = 0; i < 5; ++i) {
-      io.MousePos.y += by / 5;
+    for (int i = 0; i <= 5; ++i) {
+      io.MousePos = {from.x + (to.x - from.x) * static_cast<float>(i) / 5,
+                     from.y + (to.y - from.y) * static_cast<float>(i) / 5};
       step();
     }
     io.MouseDown[0] = false;
@@ -73,6 +73,8 @@ class Draw : public testing::Test {
     step();
     return press;
   }
+  // The same, down the display.
+  std::optional<Press> finger(ImVec2 at, float by) { return drag(at, {at.x, at.y + by}); }
   ImGuiWindow* scrolled() const {
     for (auto* window : ImGui::GetCurrentContext()->Windows)
       if (std::string(window->Name).find("/region") != std::string::npos && window->ScrollMax.y > 0) return window;

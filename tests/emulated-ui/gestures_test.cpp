@@ -206,12 +206,7 @@ TEST(GestureActions, AreWrittenAndReadLikeOtherPresses) {
 }
 
 TEST_F(X7, ALineOnTheMapRefinesThePairAsTheButtonDoes) {
-  ready();
-  secondStation();
-  linked(0.002, 0.8);
-  scanAt("S3");
-  d->takeOrder();
-  linked(0.002, 0.8);
+  threeLinked();
   ASSERT_TRUE(d.press({"registration", "refine"}));
   const auto pressed = std::get<LinkOrder>(*d->takeOrder());
   linked(0.002, 0.8);

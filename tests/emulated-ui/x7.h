@@ -53,6 +53,15 @@ class X7 : public testing::Test {
     EXPECT_TRUE(order && std::holds_alternative<LinkOrder>(*order));
     return order && std::holds_alternative<LinkOrder>(*order) ? std::get<LinkOrder>(*order) : LinkOrder{};
   }
+  // Three stations in a row with links that hold.
+  void threeLinked() {
+    ready();
+    secondStation();
+    linked(0.002, 0.8);
+    scanAt("S3");
+    d->takeOrder();
+    linked(0.002, 0.8);
+  }
   void linked(double error_m, double overlap, bool joined = true) {
     d->linkDone({joined, error_m, overlap, 0, 0});
     d->tick(20);

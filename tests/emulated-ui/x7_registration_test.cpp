@@ -158,12 +158,7 @@ TEST_F(X7, ASymmetricalRoomTurnsTheStartOfEveryLinkByHalfATurn) {
 }
 
 TEST_F(X7, RefinesAllLinksOneAfterTheOther) {
-  ready();
-  secondStation();
-  linked(0.002, 0.8);
-  scanAt("S3");
-  d->takeOrder();
-  linked(0.002, 0.8);
+  threeLinked();
   ASSERT_TRUE(d.press({"registration", "refine_all"}));
   for (const char* file : {"scans/House/Station 002.e57", "scans/House/Station 003.e57"}) {
     const auto order = d->takeOrder();

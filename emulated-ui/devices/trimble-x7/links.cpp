@@ -119,9 +119,9 @@ Result<void> rejectLink(Device& device, const std::string&) {
   const auto* setup = linkedSetup(device);
   if (setup == nullptr) return {};
   setRegistration(device, *setup, "rejected");
-  for (auto& project : device.change().projects)
-    for (auto& one : project.setups)
-      if (&one == setup && one.link) one.link->joined = false;  // nothing is placed by it
+  auto& setups = device.project()->setups;
+  auto& link = setups[static_cast<std::size_t>(setup - setups.data())].link;
+  if (link) link->joined = false;  // nothing is placed by it
   return {};
 }
 
