@@ -92,6 +92,10 @@ void act(InstrumentDesk& desk, const RehearsalAction& action) {
   if (done && desk.records()) desk.recording->note(action, *desk.shown());
 }
 
+const Document& documentOf(const InstrumentDesk& desk, const Editor& editor) {
+  return desk.rehearsal ? desk.rehearsal->document() : editor.session.document();
+}
+
 void carryTo(InstrumentDesk& desk, const Document& document, const std::string& station) {
   const std::string from = desk.shown()->state().around.station;
   act(desk, {Kind::hand, "stand_at", station, 0, {}});
@@ -139,7 +143,7 @@ namespace {
 
 // As its foot screws have it; nothing where there is no such station.
 std::optional<StandingInstrument> standsAt(InstrumentDesk& desk, const Editor& editor, const std::string& name) {
-  const auto* station = stationOf(desk.rehearsal ? desk.rehearsal->document() : editor.session.document(), name);
+  const auto* station = stationOf(documentOf(desk, editor), name);
   if (station == nullptr) return std::nullopt;
   const auto& around = desk.shown()->state().around;
   auto stands = standing(*station, desk.shown()->type().instrument.id);
@@ -180,8 +184,7 @@ bool displayIsSeen(const InstrumentDesk& desk, const Editor& editor) {
   if (editor.held.carried || bodyOf(editor.held.instrument).display_m.x() <= 0) return false;
   const bool on_tablet = desk.view.layout && desk.view.face != desk.view.layout->faces.front().id;
   if (on_tablet) return false;
-  const auto* station =
-      stationOf(desk.rehearsal ? desk.rehearsal->document() : editor.session.document(), editor.held.station);
+  const auto* station = stationOf(documentOf(desk, editor), editor.held.station);
   return station != nullptr && (station->true_pose.translation - editor.view.camera.eye()).norm() < kFar_m;
 }
 

@@ -90,6 +90,8 @@ struct InstrumentDesk {
   DeviceHost* running() { return rehearsal ? &rehearsal->host() : host.get(); }
 };
 
+// What its device works on: the exercise's environment, else that of the session.
+const Document& documentOf(const InstrumentDesk& desk, const Editor& editor);
 // All that is done to the device goes through here: it is recorded, and marked where an exercise runs.
 void act(InstrumentDesk& desk, const RehearsalAction& action);
 // Its instrument is taken to a station; the device's clock goes on meanwhile, by the way between both places.

@@ -116,7 +116,7 @@ void beginOrEndRecording(InstrumentDesk& desk, Editor& editor) {
     desk.demands = demandsOf(*desk.recording, *desk.shown());
     return;
   }
-  const auto& document = desk.rehearsal ? desk.rehearsal->document() : editor.session.document();
+  const auto& document = documentOf(desk, editor);
   desk.recording.emplace(*desk.shown(), document, desk.rehearsal ? &desk.rehearsal->exercise() : nullptr);
   desk.recording_ended = false;
   desk.demands.clear();

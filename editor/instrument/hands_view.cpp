@@ -59,7 +59,7 @@ void footScrews(InstrumentDesk& desk) {
 // What hands do beside the device, and, for the lecturer, what can befall it.
 void drawHands(InstrumentDesk& desk, Editor& editor) {
   const Device& device = *desk.shown();
-  const auto& document = desk.rehearsal ? desk.rehearsal->document() : editor.session.document();
+  const auto& document = documentOf(desk, editor);
   if (ui::beginProperties("hands")) {
     stationChoice(desk, document);
     ui::property("Battery", device.shown("battery"));

@@ -192,7 +192,7 @@ InstrumentDesk& attachInstrument(Editor& editor) {
   editor.fieldwork.carry = [panel, &editor](const std::string& station) {
     auto& desk = panel->desk();
     if (desk.shown() == nullptr) return;
-    carryTo(desk, desk.rehearsal ? desk.rehearsal->document() : editor.session.document(), station);
+    carryTo(desk, documentOf(desk, editor), station);
   };
   editor.fieldwork.spend = [panel](double seconds) {
     if (panel->desk().shown() != nullptr) act(panel->desk(), {RehearsalAction::Kind::wait, "", "", seconds, {}});

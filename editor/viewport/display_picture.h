@@ -3,9 +3,9 @@
 
 #include <chrono>
 #include <memory>
-#include <string>
 
 #include "editor/model/model.h"
+#include "editor/viewport/full_screen.h"
 
 struct ImDrawData;
 
@@ -15,23 +15,15 @@ namespace standpoint {
 // shows what its panel shows. Needs the OpenGL context and the renderer of Dear ImGui.
 class DisplayPicture {
  public:
-  DisplayPicture() = default;
-  ~DisplayPicture();
-  DisplayPicture(const DisplayPicture&) = delete;
-  DisplayPicture& operator=(const DisplayPicture&) = delete;
-
   // The same picture as before where nothing of it has changed; null where OpenGL cannot draw it.
   std::shared_ptr<const PixelPicture> taken(const ImDrawData& laid_out, const DrawnDisplay& display);
   // Taken so recently that it need not be taken again while other pictures follow at once.
   bool isFresh() const;
 
  private:
-  bool makeTarget(int width, int height);
-
   std::shared_ptr<const PixelPicture> last_;
   std::chrono::steady_clock::time_point taken_;
-  unsigned texture_ = 0, framebuffer_ = 0;
-  int width_ = 0, height_ = 0;
+  DrawnTexture target_{GL_RGBA8};
 };
 
 // For the instrument in the scene, where the panel has just drawn its display; true: it shows something else now.

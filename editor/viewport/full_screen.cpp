@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/viewport/full_screen.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace standpoint {
@@ -142,6 +143,17 @@ bool DrawnTexture::bind(int width, int height) {
   width_ = width;
   height_ = height;
   return true;
+}
+
+PixelPicture drawnPixels(int width, int height) {
+  PixelPicture picture{width, height, {}};
+  picture.rgba.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, picture.rgba.data());
+  for (int row = 0; row < height / 2; ++row)  // OpenGL's first row is the lowest
+    std::swap_ranges(picture.rgba.begin() + row * width, picture.rgba.begin() + (row + 1) * width,
+                     picture.rgba.begin() + (height - 1 - row) * width);
+  return picture;
 }
 
 }  // namespace standpoint

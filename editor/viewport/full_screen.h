@@ -6,6 +6,8 @@
 
 #include <vtk_glew.h>
 
+#include "editor/model/view_state.h"
+
 namespace standpoint {
 
 // Keeps what VTK and Dear ImGui rely on as it was while something else draws between them: from its making to its end,
@@ -65,5 +67,8 @@ class DrawnTexture {
   GLuint texture_ = 0, buffer_ = 0;
   int width_ = 0, height_ = 0;
 };
+
+// Of the framebuffer that is read from.
+PixelPicture drawnPixels(int width, int height);
 
 }  // namespace standpoint

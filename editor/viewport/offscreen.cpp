@@ -117,13 +117,7 @@ class EglOffscreen : public Offscreen {
   Result<void> picture(const std::function<void()>& draw, const std::filesystem::path& png) override {
     for (int i = 0; i < kFramesUntilStill || scene_->refining() || beside_->refining(); ++i) layOut(draw);
     paint();
-    PixelPicture picture{width_, height_, {}};
-    picture.rgba.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    for (int row = 0; row < height_; ++row)
-      glReadPixels(0, height_ - 1 - row, width_, 1, GL_RGBA, GL_UNSIGNED_BYTE,
-                   &picture.rgba[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_)]);
-    return writePicture(picture, png);
+    return writePicture(drawnPixels(width_, height_), png);
   }
 
  private:

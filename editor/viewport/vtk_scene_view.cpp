@@ -156,7 +156,7 @@ class VtkSceneView : public SceneView {
       if (!fine && !resized && !after_measuring && drawn_ && onlyCameraDiffers(*drawn_, state)) ++moved_pictures_;
       width_ = w;
       height_ = h;
-      draw(state, fine);
+      draw(state, fine, resized);
       shading_ = shades(state);
       if (shading_) finish().begin();
       shown_ = finished(state);
@@ -279,12 +279,9 @@ class VtkSceneView : public SceneView {
     return *finish_;
   }
 
-  void draw(const ViewState& state, bool fine) {
-    const bool parts = !fine && !layers_.building() && drawn_ && onlyPartsMove(*drawn_, state) &&
-                       drawn_width_ == width_ && drawn_height_ == height_;
+  void draw(const ViewState& state, bool fine, bool resized) {
+    const bool parts = !fine && !resized && !layers_.building() && drawn_ && onlyPartsMove(*drawn_, state);
     fine_ = fine;
-    drawn_width_ = width_;
-    drawn_height_ = height_;
     const std::int64_t pixels = std::int64_t{width_} * height_ * kFineFactor * kFineFactor;
     factor_ = fine && pixels <= kMostFinePixels ? kFineFactor : 1;
     window_->SetSize(width_ * factor_, height_ * factor_);
@@ -544,7 +541,6 @@ class VtkSceneView : public SceneView {
   PointLayers points_;
   enum class Parts { all, still, moving } shown_parts_ = Parts::all;  // of the picture that is being drawn
   std::unique_ptr<StillParts> still_;                                 // made when an instrument works
-  int drawn_width_ = 0, drawn_height_ = 0;                            // of the last picture
   std::unique_ptr<PointComposer> composer_;                           // made when the first points are drawn
   struct Sky {
     Camera camera;
