@@ -142,7 +142,9 @@ ExerciseRule rule(JsonFields& f) {
   r.must = f.flagOr("must", false);
   r.mistake = f.textOr("mistake", "", "M08");
   r.because = spoken(f, "because", false);
+  r.cost = spoken(f, "cost", false);
   r.proof = f.textOr("proof", "", "data.noise");
+  r.shown_at = f.textOr("shown_at", "", "door");
   return r;
 }
 
@@ -166,6 +168,7 @@ void eachText(Exercise& e, const std::function<void(Spoken& text, const std::str
   for (std::size_t i = 0; i < e.rules.size(); ++i) {
     visit(e.rules[i].text, fmt::format("/rules/{}/text", i));
     visit(e.rules[i].because, fmt::format("/rules/{}/because", i));
+    visit(e.rules[i].cost, fmt::format("/rules/{}/cost", i));
   }
   for (std::size_t i = 0; i < e.questions.size(); ++i) {
     visit(e.questions[i].text, fmt::format("/questions/{}/text", i));

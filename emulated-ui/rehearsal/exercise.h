@@ -80,11 +80,15 @@ struct ExerciseRule {
   std::string event;  // of each
   Condition holds;
   double points = 0;
-  bool must = false;    // without it the exercise is not passed
-  std::string mistake;  // of the reference's list: "M08"
-  Spoken because;       // what the mistake does to the data
-  std::string proof;    // fact that shows it in the points
+  bool must = false;     // without it the exercise is not passed
+  std::string mistake;   // of the reference's list: "M08"
+  Spoken because;        // what the mistake does to the data
+  Spoken cost;           // what it costs in the field and in the office
+  std::string proof;     // fact that shows it in the points
+  std::string shown_at;  // part, place or target where they show it; empty: by its facts; kNowhere: nothing shows it
 };
+
+inline constexpr const char* kNowhere = "nowhere";
 
 struct ExerciseQuestion {
   std::string id;

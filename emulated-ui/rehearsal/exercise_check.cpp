@@ -14,6 +14,7 @@
 #include "emulated-ui/rehearsal/marks.h"
 #include "emulated-ui/rehearsal/plain_words.h"
 #include "emulated-ui/rehearsal/rehearsal.h"
+#include "emulated-ui/rehearsal/sample_solution.h"
 
 namespace standpoint {
 
@@ -87,6 +88,8 @@ class Checker {
       checkCondition(e_.rules[i].holds, place + "/holds");
       if (!e_.rules[i].proof.empty()) (void)checkFact(e_.rules[i].proof, devices_.front(), place + "/proof");
       checkFigures(e_.rules[i].because, place + "/because");
+      checkFigures(e_.rules[i].cost, place + "/cost");
+      checkShownAt(e_.rules[i].shown_at, place + "/shown_at");
     }
     for (std::size_t i = 0; i < e_.events.size(); ++i) {
       checkCondition(e_.events[i].when, fmt::format("/events/{}/when", i));
@@ -155,8 +158,22 @@ class Checker {
     return false;
   }
 
-  void checkFigures(const Spoken& because, const std::string& place) {
-    for (const auto& [language, text] : because.texts) {
+  // Its targets are those that stand there from the start.
+  void checkShownAt(const std::string& name, const std::string& place) {
+    if (name.empty()) return;
+    std::vector<std::string> known = {kNowhere};
+    for (const auto& [part, is] : e_.parts) known.push_back(part);
+    for (const auto& [at, is] : e_.places) known.push_back(at);
+    for (const auto& verb : e_.setup)
+      if (const auto& options = verb.at("options");
+          verb.at("verb") == "target" && options.contains("add") && options["add"].is_string())
+        known.push_back(options["add"].get<std::string>());
+    if (!among(known, name))
+      fault(place, fmt::format("unknown part, place or target '{}'; {}", name, knownInstead(name, known)));
+  }
+
+  void checkFigures(const Spoken& said, const std::string& place) {
+    for (const auto& [language, text] : said.texts) {
       if (const auto ok = standpoint::checkFigures(text); !ok) return fault(place, ok.error().message);
       for (const auto& name : factsInText(text))
         if (!checkFact(name, devices_.front(), place)) return;
@@ -368,15 +385,8 @@ Result<void> checkSolution(const Exercise& exercise, Report& report, Progress& p
     report.warn(exercise.file + " /solution", "there is no solution to carry out");
     return {};
   }
-  TRY_ASSIGN(const auto folder, ScratchFolder::make());
-  TRY_ASSIGN(const auto rehearsal, Rehearsal::start(exercise, {}, folder.path(), {}, progress));
-  std::string refused;
-  for (std::size_t i = 0; i < exercise.solution.size(); ++i)
-    if (const auto done = rehearsal->act(exercise.solution[i], progress); !done) {
-      if (done.error().kind == ErrorKind::cancelled) return failure(done.error());
-      if (refused.empty()) refused = fmt::format("/solution/{} {}", i, describe(done.error()));
-    }
-  const auto text = unexpected(exercise.expect, marksOf(*rehearsal, {}, "en"), refused);
+  TRY_ASSIGN(const auto carried, carryOutSolution(exercise, progress));
+  const auto text = unexpected(exercise.expect, marksOf(*carried.rehearsal, {}, "en"), carried.refused);
   if (!text.empty())
     return failure(ErrorKind::unusable, "the solution does not do what is expected of it: " + text,
                    exercise.file + " /solution");

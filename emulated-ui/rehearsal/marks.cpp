@@ -108,8 +108,19 @@ MarkedStep markedStep(const ExerciseStep& step, const Rehearsal::StepState& stat
           .of = step.points};
 }
 
+void addPlace(MarkedRule& row, const Rehearsal& rehearsal, const PlainWords& words) {
+  if (!row.shown) return;
+  const Eigen::Vector3d at = row.shown->centre_m + rehearsal.document().georeference->shift_m;
+  row.place = {placeText(*row.shown, rehearsal, words.language),
+               at.x(),
+               at.y(),
+               at.z(),
+               row.shown->radius_m,
+               row.shown->station};
+}
+
 MarkedRule markedRule(const Rehearsal& rehearsal, const ExerciseRule& rule, const Rehearsal::RuleState& state,
-                      const PlainWords& words) {
+                      const PlainWords& words, ProofPlaces& places) {
   const auto& language = words.language;
   MarkedRule row{.id = rule.id,
                  .text = rule.text.in(language),
@@ -127,6 +138,10 @@ MarkedRule markedRule(const Rehearsal& rehearsal, const ExerciseRule& rule, cons
     if (!rule.mistake.empty()) row.mistake = rule.mistake;
     if (state.asked && !rule.because.texts.empty())
       row.because = filledFigures(rule.because.in(language), words, factsIn(state.facts));
+    if (state.asked && !rule.cost.texts.empty())
+      row.cost = filledFigures(rule.cost.in(language), words, factsIn(state.facts));
+    if (state.asked) row.shown = places.of(rule, state);
+    addPlace(row, rehearsal, words);
   }
   if (state.asked && !rule.proof.empty())
     if (const auto proof = factsIn(state.facts)(rule.proof))
@@ -154,6 +169,13 @@ const AnswerFields<MarkedProof>& answerFields(const MarkedProof*) {
   return fields;
 }
 
+const AnswerFields<MarkedPlace>& answerFields(const MarkedPlace*) {
+  using A = MarkedPlace;
+  static const AnswerFields<A> fields = {{"text", &A::text}, {"x_m", &A::x_m},           {"y_m", &A::y_m},
+                                         {"z_m", &A::z_m},   {"radius_m", &A::radius_m}, {"station", &A::station}};
+  return fields;
+}
+
 const AnswerFields<MarkedRule>& answerFields(const MarkedRule*) {
   using A = MarkedRule;
   static const AnswerFields<A> fields = {{"id", &A::id},
@@ -170,7 +192,9 @@ const AnswerFields<MarkedRule>& answerFields(const MarkedRule*) {
                                          {"at_s", &A::broken_at_s, kLeftOut},
                                          {"mistake", &A::mistake, kLeftOut},
                                          {"because", &A::because, kLeftOut},
-                                         {"proof", &A::proof, kLeftOut}};
+                                         {"cost", &A::cost, kLeftOut},
+                                         {"proof", &A::proof, kLeftOut},
+                                         {"place", &A::place, kLeftOut}};
   return fields;
 }
 
@@ -251,8 +275,9 @@ Marks marksOf(const Rehearsal& rehearsal, const std::string& student, const std:
     marks.of += e.steps[i].points;
   }
   const auto judged = rehearsal.judge();
+  ProofPlaces places(rehearsal);
   for (std::size_t i = 0; i < e.rules.size(); ++i) {
-    const auto& rule = marks.rules.emplace_back(markedRule(rehearsal, e.rules[i], judged[i], words));
+    const auto& rule = marks.rules.emplace_back(markedRule(rehearsal, e.rules[i], judged[i], words, places));
     marks.points += rule.points;
     marks.of += rule.of;
     if (rule.must && !rule.held) marks.must_broken.push_back(rule.id);
@@ -286,8 +311,10 @@ std::string marksText(const Marks& m) {
   for (const auto& r : m.rules) {
     text += fmt::format("  {} {}{}: {}\n", r.held ? "[x]" : "[ ]", r.text, r.must ? " (required to pass)" : "",
                         r.found_text);
-    if (r.because) text += fmt::format("        {}\n", *r.because);
+    for (const auto& said : {r.because, r.cost})
+      if (said) text += fmt::format("        {}\n", *said);
     if (!r.held && r.proof) text += fmt::format("        measured in the data: {}: {}\n", r.proof->name, r.proof->text);
+    if (r.place) text += fmt::format("        shown at: {}\n", r.place->text);
   }
   for (const auto& a : m.answers)
     text += fmt::format("  {} {}\n", a.question, a.value.empty() ? "not answered" : a.answer);
@@ -303,9 +330,9 @@ std::string whyNotPassed(const Marks& m) {
 
 namespace {
 
-constexpr const char* kColumns[] = {"exercise", "student", "device", "kind",  "id",      "text",    "expected",
-                                    "found",    "held",    "points", "of",    "must",    "mistake", "because",
-                                    "proof",    "value",   "unit",   "hints", "seconds", "passed"};
+constexpr const char* kColumns[] = {
+    "exercise", "student", "device",  "kind",  "id",    "text", "expected", "found",   "held",   "points", "of",
+    "must",     "mistake", "because", "proof", "value", "unit", "hints",    "seconds", "passed", "cost",   "place"};
 
 // Of a row of the table, by column; what is not there stays empty.
 using Cells = std::map<std::string_view, std::string>;
@@ -330,6 +357,8 @@ Cells ruleCells(const MarkedRule& r) {
                  {"points", cellText(r.points)},     {"of", cellText(r.of)},
                  {"must", cellText(r.must)},         {"mistake", cellText(r.mistake)},
                  {"because", cellText(r.because)},   {"seconds", cellText(r.broken_at_s)}};
+  cells["cost"] = cellText(r.cost);
+  if (r.place) cells["place"] = cellText(r.place->text);
   if (r.proof) {
     cells["proof"] = cellText(r.proof->fact);
     cells["value"] = cellText(r.proof->value);

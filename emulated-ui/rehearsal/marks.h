@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "emulated-ui/rehearsal/proof_places.h"
 #include "emulated-ui/rehearsal/rehearsal.h"
 #include "project/answer_fields.h"
 
@@ -30,6 +31,12 @@ struct MarkedProof {  // what a mistake does to the data, from the points
   std::string name;        // what people call the fact
 };
 const AnswerFields<MarkedProof>& answerFields(const MarkedProof*);
+struct MarkedPlace {  // where the points prove a broken rule; file frame
+  std::string text;   // "West wall, 4.2 m from S1"
+  double x_m = 0, y_m = 0, z_m = 0, radius_m = 0;
+  std::string station;
+};
+const AnswerFields<MarkedPlace>& answerFields(const MarkedPlace*);
 struct MarkedRule {
   std::string id, text, expected;
   std::string expected_text;      // the condition as people read it
@@ -38,7 +45,10 @@ struct MarkedRule {
   double points = 0, of = 0;
   std::optional<std::optional<double>> broken_at_s;  // of one that did not hold; nothing where that has no time
   std::optional<std::string> mistake, because;       // likewise; what it does to the data
+  std::optional<std::string> cost;                   // likewise; in the field and in the office
   std::optional<MarkedProof> proof;                  // of one that was asked
+  std::optional<MarkedPlace> place;                  // of a broken one that a place proves
+  std::optional<ProofPlace> shown;                   // the same for who looks at it; not written
 };
 const AnswerFields<MarkedRule>& answerFields(const MarkedRule*);
 struct MarkedAnswer {  // to a question

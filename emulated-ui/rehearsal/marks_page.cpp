@@ -104,9 +104,13 @@ class Page {
     for (const auto& r : m_.rules) {
       auto found = htmlText(r.found_text);
       if (r.because) found += "<br><small>" + htmlText(*r.because) + "</small>";
+      if (r.cost) found += "<br><small>" + word("cost") + ": " + htmlText(*r.cost) + "</small>";
       if (r.proof)
         found += fmt::format("<br><small>{}: {}: {}</small>", word("proof"), htmlText(r.proof->name),
                              htmlText(r.proof->text));
+      if (r.place)
+        found += fmt::format("<br><small>{}: {} (x {:.2f}, y {:.2f}, z {:.2f} m)</small>", word("place"),
+                             htmlText(r.place->text), r.place->x_m, r.place->y_m, r.place->z_m);
       addDemand(r, htmlText(r.text) + (r.must ? "<br><small>" + word("must") + "</small>" : ""), r.held, found);
     }
     html_ += "</table>\n";

@@ -13,6 +13,7 @@
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/field_proofs.h"
 #include "emulated-ui/rehearsal/part_proofs.h"
+#include "emulated-ui/rehearsal/part_surface.h"
 #include "emulated-ui/rehearsal/plain_words.h"
 #include "emulated-ui/sighting.h"
 
@@ -47,7 +48,8 @@ bool asksThePoints(const Exercise& e) {
   return std::any_of(e.rules.begin(), e.rules.end(),
                      [](const ExerciseRule& r) {
                        return r.holds.text().find("data.") != std::string::npos || r.proof.starts_with("data.") ||
-                              r.because.in("en").find("data.") != std::string::npos;
+                              r.because.in("en").find("data.") != std::string::npos ||
+                              r.cost.in("en").find("data.") != std::string::npos;
                      }) ||
          std::any_of(e.steps.begin(), e.steps.end(),
                      [](const ExerciseStep& s) { return s.done.text().find("data.") != std::string::npos; });
@@ -66,8 +68,9 @@ std::vector<std::string> shownFacts(const ExerciseRule& rule) {
     if (!name.empty() && !is(asked) && !is(names)) names.push_back(name);
   };
   take(rule.proof);
-  for (const auto& [language, text] : rule.because.texts)
-    for (const auto& name : factsInText(text)) take(name);
+  for (const auto* said : {&rule.because, &rule.cost})
+    for (const auto& [language, text] : said->texts)
+      for (const auto& name : factsInText(text)) take(name);
   return names;
 }
 
@@ -92,6 +95,7 @@ Result<void> Rehearsal::prepare(const std::string& wanted, std::function<void()>
   if (device == nullptr) return failure(ErrorKind::usage, fmt::format("unknown device '{}'", id), e.id);
   TRY_ASSIGN(auto type, loadDevice(*device, e.instrument));
   if (auto ok = prepareModel(progress); !ok) return ok;
+  if (auto ok = checkParts(); !ok) return ok;
   host_ = std::make_unique<DeviceHost>(type, document_, std::move(wake));
   host_->time_factor = 1;
   host_->truth = asksThePoints(e);
@@ -142,6 +146,33 @@ Result<void> Rehearsal::prepareModel(Progress& progress) {
     document_ = *std::move(document);
   }
   knowControl();
+  return {};
+}
+
+// What a part means must be in the model.
+Result<void> Rehearsal::checkParts() const {
+  if (exercise_.parts.empty()) return {};
+  const auto& environment = *document_.environment();
+  const auto bounds = productBounds(environment);
+  for (const auto& [name, part] : exercise_.parts) {
+    const PartSurface surface(part, environment, document_.georeference->shift_m);
+    const auto place = fmt::format("{} /parts/{}", exercise_.file, name);
+    if (!surface.hasProducts()) {
+      std::vector<std::string> known;
+      for (const auto& product : environment.products)
+        known.push_back(part.floor.empty() ? product.name : product.storey);
+      std::sort(known.begin(), known.end());
+      known.erase(std::unique(known.begin(), known.end()), known.end());
+      const auto& wanted = part.floor.empty() ? part.product : part.floor;
+      return failure(ErrorKind::unusable,
+                     fmt::format("the model has no {} '{}'; {}", part.floor.empty() ? "product" : "floor", wanted,
+                                 knownInstead(wanted, known)),
+                     place + (part.floor.empty() ? "/product" : "/floor"));
+    }
+    if (!surface.meets(bounds))
+      return failure(ErrorKind::unusable, "nothing of the model is in the box; check its corners (metres, file frame)",
+                     place + "/box");
+  }
   return {};
 }
 
@@ -346,6 +377,7 @@ void Rehearsal::breakRule(std::size_t index) {
   state.broken_at_s = seconds();
   find(index);
   state.awaits_scan = device().state().running.has_value();
+  if (!state.awaits_scan) noteNewest(state);
   takeShown(state, index, state.awaits_scan ? FactsOf::others : FactsOf::all);
 }
 
@@ -356,10 +388,17 @@ void Rehearsal::takeShown(RuleState& state, std::size_t index, FactsOf which) co
   takeFacts(state, names);
 }
 
+void Rehearsal::noteNewest(RuleState& state) const {
+  if (const auto* newest = device().newestSetup()) state.scan = newest->file;
+}
+
 // What a mistake does shows in the scan that ran when it was made, not in a better one that comes later.
 void Rehearsal::noteScanOf(RuleState& state, std::size_t index, const DeviceEvent& event) {
   if (!state.awaits_scan) return;
-  if (event.what == "scan_stored") takeShown(state, index, FactsOf::scan);
+  if (event.what == "scan_stored") {
+    takeShown(state, index, FactsOf::scan);
+    noteNewest(state);
+  }
   state.awaits_scan = event.what != "scan_stored" && event.what != "scan_dropped" && event.what != "failed";
 }
 
@@ -444,7 +483,10 @@ std::vector<Rehearsal::RuleState> Rehearsal::judge() const {
       states[i].found = foundText(rule.holds, states[i].facts);
     }
     const bool is_of_the_end = states[i].broken_at_s < 0 || rule.when == "end";
-    if (states[i].asked && is_of_the_end) takeShown(states[i], i, FactsOf::all);
+    if (states[i].asked && is_of_the_end) {
+      takeShown(states[i], i, FactsOf::all);
+      noteNewest(states[i]);
+    }
   }
   return states;
 }

@@ -67,6 +67,7 @@ class Rehearsal {
     // broken once that is stored. What was not there is left out.
     std::map<std::string, Fact> facts;
     bool awaits_scan = false;  // for the latter
+    std::string scan;          // file of the one that shows it: that ran then, else the newest of then; empty: none
   };
   const std::vector<StepState>& steps() const { return steps_; }
   // The step that is to be done now; null after the last.
@@ -99,6 +100,7 @@ class Rehearsal {
   Result<void> apply(const RehearsalAction& action, Progress& progress);
   Result<void> runFieldVerb(const RehearsalAction& action, Progress& progress);
   Result<void> prepareModel(Progress& progress);
+  Result<void> checkParts() const;
   void knowControl();
   void watch();
   void update(double seconds);
@@ -108,6 +110,7 @@ class Rehearsal {
   void noteTargets();
   void breakRule(std::size_t index);
   void find(std::size_t index);  // what the facts of the rule's condition are now
+  void noteNewest(RuleState& state) const;
   void noteScanOf(RuleState& state, std::size_t index, const DeviceEvent& event);
   enum class FactsOf { all, scan, others };  // of the newest scan, or not
   void takeShown(RuleState& state, std::size_t index, FactsOf which) const;

@@ -281,8 +281,7 @@ TEST_F(RehearsalTest, EachStoredScanTellsWhatItWasMadeWith) {
 // A sector of the window wall is scanned; nothing of the floor is.
 TEST_F(RehearsalTest, APartOfTheRoomTellsWhatOfItHasPoints) {
   auto text = shortLesson();
-  text["parts"] = json::parse(R"({"all": {"box": [0, 0, 0, 9, 6, 3]}, "above": {"box": [0, 0, 2.2, 9, 6, 3]},
-                                  "up": {"box": [0, 0, 500, 1, 1, 501]}})");
+  text["parts"] = json::parse(R"({"all": {"box": [0, 0, 0, 9, 6, 3]}, "above": {"box": [0, 0, 2.2, 9, 6, 3]}})");
   text["steps"][1]["done"] = "part.all.seen > 2";
   EXPECT_THAT(refusal(text), HasSubstr("/steps/1/done")) << "a share is at most 1";
   text["steps"][1]["done"] = "part.all.points > 0";
@@ -301,7 +300,21 @@ TEST_F(RehearsalTest, APartOfTheRoomTellsWhatOfItHasPoints) {
   EXPECT_LT(figure("part.all.hole"), figure("part.all.area"));
   EXPECT_GT(figure("part.all.hole_x"), 0);
   EXPECT_EQ(figure("part.above.points"), 0) << "the window of 5 degrees ends below";
-  EXPECT_EQ(figure("part.up.area"), 0);
+}
+
+TEST_F(RehearsalTest, APartThatIsNotInTheModelIsRefusedByItsPlace) {
+  const auto saysOf = [&](const char* part) {
+    auto text = shortLesson();
+    text["parts"] = {{"it", json::parse(part)}};
+    return refusal(text);
+  };
+  EXPECT_THAT(saysOf(R"({"product": "West wal"})"),
+              testing::AllOf(HasSubstr("/parts/it/product"), HasSubstr("the model has no product 'West wal'"),
+                             HasSubstr("West wall")));
+  EXPECT_THAT(saysOf(R"({"floor": "Cellar"})"),
+              testing::AllOf(HasSubstr("/parts/it/floor"), HasSubstr("Ground floor")));
+  EXPECT_THAT(saysOf(R"({"box": [0, 0, 500, 1, 1, 501]})"), HasSubstr("/parts/it/box"));
+  EXPECT_THAT(saysOf(R"({"product": "West wall", "box": [20, 20, 0, 21, 21, 1]})"), HasSubstr("/parts/it/box"));
 }
 
 TEST_F(RehearsalTest, NobodyStandsAtAStationThatIsNotThere) {
