@@ -93,6 +93,9 @@ TEST_P(ShippedExercise, IsSoundAndSpeaksSevenLanguages) {
   for (const auto& fault : checkExercise(e)) ADD_FAILURE() << describe(fault);
   for (const char* language : {"en", "de", "uk", "es", "fr", "it", "pl"})
     EXPECT_TRUE(e.title.texts.contains(language)) << language;
+  for (const auto& rule : e.rules)
+    for (const auto* said : {&rule.because, &rule.cost})
+      EXPECT_EQ(said->texts.size(), 7U) << rule.id << ": why it matters, and what it costs";
   EXPECT_FALSE(e.solution.empty());
   EXPECT_FALSE(e.source.empty());
 }
