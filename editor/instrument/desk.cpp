@@ -223,6 +223,7 @@ void advance(InstrumentDesk& desk, Editor& editor) {
       editor.wake();  // panels that were drawn before this one show it, too
     }
   }
+  desk.mistakes.follow(editor);
   showInScene(desk, editor);
   if (const auto view = desk.shown()->takeView()) editor.showClouds({view->file});
   if (!desk.view.texture)
@@ -320,6 +321,7 @@ void startAssigned(InstrumentDesk& desk, Editor& editor) {
 void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercise) {
   desk.refused.clear();
   desk.view.face.clear();
+  desk.mistakes.end(editor);
   desk.assigned = false;
   desk.result.clear();
   const auto folder = freshFolder(exercise.id);
@@ -368,6 +370,7 @@ void finishExercise(InstrumentDesk& desk, Editor& editor) {
 
 // Its environment stays where its result is.
 void leaveExercise(InstrumentDesk& desk, Editor& editor) {
+  desk.mistakes.end(editor);
   saveEnvironment(editor);
   putWayAway(desk, editor);
   desk.rehearsal.reset();

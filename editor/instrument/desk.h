@@ -11,6 +11,7 @@
 #include "editor/clouds/growing_cloud.h"
 #include "editor/desktop/desktop_opener.h"
 #include "editor/instrument/layout_follower.h"
+#include "editor/instrument/mistake_view.h"
 #include "editor/instrument/motion.h"
 #include "editor/instrument/preview_picture.h"
 #include "editor/shell/editor.h"
@@ -62,6 +63,7 @@ struct InstrumentDesk {
   std::filesystem::path result;          // to be handed in; empty: none
   std::optional<Marks> marks;            // of the exercise that was finished last
   std::filesystem::path marks_folder;
+  MistakeView mistakes;                // what of them is in the view
   DesktopOpener opener;                // of the certificate
   std::shared_ptr<const Job> adopted;  // of the exercise's document, as the editor shows it
   std::vector<WayPoint> way;           // of a handheld scanner, as it is being planned

@@ -244,6 +244,28 @@ void certificate(InstrumentDesk& desk, Editor& editor) {
   ui::gap(editor);
 }
 
+// The button that leads to what proves it, and the way back.
+void proof(InstrumentDesk& desk, Editor& editor, const MarkedRule& rule) {
+  if (!rule.shown) return;
+  const bool shown = editor.proof && desk.mistakes.shown() == rule.id;
+  marked("", rule.place->text, ImGui::GetColorU32(ImGuiCol_TextDisabled));
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 1.6F * ImGui::GetFontSize());
+  if (!shown) {
+    if (ui::button(
+            ((rule.shown->scans.empty() ? tr("Show the place") : tr("Show the points")) + "###show" + rule.id).c_str()))
+      desk.mistakes.show(*desk.rehearsal, rule, editor);
+    return;
+  }
+  if (ui::button("Back to marks###back")) return desk.mistakes.end(editor);
+  if (auto* solving = desk.mistakes.solving()) {
+    ImGui::SameLine();
+    if (ui::button("Cancel###cancel-solution")) return desk.mistakes.cancelSolving(editor);
+    ImGui::ProgressBar(static_cast<float>(solving->fraction()));
+  }
+  for (const auto& text : {editor.proof->yours_text, editor.proof->good_text})
+    if (!text.empty()) marked("", text, ImGui::GetColorU32(ImGuiCol_Text));
+}
+
 void marks(InstrumentDesk& desk, Editor& editor) {
   const auto& m = *desk.marks;
   ui::wrapped(trf("{}: score {}, {} required", tr(m.passed ? "Passed" : "Not passed"), percentText(m.score),
@@ -256,8 +278,10 @@ void marks(InstrumentDesk& desk, Editor& editor) {
     const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
     marked("", trf("found: {}", rule.found_text), dim);
     if (rule.because) marked("", *rule.because, dim);
-    if (!rule.proof || rule.proof->value == MarkedProof::Value("")) continue;
-    marked("", trf("Measured in the data: {} = {}", rule.proof->fact, rule.proof->text), dim);
+    if (rule.cost) marked("", trf("What it costs: {}", *rule.cost), dim);
+    if (rule.proof && rule.proof->value != MarkedProof::Value(""))
+      marked("", trf("Measured in the data: {} = {}", rule.proof->fact, rule.proof->text), dim);
+    proof(desk, editor, rule);
   }
   ui::gap(editor);
 }

@@ -317,6 +317,7 @@ void Model::adoptDocument() {
   // A changed model in place of the one before keeps what is hidden, chosen and looked at.
   if (before && imported_ && followModel(*before, *imported_)) return;
   selection.clear();
+  proof.reset();
   views = {};
   visibility.reset(imported_ ? imported_->products.size() : 0);
   visibility.cut_height_m.reset();

@@ -42,6 +42,7 @@
 #include "editor/model/selection.h"
 #include "editor/model/session.h"
 #include "editor/model/settings.h"
+#include "editor/model/shown_proof.h"
 #include "editor/model/style.h"
 #include "editor/model/target_list.h"
 #include "editor/model/tour.h"
@@ -235,6 +236,7 @@ struct Model : Style {
   WallChoice wall_choice;
   PanoramaView panorama;
   PointPainter point_painter;
+  std::optional<ShownProof> proof;  // instead of all else in the view
   DesktopOpener folder_opener;
   DesktopOpener cloud_compare{cloudCompareProgram()};
   Body walker{0.25, 1.70};  // who walks through the model, and for whom its surface is computed
@@ -276,6 +278,10 @@ struct Model : Style {
   // goes back to the model.
   void showClouds(const std::vector<std::filesystem::path>& files);
   const std::shared_ptr<const Cloud>& cloud() const { return cloud_; }
+  // Looks at what proves a mistake, and back to where the camera was.
+  void showProof(ShownProof shown);
+  void endProof();
+  ViewState proofState(const std::shared_ptr<const Cloud>& cloud) const;  // of one side of `proof`
   // Starts the verb `scan`; its points are shown instead of the model as they come.
   bool startScan(const ScanVerbOptions& options, std::string title);
   bool showsLiveScan() const { return live_ != nullptr; }

@@ -97,6 +97,7 @@ EscapeLayer escapeLayer(const Editor& editor) {
   if (ImGui::GetCurrentContext()->DragDropActive || dragsInView(editor) || holdsWidget()) return EscapeLayer::drag;
   if (const auto* top = topPopup()) return isModal(*top) ? EscapeLayer::modal : EscapeLayer::popup;
   if (editor.preview.isOpen()) return EscapeLayer::preview;
+  if (editor.proof) return EscapeLayer::proof;
   const auto tool = editor.view.tool;
   if (tool == Tool::walk || tool == Tool::fly || editor.walk_ground.preparing() || editor.fieldwork.at_screen)
     return EscapeLayer::walk;
@@ -116,6 +117,7 @@ void closeTopmost(Editor& editor) {
     case EscapeLayer::popup: return closePopup(editor);
     case EscapeLayer::modal: return ui::askModalToGo(topPopup()->PopupId, false);
     case EscapeLayer::preview: return closePreview(editor);
+    case EscapeLayer::proof: return editor.endProof();
     case EscapeLayer::tool:
     case EscapeLayer::walk:
     case EscapeLayer::selection:

@@ -19,7 +19,9 @@
 #include "editor/shell/overlay.h"
 #include "editor/shell/place_ghost.h"
 #include "editor/shell/points_legend.h"
+#include "editor/shell/proof_view.h"
 #include "editor/shell/row_overlay.h"
+#include "editor/shell/scene_picture.h"
 #include "editor/shell/shell.h"
 #include "editor/shell/station_drag.h"
 #include "editor/shell/station_handles.h"
@@ -176,34 +178,24 @@ void handleMouse(Editor& editor, ImVec2 origin, bool hovered) {
   if (!view.dragging && !ImGui::IsPopupOpen("###viewport-menu")) {
     view.hover.reset();
     const bool hidden = editor.cloud() && view.tool == Tool::select;  // what is not seen is not chosen
-    if (hovered && !hidden && !editor.preview.isOpen())
+    if (hovered && !hidden && !editor.preview.isOpen() && !editor.proof)
       view.hover = editor.picker.pick(rayThrough(view.camera, pointer(origin), view.size), editor.viewState());
   }
-  followInspectTools(editor, origin, hovered && !editor.preview.isOpen());
-  if (!view.dragging && aimTeleport(editor, hovered)) return;
+  followInspectTools(editor, origin, hovered && !editor.preview.isOpen() && !editor.proof);
+  if (!view.dragging && !editor.proof && aimTeleport(editor, hovered)) return;
   if (hovered && ImGui::IsMouseClicked(0)) view.refused_place.reset();
   if (hovered && !view.dragging && (ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2)))
     startDrag(editor, origin);
   if (view.dragging) continueDrag(editor);
-  const bool previewed = editor.preview.isOpen();  // it can be turned and nothing else
+  const bool previewed = editor.preview.isOpen() || editor.proof;  // it can be turned and nothing else
   if (view.dragging && !view.dragged && ImGui::IsMouseReleased(0) && !previewed) click(editor);
   if (view.dragging && !view.dragged && ImGui::IsMouseReleased(1) && !previewed) {
     if (view.hover && !editor.selection.contains(view.hover->product)) editor.select(view.hover->product, true);
     ImGui::OpenPopup("###viewport-menu");
   }
-  if (hovered && ImGui::IsMouseDoubleClicked(0) && view.tool == Tool::select) editor.frameSelection();
+  if (hovered && ImGui::IsMouseDoubleClicked(0) && view.tool == Tool::select && !editor.proof) editor.frameSelection();
   if (view.dragging && !io.MouseDown[0] && !io.MouseDown[1] && !io.MouseDown[2]) view.dragging = false;
   if (hovered) handleWheel(editor, origin);
-}
-
-void drawScene(SceneView* scene, const ViewState& state, ImVec2 origin, ImVec2 size, bool fine) {
-  const float pixels = ImGui::GetIO().DisplayFramebufferScale.x > 0 ? ImGui::GetIO().DisplayFramebufferScale.x : 1;
-  const std::uint64_t texture = scene == nullptr ? 0
-                                                 : scene->texture(state, static_cast<int>(size.x * pixels),
-                                                                  static_cast<int>(size.y * pixels), fine);
-  if (texture == 0) return;
-  ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)), origin,
-                                       {origin.x + size.x, origin.y + size.y}, {0, 1}, {1, 0});
 }
 
 // What each level costs, one in each frame while somebody reads it.
@@ -214,14 +206,6 @@ void measureGraphics(Editor& editor, ImVec2 size) {
   ViewState state = editor.viewState();
   state.graphics.level = *level;
   editor.graphics.measured(*level, editor.scene->cost_s(state, static_cast<int>(size.x), static_cast<int>(size.y)));
-}
-
-void drawCaption(const Editor& editor, ImVec2 origin, ImVec2 size, const std::string& text) {
-  const float room = size.x - editor.px(16);
-  const ImVec2 extent = ImGui::CalcTextSize(text.c_str(), nullptr, false, room);
-  const ImVec2 at(origin.x + (size.x - extent.x) / 2, origin.y + size.y - extent.y - editor.px(8));
-  drawPlate(editor, at, extent);
-  ImGui::GetWindowDrawList()->AddText(nullptr, 0, at, tone::kDim, text.c_str(), nullptr, room);
 }
 
 // The original on the left, what was made of it on the right, through one camera. The half under the pointer is turned.
@@ -239,12 +223,31 @@ void drawBothModels(Editor& editor, ImVec2 origin, ImVec2 half) {
 
 }  // namespace
 
+void drawScene(SceneView* scene, const ViewState& state, ImVec2 origin, ImVec2 size, bool fine) {
+  const float pixels = ImGui::GetIO().DisplayFramebufferScale.x > 0 ? ImGui::GetIO().DisplayFramebufferScale.x : 1;
+  const std::uint64_t texture = scene == nullptr ? 0
+                                                 : scene->texture(state, static_cast<int>(size.x * pixels),
+                                                                  static_cast<int>(size.y * pixels), fine);
+  if (texture == 0) return;
+  ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)), origin,
+                                       {origin.x + size.x, origin.y + size.y}, {0, 1}, {1, 0});
+}
+
+void drawCaption(const Editor& editor, ImVec2 origin, ImVec2 size, const std::string& text) {
+  const float room = size.x - editor.px(16);
+  const ImVec2 extent = ImGui::CalcTextSize(text.c_str(), nullptr, false, room);
+  const ImVec2 at(origin.x + (size.x - extent.x) / 2, origin.y + size.y - extent.y - editor.px(8));
+  drawPlate(editor, at, extent);
+  ImGui::GetWindowDrawList()->AddText(nullptr, 0, at, tone::kDim, text.c_str(), nullptr, room);
+}
+
 void drawViewport(Editor& editor) {
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const ImVec2 whole = ImGui::GetContentRegionAvail();
   if (whole.x < 16 || whole.y < 8) return;
-  const bool both =
-      editor.view.side == ModelSide::both && editor.session.document().simplified && !editor.preview.isOpen();
+  const bool proves = showsTwoClouds(editor);
+  const bool both = proves || (editor.view.side == ModelSide::both && editor.session.document().simplified &&
+                               !editor.preview.isOpen());
   const ImVec2 size = both ? ImVec2(whole.x / 2, whole.y) : whole;
   auto& view = editor.view;
   view.size = {size.x, size.y};
@@ -253,16 +256,18 @@ void drawViewport(Editor& editor) {
     view.frame_wanted = false;
   }
   measureGraphics(editor, size);
-  if (both)
+  if (proves)
+    drawTwoClouds(editor, origin, size);
+  else if (both)
     drawBothModels(editor, origin, size);
   else
     drawScene(editor.scene, view.side == ModelSide::original ? editor.originalState() : editor.viewState(), origin,
               size, editor.fine_picture);
-  const bool previewed = editor.preview.isOpen();
+  const bool previewed = editor.preview.isOpen() || editor.proof;  // it can be turned and nothing else
   if (!previewed) drawExpected(editor, origin, size);
   if (!previewed) drawCoverage(editor, origin, size);
   if (!editor.shown()) {
-    if (previewed) return;
+    if (editor.preview.isOpen()) return;
     ui::emptyState(editor, ICON_CUBE, "No model yet", "Choose an exercise, or import a model (Ctrl+I).");
     return;
   }
@@ -287,6 +292,10 @@ void drawViewport(Editor& editor) {
   if (!on_probe && !on_handle && !on_station && !on_clip)
     handleMouse(editor, view.in_right_half ? right : origin, hovered);
   handleMoving(editor);
+  if (editor.proof && !editor.preview.isOpen()) {
+    drawProofPlace(editor, origin, whole);
+    drawOverlay(editor, origin, whole);
+  }
   if (previewed) return;
   drawExpectedLegend(editor, origin, size);
   drawCoverageLegend(editor, origin, size);
