@@ -204,7 +204,7 @@ void advance(InstrumentDesk& desk, Editor& editor) {
     return desk.growing;
   };
   if (desk.rehearsal) {
-    desk.rehearsal->pass(desk.ended() ? 0 : seconds);
+    if (!desk.marking) desk.rehearsal->pass(desk.ended() ? 0 : seconds);
     watch(desk);
     const auto& job = desk.rehearsal->document().job;
     if (job != desk.adopted && editor.session.whyNotAdopt().empty()) {
@@ -223,6 +223,7 @@ void advance(InstrumentDesk& desk, Editor& editor) {
       editor.wake();  // panels that were drawn before this one show it, too
     }
   }
+  takeMarks(desk, editor);
   desk.mistakes.follow(editor);
   showInScene(desk, editor);
   if (const auto view = desk.shown()->takeView()) editor.showClouds({view->file});
@@ -354,22 +355,42 @@ void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercis
 
 void finishExercise(InstrumentDesk& desk, Editor& editor) {
   desk.rehearsal->keepWait();
-  desk.marks = marksOf(*desk.rehearsal, desk.student, desk.rehearsal->device().state().language);
   desk.marks_folder = desk.rehearsal->folder();
-  if (auto written = writeMarks(*desk.rehearsal, *desk.marks, desk.marks_folder); !written)
-    desk.refused = describe(written.error());
-  if (desk.assigned) {
-    auto result = writeResult(*desk.rehearsal, *desk.marks, *desk.assignment, desk.started, desk.marks_folder);
-    if (result)
-      desk.result = *std::move(result);
-    else
-      desk.refused = describe(result.error());
+  desk.marking = std::make_unique<Task<Graded>>(
+      tr("Grade the exercise"),
+      [&rehearsal = *desk.rehearsal, student = desk.student, folder = desk.marks_folder, started = desk.started,
+       language = desk.rehearsal->device().state().language,
+       assignment = desk.assigned ? desk.assignment : std::nullopt](Progress& progress) -> Result<Graded> {
+        TRY_ASSIGN(auto marks, marksOf(rehearsal, student, language, progress));
+        Graded graded{std::move(marks), {}, {}};
+        if (auto written = writeMarks(rehearsal, graded.marks, folder); !written)
+          graded.refused = describe(written.error());
+        if (!assignment) return graded;
+        if (auto result = writeResult(rehearsal, graded.marks, *assignment, started, folder))
+          graded.result = *std::move(result);
+        else
+          graded.refused = describe(result.error());
+        return graded;
+      },
+      editor.wake);
+}
+
+void takeMarks(InstrumentDesk& desk, Editor& editor) {
+  if (!desk.marking || !desk.marking->done()) return;
+  auto graded = std::exchange(desk.marking, nullptr)->take();
+  if (!graded) {
+    if (graded.error().kind != ErrorKind::cancelled) desk.refused = describe(graded.error());
+    return;
   }
+  desk.marks = std::move(graded->marks);
+  desk.result = std::move(graded->result);
+  if (!graded->refused.empty()) desk.refused = std::move(graded->refused);
   saveEnvironment(editor);
 }
 
 // Its environment stays where its result is.
 void leaveExercise(InstrumentDesk& desk, Editor& editor) {
+  desk.marking.reset();
   desk.mistakes.end(editor);
   saveEnvironment(editor);
   putWayAway(desk, editor);

@@ -38,6 +38,13 @@ struct WayPoint {
 // Places with the seconds at which one is there, as the action "walk" has them: [[x, y, seconds], …].
 nlohmann::json timedWay(const std::vector<WayPoint>& way);
 
+// Of an exercise that was finished.
+struct Graded {
+  Marks marks;
+  std::filesystem::path result;  // to be handed in; empty: none
+  std::string refused;           // what could not be written, and why
+};
+
 // What lies on the student's desk: a device on the open project, or one in an exercise; what is beside it.
 struct InstrumentDesk {
   const EmulatedDevice* device = &emulatedDevices().front();
@@ -57,11 +64,12 @@ struct InstrumentDesk {
   std::vector<std::string> exercises_refused;    // files of the user's folder, and why
   std::optional<std::uint64_t> exercises_stamp;  // of what was read
   std::string student;
-  std::optional<Assignment> assignment;  // that was opened last
-  bool assigned = false;                 // the exercise that runs is the student's variant of it
-  std::string started;                   // when that one began, UTC
-  std::filesystem::path result;          // to be handed in; empty: none
-  std::optional<Marks> marks;            // of the exercise that was finished last
+  std::optional<Assignment> assignment;   // that was opened last
+  bool assigned = false;                  // the exercise that runs is the student's variant of it
+  std::string started;                    // when that one began, UTC
+  std::unique_ptr<Task<Graded>> marking;  // of the exercise that runs: it rests meanwhile
+  std::filesystem::path result;           // to be handed in; empty: none
+  std::optional<Marks> marks;             // of the exercise that was finished last
   std::filesystem::path marks_folder;
   MistakeView mistakes;                // what of them is in the view
   DesktopOpener opener;                // of the certificate
@@ -87,8 +95,8 @@ struct InstrumentDesk {
 
   Device* shown() { return rehearsal ? &rehearsal->device() : host ? &host->device() : nullptr; }
   bool records() const { return recording && !recording_ended; }
-  // Marked: nothing more is done in it, and its clock stands.
-  bool ended() const { return rehearsal && marks.has_value(); }
+  // Marked, or about to be: nothing more is done in it, and its clock stands.
+  bool ended() const { return rehearsal && (marking || marks); }
   DeviceHost* running() { return rehearsal ? &rehearsal->host() : host.get(); }
 };
 
@@ -116,8 +124,10 @@ void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercis
 void openAssignment(InstrumentDesk& desk, const std::filesystem::path& file);
 std::string whyNotStartAssigned(const InstrumentDesk& desk);  // for people; empty: it can
 void startAssigned(InstrumentDesk& desk, Editor& editor);
-// Marks it: it has ended, and its environment is saved where its result is.
+// It has ended and is marked in the background; a marking that is cancelled lets it go on.
 void finishExercise(InstrumentDesk& desk, Editor& editor);
+// Once a frame: when it has been marked, its environment is saved where its result is.
+void takeMarks(InstrumentDesk& desk, Editor& editor);
 void leaveExercise(InstrumentDesk& desk, Editor& editor);
 
 // What stands beside the device.

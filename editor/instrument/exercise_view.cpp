@@ -300,7 +300,7 @@ void task(InstrumentDesk& desk, Editor& editor, const std::string& language) {
   if (editor.fonts.bold != nullptr) ImGui::PushFont(editor.fonts.bold);
   ui::wrapped(e.id + "  " + e.title.in(language));
   if (editor.fonts.bold != nullptr) ImGui::PopFont();
-  if (desk.ended()) marks(desk, editor);
+  if (desk.marks) marks(desk, editor);
   ui::wrapped(e.goal.in(language));
   ui::gap(editor);
   const double seconds = desk.rehearsal->seconds();
@@ -312,6 +312,13 @@ void task(InstrumentDesk& desk, Editor& editor, const std::string& language) {
   if (!desk.ended() && desk.guidance != Guidance::tested) demands(desk, language);
 }
 
+void grading(Task<Graded>& marking) {
+  if (ui::button("Cancel###cancel-grading")) marking.progress().cancel();
+  ImGui::SameLine();
+  ImGui::ProgressBar(static_cast<float>(marking.progress().fraction()), {-ImGui::GetFontSize() * 6, 0},
+                     tr("Grading…").c_str());
+}
+
 // The buttons keep their place below what scrolls.
 void running(InstrumentDesk& desk, Editor& editor) {
   const auto language = desk.rehearsal->device().state().language;
@@ -319,7 +326,9 @@ void running(InstrumentDesk& desk, Editor& editor) {
   if (ImGui::BeginChild("task", {0, -ImGui::GetFrameHeightWithSpacing()})) task(desk, editor, language);
   ImGui::EndChild();
   bool again = false;
-  if (desk.ended()) {
+  if (desk.marking) {
+    grading(*desk.marking);
+  } else if (desk.ended()) {
     const bool unsaved = editor.session.modified();
     const auto why = unsaved ? "The environment has not been saved yet." : editor.session.whyNot("open-project");
     again = ui::button("Restart###again", why);

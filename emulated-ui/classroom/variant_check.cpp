@@ -70,7 +70,7 @@ Result<Tried> tried(const Exercise& exercise, const Actions& actions, Progress& 
       if (ok.error().kind == ErrorKind::cancelled) return failure(ok.error());
       if (found.refused.empty()) found.refused = fmt::format("action {}: {}", i + 1, describe(ok.error()));
     }
-  found.marks = marksOf(*rehearsal, {}, "en");
+  TRY_ASSIGN(found.marks, marksOf(*rehearsal, {}, "en", progress));
   found.without_margin = withoutMargin(*rehearsal);
   return found;
 }

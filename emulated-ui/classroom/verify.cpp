@@ -65,7 +65,7 @@ class Replay {
       TRY_ASSIGN(auto wrong, act(**rehearsal, i, progress));
       if (wrong) return *std::move(wrong);
     }
-    auto marks = marksOf(**rehearsal, result_.student, language);
+    TRY_ASSIGN(auto marks, marksOf(**rehearsal, result_.student, language, progress));
     auto found = compared(marks);
     found.marks = std::move(marks);
     return found;

@@ -386,7 +386,8 @@ Result<void> checkSolution(const Exercise& exercise, Report& report, Progress& p
     return {};
   }
   TRY_ASSIGN(const auto carried, carryOutSolution(exercise, progress));
-  const auto text = unexpected(exercise.expect, marksOf(*carried.rehearsal, {}, "en"), carried.refused);
+  TRY_ASSIGN(const auto marks, marksOf(*carried.rehearsal, {}, "en", progress));
+  const auto text = unexpected(exercise.expect, marks, carried.refused);
   if (!text.empty())
     return failure(ErrorKind::unusable, "the solution does not do what is expected of it: " + text,
                    exercise.file + " /solution");

@@ -249,7 +249,8 @@ const AnswerFields<Marks>& answerFields(const Marks*) {
   return fields;
 }
 
-Marks marksOf(const Rehearsal& rehearsal, const std::string& student, const std::string& language) {
+Result<Marks> marksOf(const Rehearsal& rehearsal, const std::string& student, const std::string& language,
+                      Progress& progress) {
   const auto& e = rehearsal.exercise();
   const auto& device = rehearsal.device();
   const auto& instrument = device.type().instrument;
@@ -276,7 +277,10 @@ Marks marksOf(const Rehearsal& rehearsal, const std::string& student, const std:
   }
   const auto judged = rehearsal.judge();
   ProofPlaces places(rehearsal);
+  progress.stage("Marking");
   for (std::size_t i = 0; i < e.rules.size(); ++i) {
+    TRY(progress.check());
+    progress.advance(static_cast<double>(i) / static_cast<double>(e.rules.size()));
     const auto& rule = marks.rules.emplace_back(markedRule(rehearsal, e.rules[i], judged[i], words, places));
     marks.points += rule.points;
     marks.of += rule.of;

@@ -90,7 +90,10 @@ struct Marks {
   std::vector<MarkedFile> files;
 };
 const AnswerFields<Marks>& answerFields(const Marks*);
-Marks marksOf(const Rehearsal& rehearsal, const std::string& student, const std::string& language);
+// Places of broken rules are looked for in the points, which takes seconds; the rehearsal must rest meanwhile. Error:
+// it was cancelled.
+Result<Marks> marksOf(const Rehearsal& rehearsal, const std::string& student, const std::string& language,
+                      Progress& progress);
 
 std::string marksText(const Marks& marks);     // for people, a line each
 std::string whyNotPassed(const Marks& marks);  // in one line

@@ -339,7 +339,7 @@ Result<RehearseOutcome> runRehearse(const Document& document, const RehearseOpti
       outcome.report.warn(fmt::format("action {}", i),
                           describe(done.error()));  // the device refused; the student goes on
     }
-  auto marks = marksOf(*rehearsal, options.student, options.language);
+  TRY_ASSIGN(const auto marks, marksOf(*rehearsal, options.student, options.language, progress));
   TRY(writeMarks(*rehearsal, marks, folder));
   outcome.text = marksText(marks);
   if (chosen.assignment) {

@@ -16,6 +16,7 @@
 #include "emulated-ui/classroom/verify.h"
 #include "item_probe.h"
 #include "project/storage/project_files.h"
+#include "tests/editor/graded.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
@@ -111,7 +112,10 @@ TEST_F(InstrumentGui, OffersTheCertificateAndANewStartOnceItIsMarked) {
   begin("T-RTC360");
   EXPECT_EQ(gui.find("###certificate"), nullptr);
   ASSERT_TRUE(gui.click("###finish"));
-  gui.settle();
+  for (int i = 0; i < 2000 && gui.find("###certificate") == nullptr; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    gui.frame();
+  }
   EXPECT_EQ(gui.find("###finish"), nullptr) << "it has ended";
   ASSERT_NE(gui.find("###certificate"), nullptr);
   ASSERT_TRUE(gui.click("###again"));
@@ -164,7 +168,7 @@ TEST_F(InstrumentGui, OpensAnAssignedExerciseForItsStudentsOnlyAndLeavesAResultT
     EXPECT_TRUE(desk.said.empty()) << desk.said;
     passTime(9);
   }
-  finishExercise(desk, editor);
+  finishAndGrade(desk, editor);
   EXPECT_TRUE(desk.marks->passed) << marksText(*desk.marks);
   ASSERT_FALSE(desk.result.empty()) << desk.refused;
   const auto result = readResult(desk.result);
@@ -255,7 +259,7 @@ TEST_F(Desk, WhatIsDoneInTheSurveyBelongsToTheExercise) {
   begin("E06");
   for (const auto& action : desk.rehearsal->exercise().solution) survey(action);
   EXPECT_EQ(editor.session.document().job, desk.rehearsal->document().job);
-  finishExercise(desk, editor);
+  finishAndGrade(desk, editor);
   EXPECT_TRUE(desk.marks->passed) << marksText(*desk.marks);
   const auto& actions = desk.rehearsal->actions();
   const auto waits = std::count_if(actions.begin(), actions.end(), [](const RehearsalAction& action) {
@@ -287,13 +291,30 @@ TEST_F(Desk, AWayIsTimedByItsSpeeds) {
   EXPECT_NEAR(desk.rehearsal->fact("walk.length")->number.value(), 6, 1e-9);
 }
 
+TEST_F(Desk, GoesOnWithAnExerciseWhoseMarkingIsCancelled) {
+  begin("T-RTC360");
+  desk.marking = std::make_unique<Task<Graded>>(
+      "", [](Progress&) -> Result<Graded> { return failure(ErrorKind::cancelled, "cancelled"); });
+  EXPECT_TRUE(desk.ended());
+  act(desk, {RehearsalAction::Kind::press, "power", "", 0, {}});
+  EXPECT_NE(desk.said, "");
+  desk.marking->wait();
+  takeMarks(desk, editor);
+  EXPECT_FALSE(desk.ended());
+  EXPECT_EQ(desk.refused, "");
+  act(desk, {RehearsalAction::Kind::press, "power", "", 0, {}});
+  EXPECT_EQ(desk.said, "");
+  finishAndGrade(desk, editor);
+  EXPECT_TRUE(desk.marks);
+}
+
 TEST_F(Desk, NothingIsDoneAndNoTimePassesOnceAnExerciseIsMarked) {
   begin("T-RTC360");
   act(desk, {RehearsalAction::Kind::press, "power", "", 0, {}});
   EXPECT_EQ(desk.said, "");
   pass(100);
   EXPECT_GT(desk.rehearsal->seconds(), 0);
-  finishExercise(desk, editor);
+  finishAndGrade(desk, editor);
   EXPECT_TRUE(desk.ended());
   EXPECT_TRUE(std::filesystem::exists(desk.marks_folder / "result.html"));
   const double seconds = desk.rehearsal->seconds(), battery = desk.shown()->state().around.battery;

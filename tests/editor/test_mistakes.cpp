@@ -10,6 +10,7 @@
 #include "editor/instrument/desk.h"
 #include "editor/shell/escape.h"
 #include "item_probe.h"
+#include "tests/editor/graded.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
@@ -91,7 +92,7 @@ class MistakeGui : public testing::Test {
       if (action.name == "start_scan")
         (void)desk.rehearsal->act({RehearsalAction::Kind::press, "continue", "", 0, {}}, quiet);
     }
-    finishExercise(desk, editor);
+    finishAndGrade(desk, editor);
     gui.settle();
     gui.frames(3);
   }

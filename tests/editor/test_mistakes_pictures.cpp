@@ -11,6 +11,7 @@
 #include "editor/instrument/desk.h"
 #include "editor/viewport/offscreen.h"
 #include "project/verb.h"
+#include "tests/editor/graded.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
@@ -47,7 +48,7 @@ class MistakePictures : public testing::Test {
     spoil(actions);
     Progress quiet;
     for (const auto& action : actions) EXPECT_TRUE(desk_.rehearsal->act(action, quiet)) << toJson(action).dump();
-    finishExercise(desk_, editor_);
+    finishAndGrade(desk_, editor_);
     offscreen_->frame(editor_);
     const MarkedRule* rule = nullptr;
     for (const auto& r : desk_.marks->rules)

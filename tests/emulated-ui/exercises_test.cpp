@@ -13,6 +13,7 @@
 #include "emulated-ui/rehearsal/marks.h"
 #include "emulated-ui/rehearsal/rehearsal.h"
 #include "project/verb.h"
+#include "tests/emulated-ui/marked.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
@@ -51,11 +52,11 @@ CarriedOut rehearse(const Exercise& exercise, const Actions& actions, const std:
   EXPECT_TRUE(rehearsal) << describe(rehearsal.error());
   if (!rehearsal) return {};
   CarriedOut outcome;
-  outcome.marks_before = marksOf(**rehearsal, "", "en");
+  outcome.marks_before = marked(**rehearsal);
   for (const auto& action : actions)
     if (auto done = (*rehearsal)->act(action, quiet); !done)
       outcome.refused.push_back(toJson(action).dump() + ": " + describe(done.error()));
-  outcome.marks = marksOf(**rehearsal, "", "en");
+  outcome.marks = marked(**rehearsal);
   for (const auto& name : facts)
     if (const auto fact = (*rehearsal)->fact(name); fact && fact->number) outcome.facts[name] = *fact->number;
   return outcome;

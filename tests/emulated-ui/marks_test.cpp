@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "emulated-ui/rehearsal/plain_words.h"
+#include "tests/emulated-ui/marked.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
@@ -85,7 +86,7 @@ class MarksTest : public testing::Test {
     const auto ok = rehearsal_->act(*actionFrom(action, "test", ""), quiet_);
     EXPECT_TRUE(ok) << describe(ok.error());
   }
-  Marks marks(const std::string& language = "en") { return marksOf(*rehearsal_, "=cmd|' /C calc'!A0", language); }
+  Marks marks(const std::string& language = "en") { return marked(*rehearsal_, "=cmd|' /C calc'!A0", language); }
   std::string page(const std::string& language = "en") { return marksHtml(marks(language), *rehearsal_, kDate); }
 
   TemporaryFolder folder_;
@@ -183,7 +184,7 @@ TEST_F(MarksTest, HaveNoTextThatASpreadsheetTakesForAFormula) {
   EXPECT_EQ(rows[4]["found"], "'@home");
   EXPECT_EQ(rows[1]["text"], "Low noise");
   for (const char* name : {"+1", "\t=1", "\r=1"})
-    EXPECT_EQ(rowsOf(marksCsv(marksOf(*rehearsal_, name, "en")))[0]["student"], "'" + std::string(name));
+    EXPECT_EQ(rowsOf(marksCsv(marked(*rehearsal_, name)))[0]["student"], "'" + std::string(name));
 }
 
 TEST_F(MarksTest, TellOnThePageWhatWasDoneWhenAndWithWhat) {

@@ -11,6 +11,7 @@
 #include "emulated-ui/rehearsal/sample_solution.h"
 #include "pointclouds/formats.h"
 #include "scanners/engine/ray_engine.h"
+#include "tests/emulated-ui/marked.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
@@ -101,13 +102,13 @@ std::unique_ptr<Pair> carriedOut(const std::string& id, const std::function<void
   for (const auto& action : actions)
     if (auto done = pair->mistaken->act(action, quiet); !done)
       ADD_FAILURE() << toJson(action).dump() << ": " << describe(done.error());
-  pair->marks = marksOf(*pair->mistaken, "", "en");
+  pair->marks = marked(*pair->mistaken);
   if (!compare) return pair;
   auto good = carryOutSolution(pair->exercise, quiet);
   EXPECT_TRUE(good) << describe(good.error());
   pair->good = std::make_unique<CarriedOutSolution>(*std::move(good));
   EXPECT_TRUE(pair->good->refused.empty()) << pair->good->refused;
-  pair->good_marks = marksOf(*pair->good->rehearsal, "", "en");
+  pair->good_marks = marked(*pair->good->rehearsal);
   return pair;
 }
 

@@ -10,6 +10,7 @@
 #include "emulated-ui/rehearsal/marks.h"
 #include "emulated-ui/rehearsal/recorded_exercise.h"
 #include "emulated-ui/sighting.h"
+#include "tests/emulated-ui/marked.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
@@ -109,7 +110,7 @@ TEST_F(RehearsalTest, ARuleThatNothingAskedSaysSoAndClaimsNoConsequence) {
                                                        {"de", "Nicht bewertet: kein Scan wurde gestartet"},
                                                        {"uk", "Не оцінено: жодного скану не розпочато"}};
   for (const auto& [language, said] : kSaid) {
-    const auto marks = marksOf(*rehearsal, "", language);
+    const auto marks = marked(*rehearsal, "", language);
     const auto& rule = marks.rules[0];
     EXPECT_EQ(rule.found, said);
     EXPECT_FALSE(rule.held);
@@ -120,13 +121,23 @@ TEST_F(RehearsalTest, ARuleThatNothingAskedSaysSoAndClaimsNoConsequence) {
   }
 }
 
+TEST_F(RehearsalTest, MarkingStopsWhenItIsCancelled) {
+  const auto rehearsal = start(shortLesson());
+  ASSERT_TRUE(rehearsal);
+  Progress cancelled;
+  cancelled.cancel();
+  const auto marks = marksOf(*rehearsal, "", "en", cancelled);
+  ASSERT_FALSE(marks);
+  EXPECT_EQ(marks.error().kind, ErrorKind::cancelled);
+}
+
 TEST_F(RehearsalTest, ARuleThatWasAskedAndDidNotHoldSaysWhatItMeans) {
   auto text = shortLesson();
   text["rules"][0]["holds"] = "tilt > 2";
   const auto rehearsal = start(text);
   ASSERT_TRUE(rehearsal);
   ASSERT_TRUE(act(*rehearsal, {{"press", "start_scan"}}));
-  const auto rule = marksOf(*rehearsal, "", "en").rules[0];
+  const auto rule = marked(*rehearsal).rules[0];
   EXPECT_THAT(rule.found, HasSubstr("tilt = "));
   EXPECT_EQ(rule.because, "The cloud leans.");
   EXPECT_TRUE(rule.proof);
@@ -139,7 +150,7 @@ TEST_F(RehearsalTest, AFailedScanTellsItsReasonInTheMarks) {
   ASSERT_TRUE(rehearsal);
   ASSERT_TRUE(act(*rehearsal, {{"press", "start_scan"}}));
   ASSERT_TRUE(act(*rehearsal, {{"finish", true}}));
-  const auto marks = marksOf(*rehearsal, "", "en");
+  const auto marks = marked(*rehearsal);
   ASSERT_EQ(marks.failures.size(), 1U);
   const auto& reason = marks.failures[0].reason;
   EXPECT_THAT(reason, HasSubstr("Cannot create"));
@@ -247,7 +258,7 @@ TEST_F(RehearsalTest, ABrokenRuleKeepsTheValuesItWasJudgedBy) {
   scan("0.5,0", false);
   ASSERT_EQ(rehearsal->fact("setups")->number, 2);
   EXPECT_LT(*rehearsal->fact("data.tilt")->number, 0.1);
-  const auto marks = marksOf(*rehearsal, "", "en");
+  const auto marks = marked(*rehearsal);
   const auto& rule = marks.rules[0];
   EXPECT_EQ(rule.found, "tilt = 5.5");
   ASSERT_TRUE(rule.proof);
