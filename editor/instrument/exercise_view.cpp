@@ -280,7 +280,7 @@ void marks(InstrumentDesk& desk, Editor& editor) {
     if (rule.because) marked("", *rule.because, dim);
     if (rule.cost) marked("", trf("What it costs: {}", *rule.cost), dim);
     if (rule.proof && rule.proof->value != MarkedProof::Value(""))
-      marked("", trf("Measured in the data: {} = {}", rule.proof->fact, rule.proof->text), dim);
+      marked("", trf("Measured in the data: {}: {}", rule.proof->name, rule.proof->text), dim);
     proof(desk, editor, rule);
   }
   ui::gap(editor);

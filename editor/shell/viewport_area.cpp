@@ -238,7 +238,7 @@ void drawCaption(const Editor& editor, ImVec2 origin, ImVec2 size, const std::st
   const ImVec2 extent = ImGui::CalcTextSize(text.c_str(), nullptr, false, room);
   const ImVec2 at(origin.x + (size.x - extent.x) / 2, origin.y + size.y - extent.y - editor.px(8));
   drawPlate(editor, at, extent);
-  ImGui::GetWindowDrawList()->AddText(nullptr, 0, at, tone::kDim, text.c_str(), nullptr, room);
+  ImGui::GetWindowDrawList()->AddText(nullptr, 0, at, ImGui::GetColorU32(ImGuiCol_Text), text.c_str(), nullptr, room);
 }
 
 void drawViewport(Editor& editor) {

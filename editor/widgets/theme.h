@@ -29,7 +29,7 @@ constexpr Tone kText{IM_COL32(222, 226, 233, 255), IM_COL32(32, 37, 45, 255)};
 constexpr Tone kUnassigned{IM_COL32(237, 66, 153, 255), IM_COL32(196, 24, 112, 255)};
 constexpr Tone kEdge{IM_COL32(110, 118, 134, 255), IM_COL32(128, 136, 150, 255)};  // of an empty box, 3 to 1
 constexpr Tone kLine{IM_COL32(54, 60, 70, 255), IM_COL32(200, 205, 213, 255)};
-constexpr Tone kOverlay{IM_COL32(24, 27, 32, 205), IM_COL32(250, 251, 253, 225)};
+constexpr Tone kOverlay{IM_COL32(24, 27, 32, 225), IM_COL32(250, 251, 253, 225)};
 constexpr Tone kStation{IM_COL32(255, 176, 32, 255), IM_COL32(196, 110, 0, 255)};
 constexpr Tone kChosen{IM_COL32(158, 201, 255, 255), IM_COL32(16, 70, 150, 255)};  // word of a tab
 constexpr Tone kCalm{IM_COL32(184, 191, 204, 255), IM_COL32(66, 74, 87, 255)};     // of the tabs beside it
