@@ -289,8 +289,9 @@ bool isPicture(const Screen& screen, const Region& region) {
 void drawRegions(Pen& pen, const Screen& screen, const Region& root, const Box& display, float covered) {
   const PlacingState state{[&](const std::string& id) { return onScreen(screen, id) != nullptr; },
                            [&](const Region& tabs) { return pen.view.tabs[tabsKey(pen, tabs)]; }, 2.2F * pen.text()};
-  int number = 0;
+  int number = 0;  // counts also those that the keyboard covers: a field keeps its place among them
   for (const auto& placed : placeRegions(root, display, state)) {
+    const auto id = "region" + std::to_string(number++);
     Box box = placed.box;
     const bool strip = isStrip(placed.region->kind);
     // Pictures reach from edge to edge; what else there is keeps a little away from its neighbours.
@@ -309,8 +310,7 @@ void drawRegions(Pen& pen, const Screen& screen, const Region& root, const Box& 
     ImGui::SetCursorScreenPos({box.x, box.y});
     ImGui::PushStyleColor(ImGuiCol_ChildBg, hasGround(placed) ? pen.skin.display : IM_COL32(0, 0, 0, 0));
     const auto flags = scrolls(screen, *placed.region) ? ImGuiWindowFlags_None : kStill;
-    if (ImGui::BeginChild(("region" + std::to_string(number++)).c_str(),
-                          {std::max(1.0F, box.width), std::max(1.0F, box.height)}, false, flags)) {
+    if (ImGui::BeginChild(id.c_str(), {std::max(1.0F, box.width), std::max(1.0F, box.height)}, false, flags)) {
       useText(pen);
       const ImVec2 at = ImGui::GetCursorScreenPos();
       drawRegion(pen, screen, placed, {at.x, at.y, box.width, box.height});
