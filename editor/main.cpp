@@ -33,7 +33,8 @@ using namespace standpoint;
 
 constexpr const char* kUsage =
     "standpoint-editor [PROJECT or MODEL...]\nstandpoint-editor --pictures OUTDIR [--size 1280x800] [--scale 1] "
-    "[--language en] PROJECT or MODEL\nstandpoint-editor --devices OUTDIR [--language en] [--scale 1]\n  --pictures  "
+    "[--language en] [--theme dark|light] PROJECT or MODEL\nstandpoint-editor --devices OUTDIR [--language en] "
+    "[--scale 1]\n  --pictures  "
     "render the editor "
     "without a display and save screenshots as PNG files\n  --devices   render every screen of every emulated device, "
     "one folder per device\n";
@@ -41,6 +42,7 @@ constexpr const char* kUsage =
 struct Arguments {
   std::vector<std::string> paths;  // one project, or models that belong together
   std::string pictures, devices, language = "en";
+  Theme theme = Theme::dark;
   int width = 1280, height = 800;
   float scale = 1;
   std::optional<ShotOptions> shot;
@@ -61,8 +63,8 @@ Result<Arguments> parse(const std::vector<std::string>& words) {
   std::string size;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const auto& word = words[i];
-    const bool takes_value =
-        word == "--pictures" || word == "--scale" || word == "--devices" || word == "--language" || isShotOption(word);
+    const bool takes_value = word == "--pictures" || word == "--scale" || word == "--devices" || word == "--language" ||
+                             word == "--theme" || isShotOption(word);
     if (takes_value && i + 1 >= words.size()) return failure(ErrorKind::usage, "missing value", word);
     if (word == "--size") {  // whose it is, is known at the end
       size = words[++i];
@@ -79,6 +81,11 @@ Result<Arguments> parse(const std::vector<std::string>& words) {
       result.devices = words[++i];
     } else if (word == "--language") {
       result.language = words[++i];
+    } else if (word == "--theme") {
+      const auto theme = themeOf(words[++i]);
+      if (!theme)
+        return failure(ErrorKind::usage, fmt::format("unknown theme '{}': use dark or light", words[i]), word);
+      result.theme = *theme;
     } else if (word == "--scale") {
       result.scale = std::strtof(words[++i].c_str(), nullptr);
       if (!(result.scale >= 0.5F && result.scale <= 4))
@@ -177,6 +184,7 @@ int makePictures(const Arguments& arguments) {
   if (!offscreen) return fail(offscreen.error());
   Editor editor(allVerbs(), [] {});
   editor.settings.language = arguments.language;
+  editor.settings.theme = arguments.theme;
   speak(arguments.language);
   attachInstrument(editor);
   if (auto opened = openIn(editor, **offscreen, arguments.paths); !opened) return fail(opened.error());

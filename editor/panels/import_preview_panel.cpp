@@ -233,7 +233,8 @@ std::string fileLine(const ImportPreview& preview) {
   std::string extension = preview.files().front().extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::toupper(c); });
-  return (extension.empty() ? std::string() : extension.substr(1) + "   ") + readableSize(bytes);
+  const std::string size = bytes > 0 ? readableSize(bytes) : std::string();  // none: the file has gone meanwhile
+  return (extension.empty() ? std::string() : extension.substr(1) + "   ") + size;
 }
 
 }  // namespace

@@ -120,18 +120,17 @@ void drawFigures(const Editor& editor, const HeldStation& held, ImVec2 origin, I
   const bool covered = pointer.x > right_x - editor.px(90) && pointer.y < y_from + height + editor.px(170);
   const ImVec2 low(covered ? origin.x + editor.px(10) : right_x, y_from);
   auto& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled(low, {low.x + width, low.y + height}, IM_COL32(20, 23, 28, 225), editor.px(5));
+  list.AddRectFilled(low, {low.x + width, low.y + height}, tone::kOverlay, editor.px(5));
   float y = low.y + pad;
   list.PushClipRect(low, {low.x + width - pad, low.y + height}, true);
-  list.AddText({low.x + pad, y}, IM_COL32(236, 239, 244, 255), placeTitle(editor, held, forecast).c_str());
+  list.AddText({low.x + pad, y}, tone::kText, placeTitle(editor, held, forecast).c_str());
   list.PopClipRect();
   for (const auto& row : rows) {
     y += line;
     const std::string said = tr(row.value), value = old && forecast != nullptr ? said + " …" : said;
     const float right = low.x + width - pad - editor.px(18);
     list.AddText({low.x + pad, y}, tone::kDim, tr(row.label).c_str());
-    list.AddText({right - ImGui::CalcTextSize(value.c_str()).x, y}, old ? tone::kDim : IM_COL32(236, 239, 244, 255),
-                 value.c_str());
+    list.AddText({right - ImGui::CalcTextSize(value.c_str()).x, y}, old ? tone::kDim : tone::kText, value.c_str());
     if (row.verdict != Verdict::unknown && !old)
       list.AddText({right + editor.px(6), y}, verdictTone(row.verdict), verdictSign(row.verdict));
   }

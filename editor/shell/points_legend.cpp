@@ -15,7 +15,6 @@ namespace standpoint {
 namespace {
 
 constexpr std::size_t kMostClasses = 10;
-constexpr ImU32 kInk = IM_COL32(226, 230, 236, 255), kFaintInk = IM_COL32(150, 158, 170, 255);
 
 std::string shareText(std::uint64_t points, std::uint64_t all) {
   return fmt::format("{:.1f} %",
@@ -25,7 +24,7 @@ std::string shareText(std::uint64_t points, std::uint64_t all) {
 void drawGround(const Editor& editor, ImVec2 at, ImVec2 size) {
   const float pad = editor.px(8);
   ImGui::GetWindowDrawList()->AddRectFilled({at.x - pad, at.y - pad}, {at.x + size.x + pad, at.y + size.y + pad},
-                                            IM_COL32(20, 23, 28, 225), editor.px(4));
+                                            tone::kOverlay, editor.px(4));
 }
 
 // Which points the ends stand for, and which have no figure.
@@ -46,7 +45,7 @@ void drawScale(const Editor& editor, const PointLegend& legend, ImVec2 origin, I
   const float height = line + peaks + bar + editor.px(6) + 2 * line;
   const ImVec2 at(origin.x + editor.px(18), origin.y + size.y - height - editor.px(18));
   drawGround(editor, {at.x, at.y}, {wide, height});
-  list.AddText(at, kInk, title.c_str());
+  list.AddText(at, tone::kText, title.c_str());
   const float top = at.y + line, y = top + peaks;
   const auto most = std::max<std::uint32_t>(1, *std::max_element(legend.histogram.begin(), legend.histogram.end()));
   for (std::size_t i = 0; i < PointLegend::kBins; ++i) {
@@ -55,17 +54,17 @@ void drawScale(const Editor& editor, const PointLegend& legend, ImVec2 origin, I
     const float from = at.x + width * static_cast<float>(i) / PointLegend::kBins,
                 to = at.x + width * static_cast<float>(i + 1) / PointLegend::kBins;
     const float peak = peaks * 0.9F * static_cast<float>(legend.histogram[i]) / static_cast<float>(most);
-    list.AddRectFilled({from, y - peak}, {to, y}, kFaintInk);
+    list.AddRectFilled({from, y - peak}, {to, y}, tone::kDim);
     list.AddRectFilled({from, y}, {to, y + bar}, tone);
   }
   for (std::size_t i = 0; i < legend.ticks.size(); ++i) {
     const auto x = at.x + width * static_cast<float>((legend.ticks[i] - legend.low) / (legend.high - legend.low));
-    list.AddLine({x, y + bar}, {x, y + bar + editor.px(4)}, kInk, editor.px(1));
+    list.AddLine({x, y + bar}, {x, y + bar + editor.px(4)}, tone::kText, editor.px(1));
     const float half = ImGui::CalcTextSize(legend.tick_texts[i].c_str()).x / 2;
-    list.AddText({std::clamp(x - half, at.x, at.x + std::max(0.0F, wide - 2 * half)), y + bar + editor.px(5)}, kInk,
-                 legend.tick_texts[i].c_str());
+    list.AddText({std::clamp(x - half, at.x, at.x + std::max(0.0F, wide - 2 * half)), y + bar + editor.px(5)},
+                 tone::kText, legend.tick_texts[i].c_str());
   }
-  list.AddText({at.x, y + bar + editor.px(6) + line}, kFaintInk, clamped.c_str());
+  list.AddText({at.x, y + bar + editor.px(6) + line}, tone::kDim, clamped.c_str());
 }
 
 // Files name materials by their ids; who reads a legend knows them by their labels.
@@ -99,11 +98,11 @@ void drawClasses(const Editor& editor, const PointLegend& legend, ImVec2 origin,
   const float height = line * static_cast<float>(rows.size() + 1);
   ImVec2 at(origin.x + editor.px(18), origin.y + size.y - height - editor.px(18));
   drawGround(editor, at, {wide, height});
-  list.AddText(at, kInk, title.c_str());
+  list.AddText(at, tone::kText, title.c_str());
   for (const auto& [colour, text] : rows) {
     at.y += line;
     list.AddRectFilled({at.x, at.y + editor.px(2)}, {at.x + swatch, at.y + editor.px(2) + swatch}, packed(colour));
-    list.AddText({at.x + swatch + editor.px(6), at.y}, kInk, text.c_str());
+    list.AddText({at.x + swatch + editor.px(6), at.y}, tone::kText, text.c_str());
   }
 }
 

@@ -68,7 +68,7 @@ class EglOffscreen : public Offscreen {
     io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
     io.DeltaTime = 1.0F / 30;
     io.MousePos = {-1, -1};
-    applyTheme(scale);
+    applyTheme(scale);  // until an editor with another theme is adopted
     fonts_ = buildFonts(scale);
     scene_ = makeVtkSceneView();
     beside_ = makeVtkSceneView();
@@ -88,6 +88,7 @@ class EglOffscreen : public Offscreen {
   EglOffscreen& operator=(const EglOffscreen&) = delete;
 
   void adopt(Editor& editor) override {
+    applyTheme(scale_, editor.settings.theme);
     editor.fonts = fonts_;
     editor.scale = scale_;
     editor.scene = scene_.get();
