@@ -44,8 +44,7 @@ PlaceCoverage coverageAt(std::span<const SeenFrom> scans, const SurfacePlace& pl
     const Eigen::Vector3d way = place.position - scan.pose.translation;
     const double range = way.norm();
     const double incidence = std::acos(std::clamp(std::abs(place.normal.dot(way)) / range, 0.0, 1.0));
-    const double elevation = std::asin(std::clamp((scan.pose.rotation.conjugate() * way).z() / range, -1.0, 1.0));
-    const double spacing = spacingOf(scan.expectation->law().settings(), range, elevation, incidence);
+    const double spacing = spacingAt(scan.expectation->law().settings(), scan.pose, place);
     const bool first = coverage.stations++ == 0;
     coverage.spacing_m = first ? spacing : std::min(coverage.spacing_m, spacing);
     coverage.incidence_rad = first ? incidence : std::min(coverage.incidence_rad, incidence);

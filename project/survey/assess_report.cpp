@@ -108,6 +108,14 @@ std::string sketch(const AssessAnswer& answer) {
       if (place.seen == seen) text += fmt::format("M{:.2f} {:.2f}h0", x(place.at), y(place.at));
     text += "\"/>\n";
   }
+  for (std::size_t k = 0; k < answer.sketch.gaps.size(); ++k) {
+    const auto& gap = answer.sketch.gaps[k];
+    text += fmt::format("<path fill=\"none\" stroke=\"#882255\" stroke-width=\"{:.3f}\" d=\"", 0.003 * size);
+    for (const auto& [a, b] : gap.rim) text += fmt::format("M{:.2f} {:.2f}L{:.2f} {:.2f}", x(a), y(a), x(b), y(b));
+    text += fmt::format(
+        "\"/>\n<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{:.3f}\" font-weight=\"bold\" fill=\"#882255\">{}</text>\n",
+        x(gap.at), y(gap.at), 0.024 * size, k + 1);
+  }
   const auto where = [&](const std::string& name) {
     return std::find_if(answer.sketch.stations.begin(), answer.sketch.stations.end(),
                         [&](const auto& s) { return s.name == name; });
@@ -125,7 +133,8 @@ std::string sketch(const AssessAnswer& answer) {
         "y=\"{1:.2f}\" font-size=\"{4:.3f}\">{5}</text>\n",
         x(station.at), y(station.at), 0.01 * size, x(station.at) + 0.016 * size, 0.03 * size, htmlText(station.name));
   return text +
-         "</svg>\n<p><small>From above, all storeys: grey is covered, pink is not; lines between stations have "
+         "</svg>\n<p><small>From above, all storeys: grey is covered, pink is not, the largest gaps are outlined and "
+         "numbered; lines between stations have "
          "the colour of their overlap's verdict.</small></p>\n";
 }
 
@@ -177,6 +186,23 @@ std::string holesHtml(const AssessAnswer& answer) {
   return text + "</table>\n";
 }
 
+// The numbers are those of the sketch.
+std::string gapsHtml(const AssessAnswer& answer) {
+  if (answer.sketch.gaps.empty()) return "";
+  std::string text =
+      "<h2>Largest gaps</h2>\n<table><tr><th>No.<th>Product<th class=\"n\">m²<th class=\"n\">Spacing on the rest, "
+      "mm<th>Place (m, frame of the model's file)</tr>\n";
+  for (std::size_t k = 0; k < answer.sketch.gaps.size(); ++k) {
+    const auto& gap = answer.patches[k];
+    text += fmt::format(
+        "<tr><td>{}<td>{} {} <small>{}</small><td class=\"n\">{:.2f}<td class=\"n\">{}<td><small>{:.2f} &nbsp; {:.2f} "
+        "&nbsp; {:.2f}</small></tr>\n",
+        k + 1, htmlText(gap.ifc_class), htmlText(gap.name), htmlText(gap.id), gap.area_m2,
+        numberOr(gap.spacing_m, 1000, 1), gap.at.x(), gap.at.y(), gap.at.z());
+  }
+  return text + "</table>\n";
+}
+
 std::string htmlPage(const AssessAnswer& answer) {
   const auto name = htmlText(answer.project.empty() ? "a project" : answer.project);
   std::string text = fmt::format(
@@ -190,7 +216,7 @@ std::string htmlPage(const AssessAnswer& answer) {
       answer.profile, answer.limits.empty() ? "" : ", changed by " + htmlText(answer.limits), answer.exposed_m2,
       answer.samples, answer.radius_m * 1000);
   text += figures(answer) + "<h2>Plan</h2>\n" + sketch(answer) + "<h2>Scans</h2>\n" + scans(answer) +
-          "<h2>Stations</h2>\n" + stationsHtml(answer) + pairsHtml(answer) + holesHtml(answer);
+          "<h2>Stations</h2>\n" + stationsHtml(answer) + pairsHtml(answer) + holesHtml(answer) + gapsHtml(answer);
   return text + "</body></html>\n";
 }
 

@@ -17,7 +17,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr std::size_t kListedHoles = 30, kToldHoles = 8;
+constexpr std::size_t kListedHoles = 30, kToldHoles = 8, kSketchedGaps = 12;
 constexpr std::size_t kSketched = 6000;  // places of the surface
 
 Result<QualityRequest> qualityRequestFrom(const Document& document, const AssessOptions& options) {
@@ -103,6 +103,13 @@ void addSketch(AssessSketch& sketch, const SurveyQuality& quality, const Job& jo
                                   [k](const StationQuality& s) { return s.seen[k] != 0; });
     sketch.surface.push_back({(samples[k].place.position + shift_m).head<2>(), seen});
   }
+  for (const auto& patch : std::span(quality.patches).first(std::min(kSketchedGaps, quality.patches.size()))) {
+    auto& gap = sketch.gaps.emplace_back();
+    gap.at = (patch.at + shift_m).head<2>();
+    const auto& shape = patch.shape;
+    for (const auto& [a, b] : rimOf({shape.squares.begin(), shape.squares.end()}))
+      gap.rim.push_back({(shape.corner(a) + shift_m).head<2>(), (shape.corner(b) + shift_m).head<2>()});
+  }
   for (const auto& s : quality.stations) {
     const auto& station = job.stations[s.station];
     sketch.stations.push_back({station.name, (station.true_pose.translation + shift_m).head<2>()});
@@ -126,6 +133,7 @@ AssessAnswer answerOf(const SurveyQuality& quality, const Document& document, co
   }
   addStations(answer, quality, *document.job);
   addHoles(answer, quality, environment);
+  answer.patches = patchesOf(quality.patches, environment, shift_m);
   addSketch(answer.sketch, quality, *document.job, shift_m);
   return answer;
 }
@@ -239,7 +247,8 @@ const AnswerFields<AssessAnswer>& answerFields(const AssessAnswer*) {
                                          {"scans", &A::scans},
                                          {"stations", &A::stations},
                                          {"pairs", &A::pairs},
-                                         {"holes", &A::holes}};
+                                         {"holes", &A::holes},
+                                         {"patches", &A::patches}};
   return fields;
 }
 

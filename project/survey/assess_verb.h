@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -66,7 +67,12 @@ struct AssessSketch {
     std::string name;
     Eigen::Vector2d at = Eigen::Vector2d::Zero();
   };
+  struct Gap {  // one of the patches
+    Eigen::Vector2d at = Eigen::Vector2d::Zero();
+    std::vector<std::array<Eigen::Vector2d, 2>> rim;
+  };
   std::vector<Place> surface;
+  std::vector<Gap> gaps;  // in the patches' order
   std::vector<Mark> stations;
 };
 
@@ -79,7 +85,8 @@ struct AssessAnswer {
   std::vector<AssessScan> scans;
   std::vector<AssessStation> stations;
   std::vector<PlanPair> pairs;
-  std::vector<PlanHole> holes;  // largest first
+  std::vector<PlanHole> holes;  // largest first, like the patches
+  std::vector<PlanPatch> patches;
   AssessSketch sketch;
 };
 const AnswerFields<AssessAnswer>& answerFields(const AssessAnswer*);

@@ -50,7 +50,7 @@ void addStations(PlanAnswer& answer, const SurveyPlan& plan) {
   answer.bytes = std::llround(bytes);
 }
 
-PlanAnswer answerOf(const SurveyPlan& plan, const Environment& environment) {
+PlanAnswer answerOf(const SurveyPlan& plan, const Environment& environment, const Eigen::Vector3d& shift_m) {
   const double each = plan.samples.each_m2();
   PlanAnswer answer{coverageOf(plan.all, each)};
   answer.area_m2 = plan.samples.area_m2;
@@ -61,6 +61,7 @@ PlanAnswer answerOf(const SurveyPlan& plan, const Environment& environment) {
   for (const auto& surface : plan.classes) answer.classes.push_back({coverageOf(surface, each), surface.name});
   for (const auto& surface : plan.storeys) answer.storeys.push_back({coverageOf(surface, each), surface.name});
   answer.holes = holesOf(plan, environment);
+  answer.patches = patchesOf(plan.patches, environment, shift_m);
   addStations(answer, plan);
   for (const auto& p : plan.pairs)
     answer.pairs.push_back({plan.stations[p.a], plan.stations[p.b], p.common_m2, p.of_a, p.of_b, p.overlap()});
@@ -186,6 +187,22 @@ const AnswerFields<PlanHole>& answerFields(const PlanHole* hole) {
   return fields;
 }
 
+const AnswerFields<PlanPatch>& answerFields(const PlanPatch* patch) {
+  using A = PlanPatch;
+  static const auto fields = withBases<A>({{"area_m2", &A::area_m2}, {"spacing_m", &A::spacing_m}, {"at", &A::at}},
+                                          answerFields(static_cast<const ProductIdentity*>(patch)));
+  return fields;
+}
+
+std::vector<PlanPatch> patchesOf(const std::vector<SurfaceHole>& holes, const Environment& environment,
+                                 const Eigen::Vector3d& shift_m) {
+  std::vector<PlanPatch> patches;
+  for (const auto& hole : holes)
+    patches.push_back(
+        {identityOf(environment.products[hole.product]), hole.area_m2, hole.spacing_m, hole.at + shift_m, hole.shape});
+  return patches;
+}
+
 const AnswerFields<PlanStation>& answerFields(const PlanStation*) {
   using A = PlanStation;
   static const AnswerFields<A> fields = {{"station", &A::station},
@@ -216,6 +233,7 @@ const AnswerFields<PlanAnswer>& answerFields(const PlanAnswer* answer) {
                                            {"classes", &A::classes},
                                            {"storeys", &A::storeys},
                                            {"holes", &A::holes},
+                                           {"patches", &A::patches},
                                            {"stations", &A::stations},
                                            {"points", &A::points},
                                            {"instrument_seconds", &A::instrument_seconds},
@@ -240,7 +258,7 @@ Result<Answered<PlanAnswer>> runPlan(const Document& document, const PlanOptions
   TRY_ASSIGN(auto plan, planSurvey(*document.job, scene, std::make_shared<const MaterialAssignment>(world.assignment),
                                    request, progress));
   TRY_ASSIGN(auto proposal, proposalFor(document, *scene, plan, request, progress));
-  outcome.answer = answerOf(plan, *world.environment);
+  outcome.answer = answerOf(plan, *world.environment, document.georeference->shift_m);
   outcome.answer.proposed = proposal;
   outcome.description =
       fmt::format("{} station{} would cover {:.1f} % of {:.0f} m2", plan.stations.size(),

@@ -18,6 +18,7 @@
 #include "scanners/radiometry/effects.h"
 #include "scanners/radiometry/sun.h"
 #include "survey/scanning/field_fault.h"
+#include "survey/stations/surface_holes.h"
 #include "survey/targets/target_placing.h"
 #include "survey/targets/target_sight.h"
 
@@ -154,6 +155,16 @@ struct PlanHole : PlanCoverage, ProductIdentity {
   double unseen_m2 = 0;
 };
 const AnswerFields<PlanHole>& answerFields(const PlanHole*);
+// A part of a surface that no station sees.
+struct PlanPatch : ProductIdentity {
+  double area_m2 = 0;
+  std::optional<double> spacing_m;               // of the points on what is seen of the product; nothing: all is hidden
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  // on it, near its middle; the model's file frame
+  HoleShape shape;                               // local frame; not written
+};
+const AnswerFields<PlanPatch>& answerFields(const PlanPatch*);
+std::vector<PlanPatch> patchesOf(const std::vector<SurfaceHole>& holes, const Environment& environment,
+                                 const Eigen::Vector3d& shift_m);
 struct PlanStation {
   std::string station;
   double seen_m2 = 0;
@@ -181,7 +192,8 @@ struct PlanAnswer : PlanCoverage {  // of all products
   double coverage_sigma = 0;  // 1 σ, by the number of samples
   std::vector<PlanClass> classes;
   std::vector<PlanStorey> storeys;
-  std::vector<PlanHole> holes;  // largest first
+  std::vector<PlanHole> holes;  // largest first, like the patches
+  std::vector<PlanPatch> patches;
   std::vector<PlanStation> stations;
   std::int64_t points = 0;  // of all stations, like those below
   double instrument_seconds = 0;

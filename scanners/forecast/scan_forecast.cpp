@@ -67,6 +67,13 @@ double spacingOf(const ScanSettings& settings, double range_m, double elevation_
   return range_m * std::sqrt(std::max(0.0, column * row) / std::max(1e-9, std::cos(incidence_rad)));
 }
 
+double spacingAt(const ScanSettings& settings, const Pose& local_from_scanner, const SurfacePlace& place) {
+  const Eigen::Vector3d way = place.position - local_from_scanner.translation;
+  const double range = way.norm();
+  const double incidence = std::acos(std::clamp(std::abs(place.normal.dot(way)) / range, 0.0, 1.0));
+  return spacingOf(settings, range, elevationOf(local_from_scanner.rotation.conjugate() * way / range), incidence);
+}
+
 std::vector<std::uint8_t> seenSamples(const Expectation& expectation, const Pose& local_from_scanner,
                                       const SurfaceSamples& samples, const SeenWhen& wanted) {
   std::vector<std::uint8_t> seen(samples.samples.size(), 0);

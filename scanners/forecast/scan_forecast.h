@@ -35,5 +35,6 @@ bool isSeen(const Expectation& expectation, const Pose& local_from_scanner, Surf
 
 // √ of the area of a surface for which one point stands; `elevation_rad` is the beam's in the scanner's frame.
 double spacingOf(const ScanSettings& settings, double range_m, double elevation_rad, double incidence_rad);
+double spacingAt(const ScanSettings& settings, const Pose& local_from_scanner, const SurfacePlace& place);
 
 }  // namespace standpoint

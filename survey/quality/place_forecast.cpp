@@ -95,9 +95,8 @@ void PlaceForecaster::measure(PlaceForecast& forecast, const Pose& place, const 
     const Eigen::Vector3d way = sample.position - place.translation;
     const double range = way.norm();
     const double incidence = std::acos(std::clamp(std::abs(sample.normal.dot(way)) / range, 0.0, 1.0));
-    const double elevation = std::asin(std::clamp((place.rotation.conjugate() * way).z() / range, -1.0, 1.0));
     incidences.push_back(incidence);
-    spacings.push_back(spacingOf(expectation_->law().settings(), range, elevation, incidence));
+    spacings.push_back(spacingAt(expectation_->law().settings(), place, sample));
   }
   if (near != nullptr && exposed > 0)
     forecast.near_seen = static_cast<double>(spacings.size()) / static_cast<double>(exposed);

@@ -326,6 +326,17 @@ void seeByStation(SurveyQuality& quality, const QualityRequest& request) {
   }
 }
 
+void findHoles(SurveyQuality& quality) {
+  if (quality.stations.empty()) return;
+  std::vector<double> spacing_m(quality.samples.samples.size(), 0);
+  for (std::size_t k = 0; k < spacing_m.size(); ++k) {
+    std::uint32_t most = 0;  // of the densest scan
+    for (const auto& scan : quality.scans) most = std::max(most, scan.counts[k]);
+    if (most > 0) spacing_m[k] = quality.radius_m * std::sqrt(M_PI / most);
+  }
+  quality.patches = surfaceHoles(quality.samples, spacing_m, kMostPatches);
+}
+
 void comparePoses(SurveyQuality& quality, const Job& job) {
   for (auto& station : quality.stations)
     for (const auto& scan : quality.scans) {
@@ -412,6 +423,7 @@ Result<SurveyQuality> assessSurvey(const Job& job, const std::shared_ptr<const R
   std::vector<const std::vector<std::uint8_t>*> seen;
   for (const auto& station : quality.stations) seen.push_back(&station.seen);
   quality.seen = countSeen(quality.samples, scene->environment(), seen);
+  findHoles(quality);
   quality.rows = qualityRows(quality, job, request.limits);
   return quality;
 }

@@ -11,6 +11,7 @@
 #include "core/survey.h"
 #include "scanners/instruments/target_kinds.h"
 #include "survey/quality/quality_limits.h"
+#include "survey/stations/surface_holes.h"
 #include "survey/stations/surfaces_seen.h"
 
 namespace standpoint {
@@ -69,6 +70,7 @@ struct SurveyQuality {
   std::vector<ScanTrouble> troubles;
   std::vector<StationQuality> stations;  // that have a scan which could be read
   SurfacesSeen seen;                     // pairs are of `stations`
+  std::vector<SurfaceHole> patches;      // without a point
   std::vector<QualityRow> rows;
   Report report;
 };

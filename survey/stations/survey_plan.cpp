@@ -25,6 +25,16 @@ double bytesPerPoint(const ScanSettings& settings, const ScanChannels& channels,
   return bits / 8 * 1024 / 1020;
 }
 
+// Of each sample by the station from which the points lie densest, 0 where none sees it.
+void addSpacing(std::vector<double>& spacing_m, const ScanForecast& forecast, const Pose& pose,
+                const ScanSettings& settings, const SurfaceSamples& samples) {
+  for (std::size_t k = 0; k < spacing_m.size(); ++k) {
+    if (forecast.seen[k] == 0) continue;
+    const double here = spacingAt(settings, pose, samples.samples[k].place);
+    spacing_m[k] = spacing_m[k] > 0 ? std::min(spacing_m[k], here) : here;
+  }
+}
+
 }  // namespace
 
 Result<SurveyPlan> planSurvey(const Job& job, std::shared_ptr<const RayScene> scene,
@@ -39,18 +49,21 @@ Result<SurveyPlan> planSurvey(const Job& job, std::shared_ptr<const RayScene> sc
   plan.samples = std::move(samples);
   const Expectation expectation(std::move(scene), std::move(assignment),
                                 ReturnLaw(request.instrument, request.settings));
+  std::vector<double> spacing_m(plan.samples.samples.size(), 0);
   progress.stage("Forecast", 0.2, 0.7);
   for (const auto index : request.stations) {
     TRY(progress.check());
     const auto& station = job.stations[index];
     plan.stations.push_back(station.name);
     plan.forecasts.push_back(forecastScan(expectation, station.true_pose, plan.samples, request.wanted));
+    addSpacing(spacing_m, plan.forecasts.back(), station.true_pose, request.settings, plan.samples);
     plan.bytes.push_back(plan.forecasts.back().points * bytes_per_point);
     progress.advance(static_cast<double>(plan.forecasts.size()) / static_cast<double>(request.stations.size()));
   }
   std::vector<const std::vector<std::uint8_t>*> seen;
   for (const auto& f : plan.forecasts) seen.push_back(&f.seen);
   static_cast<SurfacesSeen&>(plan) = countSeen(plan.samples, environment, seen);
+  if (!plan.stations.empty()) plan.patches = surfaceHoles(plan.samples, spacing_m, kMostPatches);
   return plan;
 }
 

@@ -11,6 +11,7 @@
 #include "scanners/forecast/scan_forecast.h"
 #include "survey/stations/placement.h"
 #include "survey/stations/station_places.h"
+#include "survey/stations/surface_holes.h"
 #include "survey/stations/surfaces_seen.h"
 
 namespace standpoint {
@@ -21,6 +22,7 @@ struct SurveyPlan : SurfacesSeen {
   std::vector<std::string> stations;
   std::vector<ScanForecast> forecasts;  // of each station
   std::vector<double> bytes;            // of each station
+  std::vector<SurfaceHole> patches;     // what no station sees
 };
 
 struct PlanRequest {

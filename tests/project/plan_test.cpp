@@ -85,6 +85,61 @@ TEST(Plan, MissesTheShadowOfWhatStandsInTheWay) {
   EXPECT_NEAR(two["coverage"].get<double>(), 1, 1e-3) << "each sees what the other does not";
 }
 
+TEST(Plan, SaysOfEachHoleHowLargeItIsAndWhere) {
+  const auto p = plan(with(room(addPlate), {{"S", {0, 0, 1.5}}}));
+  ASSERT_EQ(p["patches"].size(), 2U) << "the disc below the scanner, and the plate's shadow";
+  const auto &shadow = p["patches"][0], &disc = p["patches"][1];
+  EXPECT_EQ(shadow["id"], "room");
+  EXPECT_NEAR(shadow["area_m2"].get<double>(), 6.25, 0.3);
+  EXPECT_NEAR(disc["area_m2"].get<double>(), kBlind, 0.15);
+  EXPECT_NEAR(shadow["at"][0].get<double>(), 5, 1e-6) << "on the wall behind the plate";
+  EXPECT_NEAR(shadow["at"][1].get<double>(), 0, 0.2);
+  EXPECT_NEAR(shadow["at"][2].get<double>(), 1.5, 0.2);
+  EXPECT_NEAR(disc["at"][2].get<double>(), 0, 1e-6) << "on the floor";
+  EXPECT_NEAR(std::hypot(disc["at"][0].get<double>(), disc["at"][1].get<double>()), 0, 0.2);
+  const double step = 2 * std::numbers::pi / 2556;  // 1/16 of 40,960 on the turn
+  EXPECT_GT(shadow["spacing_m"].get<double>(), 3 * step) << "half of the room is farther than 3 m";
+  EXPECT_LT(shadow["spacing_m"].get<double>(), 8 * step);
+}
+
+TEST(Plan, DrawsAHoleAsItLies) {
+  const auto done = run("plan", with(room(addPlate), {{"S", {0, 0, 1.5}}}),
+                        {{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/16", "quality=4x"}}});
+  ASSERT_TRUE(done) << describe(done.error());
+  const auto& patches = answerAs<PlanAnswer>(done->typed)->patches;
+  ASSERT_EQ(patches.size(), 2U);
+  for (const auto& patch : patches) {
+    const double square = patch.shape.right.norm() * patch.shape.up.norm();
+    EXPECT_NEAR(square * static_cast<double>(patch.shape.squares.size()), patch.area_m2, 0.15 * patch.area_m2);
+  }
+  const auto& shadow = patches[0].shape;
+  EXPECT_NEAR(std::abs(shadow.normal.x()), 1, 1e-6);
+  const double side = shadow.right.norm();
+  for (const auto& s : shadow.squares) {
+    const auto middle = shadow.middle(s);
+    EXPECT_NEAR(middle.x(), 5, 1e-6);
+    EXPECT_LT(std::abs(middle.y()), 1.25 + side);
+    EXPECT_LT(std::abs(middle.z() - 1.5), 1.25 + side);
+  }
+  double rim = 0;
+  for (const auto& [a, b] : rimOf({shadow.squares.begin(), shadow.squares.end()}))
+    rim += (shadow.corner(a) - shadow.corner(b)).norm();
+  EXPECT_GT(rim, 4 * 2.5 - 1);
+  EXPECT_LT(rim, 2 * 4 * 2.5) << "around it, in steps, and nowhere within";
+}
+
+TEST(RimOfAHole, RunsStraightAroundItAndAroundWhatIsInIt) {
+  std::set<HoleSquare> ring;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (i != 1 || j != 1) ring.insert({i, j});
+  const auto rim = rimOf(ring);
+  EXPECT_EQ(rim.size(), 8U) << "four sides without and four within";
+  int length = 0;
+  for (const auto& [a, b] : rim) length += b[0] - a[0] + b[1] - a[1];
+  EXPECT_EQ(length, 12 + 4);
+}
+
 TEST(Plan, OverlapIsTheCommonSurfaceAsAShareOfTheSmallerView) {
   const auto p = plan(with(room(), {{"S", {-2, 0, 1.5}}, {"T", {2, 0, 1.5}}}));
   ASSERT_EQ(p["pairs"].size(), 1U);

@@ -73,10 +73,17 @@ class Assess : public testing::Test {
 };
 
 TEST_F(Assess, AClosedRoomIsCoveredButForTheDiscBelowTheInstrument) {
-  const auto answer = assess(scanned(with(closedRoom(), "S", {0, 0, 1.5})));
+  const auto page = folder.path() / "q.html";
+  const auto answer = assess(scanned(with(closedRoom(), "S", {0, 0, 1.5})), {{"output", page.string()}});
   EXPECT_NEAR(answer["exposed_m2"].get<double>(), kRoom_m2, 1e-3);
   const double unseen = std::numbers::pi * std::pow(kBlind_m - kRadius_m, 2);
   EXPECT_NEAR(value(answer, "coverage"), 100 * (1 - unseen / kRoom_m2), 0.15);
+  ASSERT_FALSE(answer["patches"].empty());
+  EXPECT_NEAR(answer["patches"][0]["area_m2"].get<double>(), unseen, 0.2);
+  EXPECT_NEAR(std::hypot(answer["patches"][0]["at"][0].get<double>(), answer["patches"][0]["at"][1].get<double>()), 0,
+              0.2);
+  std::ifstream in(page);
+  EXPECT_NE(std::string(std::istreambuf_iterator<char>(in), {}).find("Largest gaps"), std::string::npos);
   const auto worst = row(answer, "coverage")["worst"];
   EXPECT_EQ(worst["product"]["id"], "room");
   EXPECT_NEAR(worst["at"][0].get<double>(), 0, 1);
@@ -251,6 +258,7 @@ TEST_F(Assess, TheReportHasASignAndAWordBesideEachColourAndNothingFromElsewhere)
   EXPECT_THAT(page, HasSubstr("#009E73\">✓</span> good"));
   EXPECT_THAT(page, HasSubstr("S &lt;1&gt; – T"));
   EXPECT_THAT(page, HasSubstr("size:A4"));
+  EXPECT_EQ(page.find("Largest gaps"), std::string::npos) << "nothing is hidden from both";
   EXPECT_EQ(page.find("http"), std::string::npos);
   const auto lines = textOf(csv);
   EXPECT_EQ(static_cast<std::size_t>(std::count(lines.begin(), lines.end(), '\n')), answer["rows"].size() + 1);
