@@ -28,6 +28,7 @@ void reset(Editor& editor) {
   editor.view.points_by = ColourBy::natural;
   editor.view.colour = ColourMode::model;
   editor.view.walkable = false;
+  editor.view.holes = false;
   editor.view.tool = Tool::select;
   editor.preview.close();
   editor.showClouds({});
@@ -160,6 +161,17 @@ void coverageSpacing(Editor& editor) {
   editor.view.colour = ColourMode::coverage_spacing;
 }
 
+// What they do not see, on the plan of the first one's storey.
+void holes(Editor& editor) {
+  survey(editor);
+  editor.wanted_tab[1] = "plan";
+  editor.session.start(PlanOptions{
+      .instrument = editor.scan_choice.instrument, .settings = editor.scan_choice.settings, .samples = 200000});
+  editor.session.wait();
+  editor.update();
+  invoke(editor, "holes-plan");
+}
+
 // What the first station measured last, cut open.
 void scan(Editor& editor) {
   survey(editor);
@@ -229,6 +241,7 @@ constexpr std::array kPictures = {Picture{"1-overview", overview},
                                   Picture{"12-measured", measured},
                                   Picture{"13-coverage", coverage},
                                   Picture{"14-coverage-spacing", coverageSpacing},
+                                  Picture{"18-holes", holes},
                                   Picture{"15-scan", scan},
                                   Picture{"16-points-by-material", pointsByMaterial},
                                   Picture{"17-wall", wall},

@@ -96,6 +96,11 @@ void frame(Camera& camera, const Bounds& bounds, double aspect) {
   camera.distance_m = std::clamp(distance * 1.08, kNearestDistance_m, kFarthestDistance_m);
 }
 
+bool looksStraightDown(const Camera& camera) {
+  constexpr double kStraight = 0.99999;  // a quarter of a degree
+  return -camera.forward().z() > kStraight;
+}
+
 void look(Camera& camera, StandardView view) {
   camera.elevation_rad = 0;
   switch (view) {

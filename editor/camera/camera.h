@@ -50,6 +50,9 @@ void zoom(Camera& camera, double steps, const Eigen::Vector3d& anchor);
 // Shows all of `bounds` without turning.
 void frame(Camera& camera, const Bounds& bounds, double aspect);
 
+// Whether it shows a plan.
+bool looksStraightDown(const Camera& camera);
+
 enum class StandardView { front, back, left, right, top, bottom, corner };
 void look(Camera& camera, StandardView view);
 

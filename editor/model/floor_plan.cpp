@@ -11,7 +11,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr double kSameHeight_m = 0.01, kSameAngle_rad = 1e-3;
+constexpr double kSameHeight_m = 0.01;
 
 // Index of the storey whose floor is the highest that is not above `height_m`, else the lowest.
 std::size_t storeyAt(const std::vector<StoreyLevel>& storeys, double height_m) {
@@ -23,11 +23,7 @@ std::size_t storeyAt(const std::vector<StoreyLevel>& storeys, double height_m) {
 
 std::size_t nextStorey(const Model& model, const std::vector<StoreyLevel>& storeys) {
   const auto& cut = model.visibility.cut_height_m;
-  Camera down;
-  look(down, StandardView::top);
-  const bool is_plan =
-      cut && std::abs(model.view.camera.elevation_rad - down.elevation_rad) < kSameAngle_rad && !model.walk.active();
-  if (is_plan) {
+  if (cut && looksStraightDown(model.view.camera) && !model.walk.active()) {
     const std::size_t shown = storeyAt(storeys, *cut - kCutAboveFloor_m + kSameHeight_m);
     return (shown + 1) % storeys.size();
   }

@@ -42,6 +42,7 @@
 #include "editor/model/selection.h"
 #include "editor/model/session.h"
 #include "editor/model/settings.h"
+#include "editor/model/shown_holes.h"
 #include "editor/model/shown_proof.h"
 #include "editor/model/style.h"
 #include "editor/model/target_list.h"
@@ -121,6 +122,7 @@ struct ViewportState {
   bool edges = true, grid = true, walkable = false, shapes = false, labels = true, shaded_points = false;
   int point_size_px = 2;  // 1 to kMostPointSize_px
   bool room_names = true, labels_through_walls = false;
+  bool holes = false;  // of the coverage that was computed last
   Tool tool = Tool::select;
   std::optional<RayHit> hover;  // under the pointer
   Eigen::Vector3d pivot = Eigen::Vector3d::Zero();
@@ -218,6 +220,7 @@ struct Model : Style {
   std::optional<SimplificationRequest> previewed;  // what a panel asks for
   DeviationView deviation;
   KeptCoverage coverage;
+  HolesInSight holes_in_sight;
   ExpectedView expected;
   ScanOutlookView scan_outlook;
   ScanReadiness scan_readiness;

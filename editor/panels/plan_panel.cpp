@@ -21,7 +21,9 @@ constexpr double kLowOverlap = 0.3;
 std::string percent(double fraction) { return fmt::format("{:.0f} %", fraction * 100); }
 void start(const Model& model, Actions& actions) {
   const auto& [spacing_mm, max_incidence_deg] = model.seen;
-  PlanOptions options{.instrument = model.scan_choice.instrument, .settings = model.scan_choice.settings};
+  constexpr std::size_t kSamples = 200000;  // so that gaps are drawn by squares of some 20 cm in a house
+  PlanOptions options{
+      .instrument = model.scan_choice.instrument, .settings = model.scan_choice.settings, .samples = kSamples};
   if (spacing_mm > 0) options.spacing_m = spacing_mm / 1000;
   if (max_incidence_deg < 90) options.max_incidence_deg = max_incidence_deg;
   actions.start(options, "Plan the scans");
@@ -118,6 +120,7 @@ void drawPairs(const Model& model, const std::vector<PlanPair>& pairs) {
 void drawHoles(const Model& model, Actions& actions, const std::vector<PlanHole>& holes) {
   if (holes.empty()) return;
   ui::heading(model, "Not covered");
+  actions.button("holes-plan", "Show on the plan", -FLT_MIN);
   const auto& products = model.environment()->products;
   for (std::size_t k = 0; k < holes.size(); ++k) {
     const auto& hole = holes[k];

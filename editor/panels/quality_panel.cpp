@@ -179,6 +179,7 @@ void draw(const Model& model, QualityState& state, Actions& actions) {
   drawSave(*answer, actions);
   drawRemedies(*answer);
   drawRows(model, actions, answer->rows);
+  if (!answer->patches.empty()) actions.button("holes-plan", "Show uncovered areas on the plan", -FLT_MIN);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 #include "editor/shell/editor.h"
+#include "editor/shell/holes_overlay.h"
 #include "editor/shell/label_board.h"
 #include "editor/shell/overlay.h"
 #include "editor/widgets/icons.h"
@@ -194,11 +195,13 @@ void drawMarkers(Editor& editor, ImVec2 origin) {
   list.PushClipRect(
       origin,
       {origin.x + static_cast<float>(editor.view.size.x()), origin.y + static_cast<float>(editor.view.size.y())}, true);
+  drawHoles(editor, state, origin);
   drawWay(editor, pen);
   drawPreview(editor, pen);
   drawStations(editor, pen, state);
   drawTargets(editor, pen, state);
   drawRoomNames(editor, pen, state);
+  if (editor.view.labels) nameHoles(editor, state, origin, pen.labels);
   pen.labels.draw(list);
   list.PopClipRect();
 }

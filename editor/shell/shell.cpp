@@ -114,7 +114,7 @@ void viewMenu(Editor& editor) {
   submenu(editor, "", "Look from###menu-look",
           {"frame-all", "view-front", "view-back", "view-right", "view-left", "view-top", "view-before"});
   items(editor, {"view-plan", "view-parallel", "", "hide", "isolate", "show-all", "", "edges", "grid", "walkable",
-                 "shapes", "labels"});
+                 "shapes", "holes", "labels"});
   submenu(editor, "", "Points###menu-points", {"points-larger", "points-smaller", "shaded-points"});
   submenu(editor, "", "More labels###menu-labels", {"room-names", "labels-through-walls"});
   items(editor, {"", "walk", "teleport", "look-from-station"});

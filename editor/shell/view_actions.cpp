@@ -47,6 +47,16 @@ void lookFrom(Editor& e, StandardView view) {
 void frameAll(Editor& e) {
   stopFlying(e);
   stopWalking(e);
+std::string whyNoHoles(const Editor& e) {
+  if (auto why = whyNoModel(e); !why.empty()) return why;
+  return shownHoles(e).patches == nullptr ? "Compute the coverage of the plan, or assess the scans, first" : "";
+}
+void showHolesOnPlan(Editor& e) {
+  e.view.holes = true;
+  e.view.colour = ColourMode::model;
+  e.showClouds({});
+  lookAtNextPlan(e);
+}
   e.bringIntoView(e.buildingBounds());
 }
 // What is said of the selection, each product by what it keeps through an update of the model.
@@ -207,6 +217,9 @@ const std::array kView = {
     Action{"walkable",
            "Walkable area",
            ICON_WALK,
+    Action{
+        "holes", "Gaps in the coverage", "", {}, flip<&ViewportState::holes>, whyNoHoles, isOn<&ViewportState::holes>},
+    Action{"holes-plan", "Gaps on the plan (again: next storey)", ICON_EYE, {}, showHolesOnPlan, whyNoHoles},
            {},
            flip<&ViewportState::walkable>,
            whyNoCollision,

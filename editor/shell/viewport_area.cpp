@@ -13,6 +13,7 @@
 #include "editor/shell/coverage_overlay.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/expected_overlay.h"
+#include "editor/shell/holes_overlay.h"
 #include "editor/shell/inspect_tools.h"
 #include "editor/shell/material_brush.h"
 #include "editor/shell/moving.h"
@@ -301,6 +302,7 @@ void drawViewport(Editor& editor) {
   drawCoverageLegend(editor, origin, size);
   drawPointsLegend(editor, origin, size);
   drawMarkers(editor, both ? right : origin);
+  drawHolesLegend(editor, both ? right : origin, size, hovered);
   drawClip(editor, both ? right : origin);
   drawInspectMarks(editor, both ? right : origin);
   drawOverlay(editor, origin, whole);

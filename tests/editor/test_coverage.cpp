@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -8,6 +9,8 @@
 #include "demo_verbs.h"
 #include "editor/model/coverage_view.h"
 #include "editor/model/expected_view.h"
+#include "editor/model/shown_holes.h"
+#include "editor/shell/actions.h"
 #include "item_probe.h"
 
 namespace standpoint {
@@ -128,6 +131,72 @@ TEST(CoverageMap, IsSwitchedBesideThePlanAndSaysWhyThereIsNone) {
   EXPECT_NE(gui.find("###coverage-of"), nullptr);
   ASSERT_TRUE(gui.click("###map-spacing"));
   EXPECT_EQ(editor.view.colour, ColourMode::model);
+}
+
+class Gaps : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(editor.session.start("demo", nlohmann::json::object()));
+    gui.settle();
+    editor.picker.wait();
+  }
+  void plan() {
+    ASSERT_TRUE(editor.session.start(PlanOptions{.instrument = "leica-rtc360", .samples = 100000}));
+    gui.settle();
+  }
+  // The floor that is shown the nearest to the middle of the view, and a place on it.
+  std::pair<const PlanPatch*, Eigen::Vector3d> shownFloor() {
+    std::pair<const PlanPatch*, Eigen::Vector3d> found{nullptr, Eigen::Vector3d::Zero()};
+    double least = 1e9;
+    const auto holes = shownHoles(editor);
+    for (const auto& hole : editor.holes_in_sight.of(editor, *holes.patches, editor.viewState())) {
+      const auto pixel = project(editor.view.camera, hole.middle, editor.view.size);
+      if (hole.patch->shape.normal.z() < 0.9 || !pixel) continue;
+      const double away = (*pixel - editor.view.size / 2).norm();
+      if (away < least) least = away, found = {hole.patch, hole.middle};
+    }
+    return found;
+  }
+  Editor editor{verbsWithDemo(), [] {}};
+  GuiDriver gui{editor};
+};
+
+TEST_F(Gaps, AreThereOnceTheCoverageIsComputedAndGoWhenTheProjectChanges) {
+  EXPECT_EQ(shownHoles(editor).patches, nullptr);
+  EXPECT_NE(whyNot(*findAction("holes-plan"), editor), "");
+  plan();
+  ASSERT_NE(shownHoles(editor).patches, nullptr);
+  EXPECT_FALSE(shownHoles(editor).measured);
+  ASSERT_TRUE(invoke(editor, "holes-plan"));
+  gui.frames(2);
+  EXPECT_TRUE(editor.view.holes);
+  EXPECT_TRUE(looksStraightDown(editor.view.camera));
+  ASSERT_NE(shownFloor().first, nullptr);
+  EXPECT_LT(shownFloor().second.z(), *editor.visibility.cut_height_m);
+  ASSERT_TRUE(editor.session.start(StationOptions{.remove = "S1"}));
+  gui.settle();
+  EXPECT_EQ(shownHoles(editor).patches, nullptr) << "nothing sees what it saw";
+}
+
+TEST_F(Gaps, SayUnderThePointerWhatTheyAreOf) {
+  plan();
+  ASSERT_TRUE(invoke(editor, "holes-plan"));
+  gui.frames(3);
+  const auto [patch, square] = shownFloor();
+  ASSERT_NE(patch, nullptr);
+  const auto* scene = gui.find("###scene");
+  ASSERT_NE(scene, nullptr);
+  const auto pixel = project(editor.view.camera, square, editor.view.size);
+  ASSERT_TRUE(pixel);
+  gui.moveTo({scene->rect.Min.x + static_cast<float>(pixel->x()), scene->rect.Min.y + static_cast<float>(pixel->y())});
+  gui.frames(2);
+  itemProbe().listens = true;
+  gui.frame();
+  itemProbe().listens = false;
+  const auto told = std::find_if(itemProbe().texts.begin(), itemProbe().texts.end(),
+                                 [](const auto& t) { return t.find("Not covered: ") != std::string::npos; });
+  ASSERT_NE(told, itemProbe().texts.end());
+  EXPECT_NE(told->find(" m² of "), std::string::npos) << *told;
 }
 
 }  // namespace
