@@ -20,8 +20,8 @@ double carryingTime_s(const InstrumentBody& body, double distance_m) {
   return distance_m / kPace_mps + (body.mount == Mount::tribrach ? kOnTribrach_s : kOnClamp_s);
 }
 
-StandingScene StandingKeeper::of(const Job& job, const HeldInstrument& held, const Eigen::Vector3d& eye,
-                                 const std::function<bool(const Station&)>& kept) {
+StandingScene StandingKeeper::of(const Job& job, const HeldInstrument& held, std::string_view planned,
+                                 const Eigen::Vector3d& eye, const std::function<bool(const Station&)>& kept) {
   std::vector<std::pair<double, const Station*>> near;
   for (const auto& station : job.stations) {
     const double away_m = (station.true_pose.translation - eye).norm();
@@ -40,7 +40,7 @@ StandingScene StandingKeeper::of(const Job& job, const HeldInstrument& held, con
     else if (!held.instrument.empty() && station->name == held.station)
       scene.working = WorkingInstrument{standing(*station, held.instrument), held.motion};
     else
-      still.still.push_back(standing(*station, station->scans.empty() ? "" : station->scans.back().instrument));
+      still.still.push_back(standing(*station, station->scans.empty() ? planned : station->scans.back().instrument));
   if (!still_ || !(*still_ == still)) still_ = std::make_shared<const InstrumentsInScene>(std::move(still));
   scene.still = still_->still.empty() ? nullptr : still_;
   return scene;

@@ -72,7 +72,8 @@ struct WorkingInstrument {
 constexpr double kInsideInstrument_m = 0.3;  // of its centre: whoever is nearer looks out of it
 
 // Which stations have an instrument on them in a picture taken from `eye`: those nearest to it, but none that it is
-// inside of. A station shows what the desk has on it, else what its newest scan was made with, else the generic one.
+// inside of. A station shows what the desk has on it, else what its newest scan was made with, else what would scan
+// there: `planned`.
 constexpr std::size_t kMostInstruments = 40;
 struct StandingScene {
   std::shared_ptr<const InstrumentsInScene> still;  // the same pointer as long as nothing of it changes
@@ -81,7 +82,7 @@ struct StandingScene {
 class StandingKeeper {
  public:
   // `kept`: whether what has its centre there is in the picture.
-  StandingScene of(const Job& job, const HeldInstrument& held, const Eigen::Vector3d& eye,
+  StandingScene of(const Job& job, const HeldInstrument& held, std::string_view planned, const Eigen::Vector3d& eye,
                    const std::function<bool(const Station&)>& kept);
 
  private:

@@ -392,7 +392,7 @@ ViewState Model::viewState() const {
       return (!state.cut_height_m || centre.z() - s.instrument_height_m < *state.cut_height_m) &&
              (!state.clip || state.clip->contains(centre));
     };
-    auto scene = standing_.of(*document.job, held, view.camera.eye(), kept);
+    auto scene = standing_.of(*document.job, held, scan_choice.instrument, view.camera.eye(), kept);
     state.instruments = std::move(scene.still);
     state.working = std::move(scene.working);
     if (state.working && state.working->stands.body->display_m.x() > 0) state.display = display;

@@ -122,7 +122,7 @@ Job jobOf(std::size_t stations) {
 
 const auto kAll = [](const Station&) { return true; };
 
-TEST(StandingInstruments, ShowTheDesksElseTheNewestScansElseAPlainOne) {
+TEST(StandingInstruments, ShowTheDesksElseTheNewestScansElseThePlannedOne) {
   auto job = jobOf(3);
   job.stations[1].scans.resize(2);
   job.stations[1].scans[0].instrument = "leica-rtc360";
@@ -132,10 +132,10 @@ TEST(StandingInstruments, ShowTheDesksElseTheNewestScansElseAPlainOne) {
   held.instrument = "riegl-vz-400i";
   held.station = "K2";
   held.motion.head_rad = 1;
-  const auto scene = keeper.of(job, held, {0, -10, 1.6}, kAll);
+  const auto scene = keeper.of(job, held, "trimble-x7", {0, -10, 1.6}, kAll);
   ASSERT_TRUE(scene.still && scene.working);
   ASSERT_EQ(scene.still->still.size(), 2U);
-  EXPECT_EQ(scene.still->still[0].body->id, "generic");
+  EXPECT_EQ(scene.still->still[0].body->id, "trimble-x7") << "which would scan there";
   EXPECT_EQ(scene.still->still[1].body->id, "faro-focus");
   EXPECT_EQ(scene.working->stands.body->id, "riegl-vz");
   EXPECT_EQ(scene.working->motion.head_rad, 1);
@@ -145,17 +145,21 @@ TEST(StandingInstruments, ShowTheDesksElseTheNewestScansElseAPlainOne) {
 TEST(StandingInstruments, KeepTheirPointerWhileNothingChangesAndLeaveOutTheOneThatIsLookedOutOf) {
   const auto job = jobOf(3);
   StandingKeeper keeper;
-  const auto first = keeper.of(job, {}, {0, -10, 1.6}, kAll), again = keeper.of(job, {}, {1, -9, 1.6}, kAll);
+  const auto first = keeper.of(job, {}, "", {0, -10, 1.6}, kAll), again = keeper.of(job, {}, "", {1, -9, 1.6}, kAll);
   EXPECT_EQ(first.still, again.still);
-  EXPECT_EQ(keeper.of(job, {}, {3, 0.05, 1.6}, kAll).still->still.size(), 2U);
-  EXPECT_EQ(keeper.of(job, {}, {0, -10, 1.6}, [](const Station& s) { return s.name == "K1"; }).still->still.size(), 1U);
-  EXPECT_EQ(keeper.of({}, {}, {0, 0, 0}, kAll).still, nullptr);
+  EXPECT_EQ(keeper.of(job, {}, "", {3, 0.05, 1.6}, kAll).still->still.size(), 2U);
+  EXPECT_EQ(keeper.of(job, {}, "", {0, -10, 1.6}, [](const Station& s) { return s.name == "K1"; }).still->still.size(),
+            1U);
+  EXPECT_EQ(keeper.of({}, {}, "", {0, 0, 0}, kAll).still, nullptr);
+  const auto planned = keeper.of(job, {}, "faro-focus-s350", {0, -10, 1.6}, kAll);
+  EXPECT_NE(planned.still, first.still) << "another instrument is chosen";
+  EXPECT_EQ(first.still->still[0].body->id, "generic") << "none is";
 }
 
 TEST(StandingInstruments, OfManyAreTheNearest) {
   const auto job = jobOf(3 * kMostInstruments);
   StandingKeeper keeper;
-  const auto scene = keeper.of(job, {}, {0, -1, 1.6}, kAll);
+  const auto scene = keeper.of(job, {}, "", {0, -1, 1.6}, kAll);
   ASSERT_EQ(scene.still->still.size(), kMostInstruments);
   EXPECT_EQ(scene.still->still.back().centre_m.x(), 3.0 * (kMostInstruments - 1));
 }

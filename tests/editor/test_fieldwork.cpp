@@ -34,7 +34,7 @@ class Fieldworker : public ::testing::Test {
   }
   // Seen from afar: whoever stands in an instrument does not see it.
   std::size_t bodies() {
-    const auto scene = StandingKeeper().of(*editor.session.document().job, editor.held, {0, -20, 5},
+    const auto scene = StandingKeeper().of(*editor.session.document().job, editor.held, "", {0, -20, 5},
                                            [](const Station&) { return true; });
     return (scene.still ? scene.still->still.size() : 0) + (scene.working ? 1 : 0);
   }
