@@ -7,14 +7,17 @@
 
 #include <fmt/format.h>
 
+#include "core/units.h"
 #include "editor/instrument/preview_picture.h"
 #include "editor/words/words.h"
 #include "emulated-ui/classroom/dates.h"
 #include "emulated-ui/classroom/signed_result.h"
+#include "emulated-ui/device/definition.h"
 #include "emulated-ui/rehearsal/marks.h"
 #include "emulated-ui/sighting.h"
 #include "project/storage/project_files.h"
 #include "survey/instruments.h"
+#include "survey/scanning/field_fault.h"
 
 namespace standpoint {
 
@@ -120,6 +123,20 @@ void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& de
     return;
   }
   desk.scanners = scannersOf(**type);
+void standBy(InstrumentDesk& desk, const Document& document, const std::optional<Eigen::Vector3d>& feet) {
+  if (!feet) return act(desk, {Kind::hand, "step_behind", "", 0, {}});
+  const auto* phase = findPhase(desk.shown()->type().definition, desk.shown()->state().phase);
+  const auto* station = stationOf(document, desk.shown()->state().around.station);
+  if (phase == nullptr || !phase->laser || station == nullptr) return;
+  const Eigen::Vector3d p = station->true_pose.rotation.conjugate() * (*feet - station->true_pose.translation);
+  const double away_m = std::clamp(p.head<2>().norm(), FieldFault::kNearest_m, FieldFault::kFarthest_m);
+  act(desk, {Kind::hand,
+             "stand_in_view",
+             fmt::format("{:.2f},{:.1f}", away_m, -std::atan2(p.y(), p.x()) / kRadPerDeg),
+             0,
+             {}});
+}
+
   desk.host = std::make_unique<DeviceHost>(*std::move(type), editor.session.document(), editor.wake);
   // A device that remembers no choice begins in the editor's language; in an exercise in that of the exercise.
   auto& state = desk.host->device().change();

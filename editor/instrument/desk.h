@@ -114,6 +114,9 @@ void advance(InstrumentDesk& desk, Editor& editor);
 // Whether somebody in the scene is near enough to its instrument to see what the display on its body shows.
 bool displayIsSeen(const InstrumentDesk& desk, const Editor& editor);
 
+// Whoever works with it has gone out of its sight, or, with feet (local frame), into it: that is in the picture only
+// while it scans, as whoever starts it has the time to go.
+void standBy(InstrumentDesk& desk, const Document& document, const std::optional<Eigen::Vector3d>& feet);
 // From now on an exercise has a say in what happens to the session's document, and what is done there in the survey
 // belongs to the exercise that runs or is recorded; the session can say what the device works on. The desk must live as
 // long as the session has something to do.

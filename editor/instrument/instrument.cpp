@@ -197,6 +197,9 @@ InstrumentDesk& attachInstrument(Editor& editor) {
   editor.fieldwork.spend = [panel](double seconds) {
     if (panel->desk().shown() != nullptr) act(panel->desk(), {RehearsalAction::Kind::wait, "", "", seconds, {}});
   };
+  editor.fieldwork.stand = [panel, &editor](const std::optional<Eigen::Vector3d>& feet) {
+    if (panel->desk().shown() != nullptr) standBy(panel->desk(), documentOf(panel->desk(), editor), feet);
+  };
   return panel->desk();
 }
 

@@ -9,6 +9,7 @@
 #include "editor/model/model.h"
 #include "editor/model/station_steps.h"
 #include "editor/model/walking.h"
+#include "editor/walking/hiding.h"
 #include "editor/words/words.h"
 #include "project/survey/survey_verbs.h"
 
@@ -38,14 +39,17 @@ Eigen::Vector3d ahead(const Model& model) {
   return way.norm() > 1e-6 ? Eigen::Vector3d(way.normalized()) : Eigen::Vector3d(0, 1, 0);
 }
 
+Eigen::Vector3d footOf(const Station& station) {
+  return station.true_pose.translation - Eigen::Vector3d(0, 0, station.instrument_height_m);
+}
+
 const Station* stationNear(const Model& model, const Eigen::Vector3d& floor) {
   const auto& job = model.session.document().job;
   if (!job) return nullptr;
   const Station* nearest = nullptr;
   double least = kSamePlace_m;
   for (const auto& s : job->stations) {
-    const Eigen::Vector3d foot = s.true_pose.translation - Eigen::Vector3d(0, 0, s.instrument_height_m);
-    if (const double away = (foot - floor).norm(); away < least) least = away, nearest = &s;
+    if (const double away = (footOf(s) - floor).norm(); away < least) least = away, nearest = &s;
   }
   return nearest;
 }
@@ -55,8 +59,7 @@ const Station* stationNear(const Model& model, const Eigen::Vector3d& floor) {
 bool instrumentInReach(const Model& model) {
   const auto* station = heldStation(model);
   if (station == nullptr || !model.walk.active()) return false;
-  const Eigen::Vector3d foot = station->true_pose.translation - Eigen::Vector3d(0, 0, station->instrument_height_m);
-  const Eigen::Vector3d away = foot - model.walk.feet();
+  const Eigen::Vector3d away = footOf(*station) - model.walk.feet();
   return away.head<2>().norm() < kReach_m && std::abs(away.z()) < 1;
 }
 
@@ -119,6 +122,63 @@ bool putUpSphere(Model& model) {
   if (!model.session.start(options, trf("Add target {}", name))) return false;
   if (model.fieldwork.spend) model.fieldwork.spend(kPutUpTarget_s);
   return true;
+}
+
+namespace {
+
+std::string whyNotWalkBy(const Model& model) {
+  if (!model.walk.active()) return "Walk in the model first: W";
+  if (model.held.carried) return "Put the instrument down first: G";
+  if (heldStation(model) == nullptr) return "The instrument stands at no station";
+  return {};
+}
+
+Body bodyOfWalker(const Model& model) {
+  return {model.walker.radius_m, model.walk.uprightEyes_m() + Walker::kCrownAboveEyes_m};
+}
+
+// There at once in the picture, and after the time of the way on the device's clock; looks that way.
+bool walkTo(Model& model, const WalkAim& aim, const Eigen::Vector3d& looks) {
+  const auto ground = model.walk_ground.of(model.session.document(), model.walker);
+  StartPlace place{aim.feet, {}};
+  if (looks.head<2>().norm() > 1e-6) place.facing = looks.head<2>().normalized();
+  rememberView(model);
+  if (!model.walk.start(ground, model.walker, place, model.view.camera)) return false;
+  if (model.fieldwork.spend) model.fieldwork.spend(walkingTime_s(aim.way_m));
+  return true;
+}
+
+}  // namespace
+
+std::string whyNotStepOutOfSight(const Model& model) {
+  if (auto why = whyNotWalkBy(model); !why.empty()) return why;
+  return model.picker.ready() ? "" : "Preparing the model for ray tracing …";
+}
+
+std::string stepOutOfSight(Model& model) {
+  if (auto why = whyNotStepOutOfSight(model); !why.empty()) return why;
+  const auto& centre = heldStation(model)->true_pose.translation;
+  const auto aim =
+      nearestHiding(model.walk.ground().map, *model.picker.scene(), centre, model.walk.feet(), bodyOfWalker(model));
+  if (!aim) return "The instrument sees every place that can be walked to";
+  if (!walkTo(model, *aim, aim->feet - centre)) return "Not enough room to stand";
+  if (model.fieldwork.stand) model.fieldwork.stand({});
+  return {};
+}
+
+std::string whyNotReturn(const Model& model) {
+  if (auto why = whyNotWalkBy(model); !why.empty()) return why;
+  return instrumentInReach(model) ? "The instrument is within reach" : "";
+}
+
+std::string returnToInstrument(Model& model) {
+  if (auto why = whyNotReturn(model); !why.empty()) return why;
+  const auto& station = *heldStation(model);
+  const auto aim = nearestBeside(model.walk.ground().map, footOf(station), model.walk.feet());
+  if (!aim) return "No way leads to the instrument";
+  if (!walkTo(model, *aim, station.true_pose.translation - aim->feet)) return "Not enough room to stand";
+  if (model.fieldwork.stand) model.fieldwork.stand(model.walk.feet());
+  return {};
 }
 
 std::string freeTargetName(const Job* job) {

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
+
+#include <Eigen/Core>
 
 #include "core/survey.h"
 
@@ -17,6 +20,8 @@ struct Fieldwork {
   // Of the desk: carries its instrument to a station, and lets time pass on its clock. Empty: there is no desk.
   std::function<void(const std::string& station)> carry;
   std::function<void(double seconds)> spend;
+  // Of the desk: somebody stands at `feet`, local frame, in the view of its instrument; nothing: out of its sight.
+  std::function<void(const std::optional<Eigen::Vector3d>& feet)> stand;
 };
 
 constexpr double kPutUpTarget_s = 40;  // our own estimate: a magnet or a small tripod
@@ -34,6 +39,12 @@ void pickUpInstrument(Model& model);
 void putDownInstrument(Model& model);
 // On what is looked at, not farther than an arm's reach and two steps; false where there is nothing.
 bool putUpSphere(Model& model);
+// Walks to the nearest place that the instrument does not see, and back within reach of it; both take their time on its
+// clock. "" or why nobody went.
+std::string whyNotStepOutOfSight(const Model& model);
+std::string stepOutOfSight(Model& model);
+std::string whyNotReturn(const Model& model);
+std::string returnToInstrument(Model& model);
 std::string freeTargetName(const Job* job);  // "T1", "T2", …; null: there is no job
 // To be called once a frame.
 void followFieldwork(Model& model);

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "editor/shell/actions.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/overlay.h"
 #include "editor/shell/view_pen.h"
@@ -68,7 +69,12 @@ void clickWalking(Editor& editor) {
 
 namespace {
 
-// What hands do: with the instrument, and with a sphere.
+void invokeOrSay(Editor& editor, const char* id) {
+  if (const auto why = whyNot(*findAction(id), editor); !why.empty()) return editor.say(tr(why));
+  invoke(editor, id);
+}
+
+// What hands do: with the instrument, and with a sphere; and going out of its sight.
 void handleHands(Editor& editor) {
   if (editor.fieldwork.at_screen) {
     if (keyboard::pressed('F')) lookUp(editor);
@@ -81,6 +87,8 @@ void handleHands(Editor& editor) {
     if (const auto why = whyNotPickUp(editor); !why.empty()) return editor.say(tr(why));
     return pickUpInstrument(editor);
   }
+  if (keyboard::pressed('H')) return invokeOrSay(editor, "step-out-of-sight");
+  if (keyboard::pressed('R')) return invokeOrSay(editor, "return-to-instrument");
   if (keyboard::pressed('B') && !putUpSphere(editor)) editor.say(tr("No surface within 3 m to put a sphere on"));
 }
 
@@ -136,7 +144,7 @@ void handleWheel(Editor& editor, ImVec2 origin) {
 bool movesByKey(const Editor& editor, int key) {
   const bool letter = key > 0 && key < 128;
   if (editor.fieldwork.at_screen && key == 'F') return true;
-  if (editor.view.tool == Tool::walk && letter && std::strchr("FGB", key) != nullptr) return true;
+  if (editor.view.tool == Tool::walk && letter && std::strchr("FGBHR", key) != nullptr) return true;
   return moves(editor) && letter && std::strchr("WASDCEQ", key) != nullptr;
 }
 
@@ -155,6 +163,13 @@ void movingChips(Editor& editor) {
   ImGui::SameLine();
   if (field("###view-angle", angle, {.kind = kAngle, .decimals = 0, .drag = 0.5}, "Vertical angle of view"))
     editor.walk.setViewAngle(angle, editor.view.camera);
+  if (editor.held.instrument.empty()) return;
+  ImGui::SameLine();
+  const float side = ImGui::GetFrameHeight();
+  drawPlate(editor, ImGui::GetCursorScreenPos(), {2 * side + ImGui::GetStyle().ItemSpacing.x, side});
+  actionToolButton(editor, "step-out-of-sight");
+  actionToolButton(editor, "return-to-instrument");
+  ImGui::NewLine();
 }
 
 const char* movingHint(const Editor& editor) {
@@ -164,7 +179,11 @@ const char* movingHint(const Editor& editor) {
   if (editor.view.tool != Tool::walk) return nullptr;
   if (editor.held.carried) return "G to put the instrument down here   W A S D to walk, Shift to run   Esc to leave";
   if (instrumentInReach(editor))
-    return "F to look at the instrument's screen, G to carry it, B to put up a sphere   W A S D to walk   Esc to leave";
+    return "F to look at the instrument's screen, G to carry it, H to step out of its sight, B to put up a sphere   "
+           "W A S D to walk   Esc to leave";
+  if (!editor.held.instrument.empty() && !editor.walk.doorInReach(editor.view.camera))
+    return "R to return to the instrument, H to step out of its sight   W A S D to walk, T to teleport, B to put up a "
+           "sphere   Esc to leave";
   return editor.walk.doorInReach(editor.view.camera)
              ? "E to open or close the door   W A S D to walk, Shift to run, C to crouch, T to teleport   Esc to leave"
              : "W A S D to walk, Shift to run, C to crouch, T to teleport, B to put up a sphere   Esc to leave";

@@ -28,6 +28,9 @@ std::string whyNotLarger(const Editor& e) {
   return e.view.point_size_px < kMostPointSize_px ? "" : "A point covers 8 pixels each way already";
 }
 std::string whyNotSmaller(const Editor& e) { return e.view.point_size_px > 1 ? "" : "A point is one pixel already"; }
+void sayRefused(Editor& e, const std::string& why) {
+  if (!why.empty()) e.say(tr(why));
+}
 void walk(Editor& e) {
   if (e.view.tool == Tool::walk) return;  // its key is the one to go ahead
   startWalking(e);
@@ -44,9 +47,6 @@ void lookFrom(Editor& e, StandardView view) {
   e.view.camera.orthographic = view != StandardView::corner;
   frame(e.view.camera, e.buildingBounds(), e.view.size.x() / std::max(e.view.size.y(), 1.0));
 }
-void frameAll(Editor& e) {
-  stopFlying(e);
-  stopWalking(e);
 std::string whyNoHoles(const Editor& e) {
   if (auto why = whyNoModel(e); !why.empty()) return why;
   return shownHoles(e).patches == nullptr ? "Compute the coverage of the plan, or assess the scans, first" : "";
@@ -57,6 +57,9 @@ void showHolesOnPlan(Editor& e) {
   e.showClouds({});
   lookAtNextPlan(e);
 }
+void frameAll(Editor& e) {
+  stopFlying(e);
+  stopWalking(e);
   e.bringIntoView(e.buildingBounds());
 }
 // What is said of the selection, each product by what it keeps through an update of the model.
@@ -214,12 +217,12 @@ const std::array kView = {
            flip<&ViewportState::labels_through_walls>,
            nullptr,
            isOn<&ViewportState::labels_through_walls>},
-    Action{"walkable",
-           "Walkable area",
-           ICON_WALK,
     Action{
         "holes", "Gaps in the coverage", "", {}, flip<&ViewportState::holes>, whyNoHoles, isOn<&ViewportState::holes>},
     Action{"holes-plan", "Gaps on the plan (again: next storey)", ICON_EYE, {}, showHolesOnPlan, whyNoHoles},
+    Action{"walkable",
+           "Walkable area",
+           ICON_WALK,
            {},
            flip<&ViewportState::walkable>,
            whyNoCollision,
@@ -239,6 +242,18 @@ const std::array kView = {
            [](const Editor& e) {
              return e.walk.doorInReach(e.view.camera) ? std::string() : std::string("Walk up to a door first");
            }},
+    Action{"step-out-of-sight",
+           "Step out of sight of the scanner (H)",
+           ICON_EYE_OFF,
+           {},
+           [](Editor& e) { sayRefused(e, stepOutOfSight(e)); },
+           [](const Editor& e) { return whyNotStepOutOfSight(e); }},
+    Action{"return-to-instrument",
+           "Return to the scanner (R)",
+           ICON_UNDO,
+           {},
+           [](Editor& e) { sayRefused(e, returnToInstrument(e)); },
+           [](const Editor& e) { return whyNotReturn(e); }},
     Action{"teleport",
            "Teleport: click where to stand (hold T)",
            ICON_CROSSHAIRS,

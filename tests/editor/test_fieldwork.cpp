@@ -6,6 +6,7 @@
 #include "editor/instrument/desk.h"
 #include "editor/model/fieldwork.h"
 #include "editor/model/walking.h"
+#include "editor/walking/hiding.h"
 #include "editor/widgets/keyboard.h"
 #include "item_probe.h"
 
@@ -22,6 +23,7 @@ class Fieldworker : public ::testing::Test {
     editor.held.station = station().name;
     editor.fieldwork.carry = [this](const std::string& to) { carried_to = to; };
     editor.fieldwork.spend = [this](double seconds) { spent_s += seconds; };
+    editor.fieldwork.stand = [this](const std::optional<Eigen::Vector3d>& feet) { stood.push_back(feet.has_value()); };
     editor.picker.wait();
   }
   const Station& station() { return editor.session.document().job->stations.front(); }
@@ -42,6 +44,7 @@ class Fieldworker : public ::testing::Test {
   GuiDriver gui{editor};
   std::string carried_to;
   double spent_s = 0;
+  std::vector<bool> stood;  // in the instrument's view
 };
 
 TEST_F(Fieldworker, LooksAtTheInstrumentsScreenAndUpAgainFromWhereHeStands) {
@@ -131,6 +134,80 @@ TEST_F(Fieldworker, PutsUpASphereOnTheFloorAndThatTakesTime) {
   ASSERT_EQ(editor.session.document().job->targets.size(), targets + 1);
   EXPECT_EQ(editor.session.document().job->targets.back().kind, TargetKind::sphere);
   EXPECT_EQ(spent_s, kPutUpTarget_s);
+}
+
+// Of a column as wide and high as somebody, the share of whose skin a beam of the instrument would meet.
+double seenShare(const RayScene& scene, const Eigen::Vector3d& eye, const Eigen::Vector3d& feet) {
+  int all = 0, met = 0;
+  for (double height = 0.05; height < 1.75; height += 0.1)
+    for (double angle = 0; angle < 6.28; angle += 0.2) {
+      const Eigen::Vector3d p = feet + Eigen::Vector3d(0.25 * std::cos(angle), 0.25 * std::sin(angle), height);
+      const double range = (p - eye).norm();
+      ++all;
+      met += scene.intersect(eye, (p - eye) / range, range) ? 0 : 1;
+    }
+  return static_cast<double>(met) / all;
+}
+
+TEST_F(Fieldworker, StepsOutOfTheInstrumentsSightAndReturnsToIt) {
+  walk();
+  const auto scene = editor.picker.scene();
+  const Eigen::Vector3d eye = station().true_pose.translation, began = editor.walk.feet();
+  ASSERT_GT(seenShare(*scene, eye, began), 0.3);
+  gui.key('H');
+  gui.frames(2);
+  ASSERT_TRUE(editor.walk.active());
+  const Eigen::Vector3d hidden = editor.walk.feet();
+  EXPECT_LT(seenShare(*scene, eye, hidden), 0.03) << hidden.transpose();
+  EXPECT_GE(spent_s, (hidden - began).norm() / 1.2 - 0.1) << "the way there takes its time on the device's clock";
+  EXPECT_LT(spent_s, 60);
+  EXPECT_EQ(stood, std::vector<bool>{false});
+  EXPECT_FALSE(instrumentInReach(editor));
+  const double out_s = spent_s;
+  gui.key('R');
+  gui.frames(2);
+  EXPECT_TRUE(instrumentInReach(editor));
+  EXPECT_GT(spent_s, out_s);
+  EXPECT_EQ(stood, (std::vector<bool>{false, true}));
+  EXPECT_NE(whyNotReturn(editor), "") << "one is there";
+  editor.held.carried = true;
+  EXPECT_NE(whyNotStepOutOfSight(editor), "") << "nothing looks while it is carried";
+}
+
+TEST(Hiding, IsBehindWhatStandsThereAndNotBehindGlass) {
+  auto e = std::make_shared<Environment>();
+  e->surfaces = {{"grey", {0.5F, 0.5F, 0.5F, 1}}, {"glass", {0.8F, 0.9F, 1, 0.3F}}};
+  const auto board = [&](float y, std::uint32_t surface) {
+    auto mesh = std::make_shared<Mesh>();
+    mesh->positions = {{2, y - 1, 0}, {2, y + 1, 0}, {2, y + 1, 2.5F}, {2, y - 1, 2.5F}};
+    mesh->triangles = {{0, 1, 2}, {0, 2, 3}};
+    mesh->surface_of_triangle = {surface, surface};
+    const auto number = static_cast<std::uint32_t>(e->meshes.size());
+    e->meshes.push_back(mesh);
+    e->products.emplace_back();
+    e->instances.push_back({number, number, Eigen::Affine3d::Identity()});
+  };
+  board(-2, 1);
+  board(2, 0);
+  Progress progress;
+  const auto scene = *RayScene::build(e, progress);
+  Mesh floor;
+  floor.positions = {{-3, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-3, 4, 0}};
+  floor.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const WalkableMap map(floor);
+  const Eigen::Vector3d eye(0, 0, 1.7);
+  const Body body{0.25, 1.7};
+  EXPECT_TRUE(isInBeam(*scene, eye, {3, -3, 0}, body)) << "through the pane";
+  const auto aim = nearestHiding(map, *scene, eye, {0.5, 0, 0}, body);
+  ASSERT_TRUE(aim);
+  EXPECT_GT(aim->feet.x(), 2);
+  EXPECT_GT(aim->feet.y(), 1);
+  EXPECT_NEAR(aim->way_m, (aim->feet - Eigen::Vector3d(0.5, 0, 0)).norm(), 0.3);
+  Mesh open;
+  open.positions = {{-3, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-3, 1, 0}};
+  open.triangles = {{0, 1, 2}, {0, 2, 3}};
+  EXPECT_FALSE(nearestHiding(WalkableMap(open), *scene, eye, {0.5, 0, 0}, body)) << "all of it is seen";
+  EXPECT_FALSE(nearestHiding(map, *scene, eye, {30, 0, 0}, body)) << "where nobody can walk";
 }
 
 TEST_F(Fieldworker, LeavesInstrumentsOutOfPicturesThatAreTakenFromWhereTheyStand) {

@@ -356,6 +356,25 @@ class OwnLayout : public testing::Test {
     std::ofstream(folder_.path() / "leica-rtc360.json", std::ios::binary) << layout.dump(1);
     // A file system that counts in seconds would not tell two writes apart.
     std::filesystem::last_write_time(
+TEST_F(Desk, PutsWhoeverReturnsIntoThePictureOnlyWhileItScans) {
+  begin("E14");
+  auto& device = desk.rehearsal->device();
+  const auto& document = desk.rehearsal->document();
+  const auto& station = document.job->stations.front();
+  const Eigen::Vector3d feet = station.true_pose * Eigen::Vector3d(0, -2, -1.5);
+  ASSERT_EQ(device.state().around.station, station.name);
+  standBy(desk, document, feet);
+  EXPECT_FALSE(device.state().around.operator_in_view) << "there is time to go before a scan begins";
+  for (const auto& phase : device.type().definition.phases)
+    if (phase.laser) device.change().phase = phase.id;
+  standBy(desk, document, feet);
+  ASSERT_TRUE(device.state().around.operator_in_view) << desk.said;
+  EXPECT_NEAR(device.state().around.operator_place.away_m, 2, 0.01);
+  EXPECT_NEAR(device.state().around.operator_place.azimuth_deg.value_or(0), 90, 0.1) << "clockwise from X";
+  standBy(desk, document, {});
+  EXPECT_FALSE(device.state().around.operator_in_view);
+}
+
         folder_.path() / "leica-rtc360.json",
         std::filesystem::file_time_type::clock::now() + ++later_ * std::chrono::seconds(2));
   }
