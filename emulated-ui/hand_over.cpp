@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/part_file.h"
-#include "core/report.h"
 #include "emulated-ui/device/linking.h"
 #include "pointclouds/files/file_access.h"
 #include "pointclouds/formats.h"
@@ -34,7 +33,7 @@ Result<void> copyFile(const fs::path& from, const fs::path& to, Progress& progre
 }
 
 Result<void> copyLinked(const fs::path& from, const fs::path& to, const Pose& moved, const Eigen::Vector3d& shift_m,
-                        Progress& progress) {
+                        Report& report, Progress& progress) {
   const auto linked = [&](const ScanHeader& header) -> Result<Pose> {
     Pose pose = header.file_from_scanner;
     pose.translation -= shift_m;
@@ -42,12 +41,10 @@ Result<void> copyLinked(const fs::path& from, const fs::path& to, const Pose& mo
     pose.translation += shift_m;
     return pose;
   };
-  Report report;
   return copyPosed(from, to, linked, "link", report, progress);
 }
 
-Result<void> convert(const fs::path& from, const fs::path& to, Progress& progress) {
-  Report report;
+Result<void> convert(const fs::path& from, const fs::path& to, Report& report, Progress& progress) {
   TRY(convertCloud(from, to, "", report, progress));
   return {};
 }
@@ -79,7 +76,7 @@ bool isHandedOver(const StoredSetup& setup, const fs::path& office) {
 }
 
 Result<void> handOver(const TransferOrder& order, const LinkedPlaces& links, const Eigen::Vector3d& shift_m,
-                      const fs::path& office, Progress& progress) {
+                      const fs::path& office, Report& report, Progress& progress) {
   std::error_code error;
   fs::create_directories(office, error);
   if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), office.string());
@@ -94,9 +91,9 @@ Result<void> handOver(const TransferOrder& order, const LinkedPlaces& links, con
     if (!order.extension.empty()) to.replace_extension(order.extension);
     const auto moved = links.find(file);
     if (moved != links.end())
-      TRY(copyLinked(from, to, moved->second, shift_m, progress));
+      TRY(copyLinked(from, to, moved->second, shift_m, report, progress));
     else
-      TRY(order.extension.empty() ? copyFile(from, to, progress) : convert(from, to, progress));
+      TRY(order.extension.empty() ? copyFile(from, to, progress) : convert(from, to, report, progress));
   }
   return {};
 }

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "core/progress.h"
+#include "core/report.h"
 #include "core/result.h"
 #include "core/survey.h"
 #include "emulated-ui/device/orders.h"
@@ -30,8 +31,9 @@ bool isHandedOver(const StoredSetup& setup, const std::filesystem::path& office)
 
 // Copies the order's scans to a folder, which is made where it is missing: byte for byte where the links leave a scan
 // where it is and no other format is asked for; else converted, with the pose that the links give it and the true one
-// beside it where the scan holds the truth. A copy that was broken off is not taken for a whole one.
+// beside it where the scan holds the truth. What the other format cannot hold is in the report. A copy that was
+// broken off is not taken for a whole one.
 Result<void> handOver(const TransferOrder& order, const LinkedPlaces& links, const Eigen::Vector3d& shift_m,
-                      const std::filesystem::path& office, Progress& progress);
+                      const std::filesystem::path& office, Report& report, Progress& progress);
 
 }  // namespace standpoint

@@ -281,8 +281,12 @@ void DeviceHost::start(const Order& order, const Document& document, const fs::p
     startTask("Transfer",
               [order = *transfer, links = linkedPlaces(device_.state()), shift = document.georeference->shift_m,
                office = officeBeside(scans_folder)](Progress& p) -> Result<Delivery> {
-                TRY(handOver(order, links, shift, office, p));
-                return [files = order.files](DeviceHost& host, const Document&) { host.device_.transferDone(files); };
+                Report report;
+                TRY(handOver(order, links, shift, office, report, p));
+                return [files = order.files, report = std::move(report)](DeviceHost& host, const Document&) {
+                  host.report_.append(report);
+                  host.device_.transferDone(files);
+                };
               });
   }
 }

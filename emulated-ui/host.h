@@ -6,9 +6,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/points.h"
+#include "core/report.h"
 #include "emulated-ui/device/device.h"
 #include "project/task.h"
 #include "project/verb.h"
@@ -53,6 +55,8 @@ class DeviceHost {
 
   // What a task has computed, on its way to the device: called in the thread that owns the host.
   using Delivery = std::function<void(DeviceHost&, const Document&)>;
+  // What was lost since this was asked last: a copy in another format does not hold all of a scan.
+  Report takeReport() { return std::exchange(report_, {}); }
   // The simulation that runs behind the device's screen; null when none does.
   Task<Delivery>* task() { return task_.get(); }
   bool busy() const { return device_.busy() || task_ != nullptr; }
@@ -75,6 +79,7 @@ class DeviceHost {
 
   Device device_;
   std::function<void()> wake_;
+  Report report_;
   std::optional<Order> running_;
   std::filesystem::path file_;
   std::shared_ptr<const Job> known_of_;  // whose places the device was told

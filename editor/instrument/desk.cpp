@@ -254,6 +254,7 @@ void advance(InstrumentDesk& desk, Editor& editor) {
 }
 
 namespace {
+  editor.session.say(desk.running()->takeReport());
 
 std::string whyForbidden(const InstrumentDesk& desk, const Session& session, std::string_view verb) {
   if (!desk.rehearsal || desk.ended()) return {};

@@ -339,6 +339,8 @@ Result<RehearseOutcome> runRehearse(const Document& document, const RehearseOpti
       outcome.report.warn(fmt::format("action {}", i),
                           describe(done.error()));  // the device refused; the student goes on
     }
+  // The student chose the format: no loss of this verb's own.
+  for (const auto& lost : rehearsal->host().takeReport().issues) outcome.report.note(lost.source, lost.message);
   TRY_ASSIGN(const auto marks, marksOf(*rehearsal, options.student, options.language, progress));
   TRY(writeMarks(*rehearsal, marks, folder));
   outcome.text = marksText(marks);

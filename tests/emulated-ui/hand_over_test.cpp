@@ -98,7 +98,7 @@ class HandOver : public testing::Test {
     TransferOrder order{{}, "cable", extension};
     for (const auto& setup : state_.projects[0].setups) order.files.push_back(setup.file);
     Progress quiet;
-    const auto done = handOver(order, linkedPlaces(state_), kShift_m, folder_.path() / "office", quiet);
+    const auto done = handOver(order, linkedPlaces(state_), kShift_m, folder_.path() / "office", report_, quiet);
     ASSERT_TRUE(done) << describe(done.error());
   }
   static ReadScan read(const fs::path& file) {
@@ -110,6 +110,7 @@ class HandOver : public testing::Test {
 
   TemporaryFolder folder_;
   DeviceState state_;
+  Report report_;
 };
 
 TEST_F(HandOver, CopiesWithoutLinksByteForByte) {
@@ -150,6 +151,20 @@ TEST_F(HandOver, MovesThePointsOfACopyWithoutPoses) {
   EXPECT_LT((moved - Vector3d{0, 0.25, 0}).norm(), 1e-3);
 }
 
+TEST_F(HandOver, ListsWhatAnotherFormatCannotHold) {
+  handedOver();
+  EXPECT_EQ(report_.issues.size(), 0U) << "byte for byte";
+  handedOver(".ptx");
+  Report wanted;
+  Progress quiet;
+  for (int i = 1; i <= 3; ++i)
+    ASSERT_TRUE(
+        convertCloud(setup(i).file, folder_.path() / ("by-hand-" + std::to_string(i) + ".ptx"), "", wanted, quiet));
+  ASSERT_FALSE(wanted.issues.empty());
+  ASSERT_EQ(report_.issues.size(), wanted.issues.size());
+  EXPECT_EQ(report_.issues.front().message, wanted.issues.front().message);
+}
+
 TEST_F(HandOver, OfARingOfLinksComesToAnEnd) {
   link(1, 3, turned(0, {1, 0, 0}));
   link(2, 1, turned(0, {1, 0, 0}));
@@ -164,7 +179,7 @@ TEST_F(HandOver, NamesTheScanThatIsGone) {
   link(2, 1, turned(0, {1, 0, 0}));
   TransferOrder order{{setup(2).file}, "cable", ""};
   Progress quiet;
-  const auto done = handOver(order, linkedPlaces(state_), kShift_m, folder_.path() / "office", quiet);
+  const auto done = handOver(order, linkedPlaces(state_), kShift_m, folder_.path() / "office", report_, quiet);
   ASSERT_FALSE(done);
   EXPECT_NE(describe(done.error()).find("S2.e57"), std::string::npos);
   EXPECT_FALSE(fs::exists(copyOf(2)));
