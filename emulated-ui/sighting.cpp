@@ -37,6 +37,21 @@ SettingValues windowOn(const Target& target, const Station& station, const Instr
   return settings;
 }
 
+// Key of the word for it.
+std::string wordOf(NoFit reason) {
+  switch (reason) {
+    case NoFit::few_points: return "no_fit.few_points";
+    case NoFit::other_radius: return "no_fit.other_radius";
+    case NoFit::mixed: return "no_fit.mixed";
+    case NoFit::parts: return "no_fit.parts";
+    case NoFit::no_pattern: return "no_fit.no_pattern";
+    case NoFit::no_intensity: return "no_fit.no_intensity";
+    case NoFit::two: return "no_fit.two";
+    case NoFit::none: break;
+  }
+  return "no_fit.none";
+}
+
 }  // namespace
 
 const Station* stationOf(const Document& document, const std::string& name) {
@@ -96,7 +111,7 @@ Result<std::vector<FittedTarget>> targetsIn(const Document& document, const fs::
   for (const auto& m : measured.missed) {
     FittedTarget t;
     t.name = job.targets[m.target].name;
-    t.why_not = m.why;
+    t.why_not = wordOf(m.reason);
     targets.push_back(std::move(t));
   }
   return targets;
@@ -112,7 +127,7 @@ Result<FittedTarget> sightTarget(const Document& document, const SightOrder& ord
   if (target == targets.end()) return failure(ErrorKind::usage, "unknown target", order.target);
   FittedTarget missed;
   missed.name = target->name;
-  missed.why_not = "a different kind of target is at this position";
+  missed.why_not = "no_fit.other_kind";
   if ((target->kind == TargetKind::sphere) != (order.kind == "sphere")) return missed;
   TRY_ASSIGN(auto instrument, instrumentById(order.instrument));
   ScanVerbOptions options;
@@ -133,13 +148,13 @@ Result<FittedTarget> sightTarget(const Document& document, const SightOrder& ord
     if (t.name != target->name) continue;
     // The operator sees that the target is not there: what was fitted is the wall before it.
     if (t.found && t.error_m > target->size_m / 2) {
-      missed.why_not = "hidden from this station";
+      missed.why_not = "no_fit.hidden";
       return missed;
     }
     if (t.found) t.levelled_m = level * t.centre_m;
     return t;
   }
-  missed.why_not = "no points on the target";
+  missed.why_not = "no_fit.few_points";
   return missed;
 }
 

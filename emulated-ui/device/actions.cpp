@@ -301,7 +301,7 @@ const std::vector<ListRow>& sharedLists() {
              rows.push_back({t.name,
                              t.found ? fmt::format("{}  {}  {} pts  {}", t.name, lengthText(t.range_m, d.showsFeet()),
                                                    t.points, smallLengthText(t.residual_m, d.showsFeet()))
-                                     : fmt::format("{}  {}", t.name, t.why_not),
+                                     : fmt::format("{}  {}", t.name, d.word(t.why_not)),
                              true,
                              {}});
          return rows;

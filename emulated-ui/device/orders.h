@@ -77,7 +77,7 @@ struct FittedTarget {
   double residual_m = 0;  // r.m.s. of the fit
   double error_m = 0;     // to where it truly is
   bool found = false;
-  std::string why_not;
+  std::string why_not;                                   // key of a word
   Eigen::Vector3d levelled_m = Eigen::Vector3d::Zero();  // of a sight: its place, levelled by what the compensator told
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();    // as fitted, in the setup's own frame
 };

@@ -235,9 +235,9 @@ Result<TargetFit> fitAt(const std::vector<Vector3d>& points, const std::vector<f
   for (const auto& p : points)
     if ((p - start).norm() < 0.45 * search.side_m) near.push_back(p);
   if (near.size() < search.min_points)
-    return failure(ErrorKind::unusable, "too few points on the target: " + std::to_string(near.size()) +
-                                            " of at least " + std::to_string(search.min_points) +
-                                            "; scan with higher resolution or from closer");
+    return failure(noFit(NoFit::few_points, " on the target: " + std::to_string(near.size()) + " of at least " +
+                                                std::to_string(search.min_points) +
+                                                "; scan with higher resolution or from closer"));
   const BoardPlane plane = robustPlane(near);
   const Vector3d u = plane.normal.unitOrthogonal(), v = plane.normal.cross(u);
   std::vector<Vector2d> flat;
@@ -255,9 +255,9 @@ Result<TargetFit> fitAt(const std::vector<Vector3d>& points, const std::vector<f
     squares += off * off;
   }
   const PatternFit pattern = fitPattern(flat, bright, search.side_m);
-  if (pattern.points < search.min_points) return failure(ErrorKind::unusable, "too few points on the target");
+  if (pattern.points < search.min_points) return failure(noFit(NoFit::few_points, " on the target"));
   if (!(pattern.squares < (1 - kExplained) * pattern.variance) || !(pattern.pattern.contrast > 0))
-    return failure(ErrorKind::unusable, "no pattern of two white and two black squares found in the intensities");
+    return failure(noFit(NoFit::no_pattern, " found in the intensities"));
   TargetFit fit;
   const Vector3d on_start_plane = start + u * pattern.pattern.centre.x() + v * pattern.pattern.centre.y();
   fit.centre = on_start_plane - plane.normal * plane.normal.dot(on_start_plane - plane.place);
@@ -277,19 +277,18 @@ Result<TargetFit> findCheckerboard(std::span<const Vector3d> points, std::span<c
                                    const Vector3d& predicted, const CheckerboardSearch& search) {
   if (intensity.size() != points.size())
     return failure(
-        ErrorKind::unusable,
-        "the scan has no intensity, so checkerboards cannot be detected: use spheres, or a file with intensity");
+        noFit(NoFit::no_intensity, ", so checkerboards cannot be detected: use spheres, or a file with intensity"));
   std::vector<Vector3d> region, seeds;
   std::vector<float> bright, seed_bright;
   for (std::size_t i = 0; i < points.size(); ++i)
     if ((points[i] - predicted).norm() <= search.search_m + search.side_m)
       region.push_back(points[i]), bright.push_back(intensity[i]);
   if (region.size() < search.min_points)
-    return failure(ErrorKind::unusable, "too few points near the predicted position: " + std::to_string(region.size()));
+    return failure(noFit(NoFit::few_points, " near the predicted position: " + std::to_string(region.size())));
   for (const auto i : thinned(region, search.side_m / 12, kMostSeeds))
     seeds.push_back(region[i]), seed_bright.push_back(bright[i]);
   std::vector<TargetFit> found;
-  Error first{ErrorKind::unusable, "no checkerboard found near the predicted position", {}};
+  Error first = noFit(NoFit::none);
   bool tried = false;
   for (const auto& c : candidates(seeds, seed_bright, search.side_m)) {
     if ((c.place - predicted).norm() > search.search_m + 0.25 * search.side_m) continue;
@@ -301,7 +300,7 @@ Result<TargetFit> findCheckerboard(std::span<const Vector3d> points, std::span<c
     if (std::none_of(found.begin(), found.end(), same)) found.push_back(*fit);
   }
   if (found.empty()) return failure(std::move(first));
-  if (found.size() > 1) return failure(ErrorKind::unusable, "two candidates: specify a more accurate position");
+  if (found.size() > 1) return failure(noFit(NoFit::two, ": specify a more accurate position"));
   return found.front();
 }
 

@@ -167,24 +167,22 @@ Result<TargetFit> fitSphere(std::span<const Vector3d> points, const Vector3d& st
   const double radius = search.radius_m;
   const Solved fixed = solve(points, start, radius, false, kCaptured * radius);
   if (fixed.fit.points < search.min_points)
-    return failure(ErrorKind::unusable, "too few points on the target: " + std::to_string(fixed.fit.points) +
-                                            " of at least " + std::to_string(search.min_points) +
-                                            "; scan with higher resolution or from closer");
+    return failure(noFit(NoFit::few_points, " on the target: " + std::to_string(fixed.fit.points) + " of at least " +
+                                                std::to_string(search.min_points) +
+                                                "; scan with higher resolution or from closer"));
   const Solved loose = solve(points, fixed.fit.centre, radius, true, 2 * kCaptured * radius);
   const double off = loose.fit.radius_m - radius;
   const bool is_ball = loose.settled && emptySectors(points, loose.fit) <= 2 &&
                        static_cast<double>(loose.fit.points) > kLeastFraction * static_cast<double>(loose.met);
   if (is_ball && std::abs(off) > search.radius_tolerance_m + 3 * loose.fit.radius_sigma_m &&
       loose.fit.residual_m < 0.1 * radius)
-    return failure(ErrorKind::unusable, "wrong radius: fitted " + mm(loose.fit.radius_m) + ", expected " + mm(radius));
+    return failure(noFit(NoFit::other_radius, ": fitted " + mm(loose.fit.radius_m) + ", expected " + mm(radius)));
   const double fraction =
       static_cast<double>(fixed.fit.points) / static_cast<double>(std::max<std::size_t>(1, fixed.met));
   if (fraction < kLeastFraction)
-    return failure(ErrorKind::unusable,
-                   "mixed with background or partly hidden: " + std::to_string(static_cast<int>(fraction * 100)) +
-                       " % of the expected beams hit the target");
-  if (emptySectors(points, fixed.fit) > 2)
-    return failure(ErrorKind::unusable, "the points do not form a sphere of this radius: only parts are visible");
+    return failure(noFit(NoFit::mixed, ": " + std::to_string(static_cast<int>(fraction * 100)) +
+                                           " % of the expected beams hit the target"));
+  if (emptySectors(points, fixed.fit) > 2) return failure(noFit(NoFit::parts, ": only parts are visible"));
   return search.free_radius ? loose.fit : fixed.fit;
 }
 
@@ -193,13 +191,13 @@ Result<TargetFit> findSphere(std::span<const Vector3d> points, const Vector3d& p
   for (const auto& p : points)
     if ((p - predicted).norm() <= search.search_m + 2 * search.radius_m) region.push_back(p);
   if (region.size() < search.min_points)
-    return failure(ErrorKind::unusable, "too few points near the predicted position: " + std::to_string(region.size()));
+    return failure(noFit(NoFit::few_points, " near the predicted position: " + std::to_string(region.size())));
   std::vector<Vector3d> seeds;
   for (const auto i : thinned(region, search.radius_m / 8, kMostSphereSeeds)) seeds.push_back(region[i]);
   std::vector<Vector3d> all = votes(seeds, search.radius_m);
   std::erase_if(all, [&](const Vector3d& v) { return (v - predicted).norm() > search.search_m; });
   std::vector<TargetFit> found;
-  Error first{ErrorKind::unusable, "no sphere found near the predicted position", {}};
+  Error first = noFit(NoFit::none);
   bool tried = false;
   for (const auto& peak : peaks(all, search.radius_m)) {
     auto fit = fitSphere(region, peak, search);
@@ -211,8 +209,8 @@ Result<TargetFit> findSphere(std::span<const Vector3d> points, const Vector3d& p
   }
   if (found.empty()) return failure(std::move(first));
   if (found.size() > 1)
-    return failure(ErrorKind::unusable, "two candidates " + mm((found[0].centre - found[1].centre).norm()) +
-                                            " apart: specify a position accurate to half of that");
+    return failure(noFit(NoFit::two, " " + mm((found[0].centre - found[1].centre).norm()) +
+                                         " apart: specify a position accurate to half of that"));
   return found.front();
 }
 

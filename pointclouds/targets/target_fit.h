@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 
 #include <Eigen/Core>
 
@@ -28,6 +29,12 @@ struct TargetSearch {
   double search_m = 0.5;        // how far from the predicted place the centre may be
   std::size_t min_points = 20;  // fewer are no measurement
 };
+
+// Why there is no fit.
+enum class NoFit { few_points, other_radius, mixed, parts, no_pattern, no_intensity, two, none };
+// `unusable`; its message begins with the reason, which noFitOf() reads from it. `more`: ": 12 of at least 20".
+Error noFit(NoFit why, const std::string& more = {});
+NoFit noFitOf(const Error& error);
 
 // Sphere of a known radius: found by votes of the surface's normals within reach of the prediction, then least squares
 // of the distances to its surface with Tukey's weights, on beams that meet it within 60° of its normal. Errors are

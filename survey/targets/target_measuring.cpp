@@ -135,7 +135,8 @@ void measure(const Job& job, StationPoints& station, TargetMeasurements& result)
     if (fits[i])
       result.found.push_back({station.scan.station, station.near[i].target, *fits[i]});
     else
-      result.missed.push_back({station.scan.station, station.near[i].target, fits[i].error().message});
+      result.missed.push_back(
+          {station.scan.station, station.near[i].target, fits[i].error().message, noFitOf(fits[i].error())});
   }
 }
 

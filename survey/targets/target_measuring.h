@@ -21,6 +21,7 @@ struct MeasuredTarget {
 struct MissedTarget {
   std::size_t station = 0, target = 0;
   std::string why;
+  NoFit reason = NoFit::none;
 };
 struct ScannedStation {
   std::size_t station = 0;

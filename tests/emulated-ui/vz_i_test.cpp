@@ -300,6 +300,28 @@ TEST_F(VzI, SearchesReflectorsAfterTheScanWithinTheLimits) {
   EXPECT_EQ(d.fact("newest.targets"), "1");
 }
 
+TEST_F(VzI, SaysInItsLanguageWhyAReflectorIsNotTaken) {
+  ready();
+  ASSERT_TRUE(d.press({"reflectors", "reflector_search=on", "limit_from=3", "limit_to=20", "back"}));
+  scan();
+  ASSERT_TRUE(d->takeOrder());
+  auto hidden = fittedSphere("hidden", 0, 10);
+  hidden.found = false;
+  hidden.why_not = "no_fit.hidden";
+  d->targetsDone({fittedSphere("near", 100, 2.5), hidden});
+  d->tick(20);
+  const auto listed = [&](const std::string& language) {
+    d->change().language = language;
+    std::string text;
+    const auto screen = d->screen();
+    for (const auto& option : findWidget(screen, "target_list")->options) text += option.label + "\n";
+    return text;
+  };
+  EXPECT_EQ(listed("en"), "near  outside the limits\nhidden  hidden from this station\n");
+  EXPECT_EQ(listed("de"), "near  außerhalb der Grenzen\nhidden  von diesem Standpunkt verdeckt\n");
+  EXPECT_NE(listed("pl").find("zasłonięta z tego stanowiska"), std::string::npos);
+}
+
 // N = A / (s r)^2 with five points: 50 mm, 0.1 degrees: 11.35 m; 100 mm twice that.
 TEST_F(VzI, SeesALargerReflectorFurther) {
   ready();

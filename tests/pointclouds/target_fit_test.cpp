@@ -194,6 +194,17 @@ TEST(SphereFit, IsRefusedWithTheReason) {
   EXPECT_NE(refused(bench, {8, 0, 0}), "found") << "a pipe of the same radius";
 }
 
+TEST(NoFit, IsReadFromTheErrorThatItMade) {
+  for (const auto why : {NoFit::few_points, NoFit::other_radius, NoFit::mixed, NoFit::parts, NoFit::no_pattern,
+                         NoFit::no_intensity, NoFit::two, NoFit::none}) {
+    EXPECT_EQ(noFitOf(noFit(why)), why);
+    EXPECT_EQ(noFitOf(noFit(why, ": 12 of at least 20")), why);
+  }
+  const auto fit = findSphere({}, {8, 0, 0}, {});
+  ASSERT_FALSE(fit);
+  EXPECT_EQ(noFitOf(fit.error()), NoFit::few_points);
+}
+
 TEST(SphereFit, BehindARailIsMixedAndRefused) {
   Bench bench;
   bench.sigma_m = 0.001;

@@ -100,7 +100,7 @@ void filterReflectors(Device& device) {
     const bool outside = target.range_m < from || target.range_m > to;
     if (!outside && target.range_m <= reach(device)) continue;
     target.found = false;
-    target.why_not = device.word(outside ? "outside_limits" : "too_far_for_model");
+    target.why_not = outside ? "outside_limits" : "too_far_for_model";
   }
 }
 
