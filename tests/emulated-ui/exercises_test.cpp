@@ -367,6 +367,24 @@ TEST(Mistake, ConfusedTargetNamesSpoilTheDistancesBetweenThem) {
   EXPECT_GT(wrong.facts.at("sights.distances"), 100);
 }
 
+// The same height at all spheres leaves no residual, and the whole cloud 180 mm too low.
+TEST(Mistake, AWrongTargetHeightFailsTheResectionThoughItsResidualsAreSmall) {
+  Actions actions;
+  for (const auto& action : exercise("E14").solution) {
+    actions.push_back(action);
+    if (action.name != "view_list") continue;
+    actions.push_back(press("target_height"));
+    actions.back().value = "0.18";
+  }
+  const auto wrong = rehearse(exercise("E14"), actions, {"newest.height"});
+  EXPECT_TRUE(held(wrong, "residual"));
+  EXPECT_NEAR(wrong.facts.at("newest.height"), 180, 5);
+  EXPECT_FALSE(held(wrong, "delivered"));
+  EXPECT_FALSE(wrong.marks.passed) << "score " << wrong.marks.score;
+  EXPECT_NE(std::find(wrong.marks.must_broken.begin(), wrong.marks.must_broken.end(), "delivered"),
+            wrong.marks.must_broken.end());
+}
+
 TEST(Mistake, AScanOfAMovedTripodIsBesideItsPlace) {
   const auto outcome = Mistaken("E23").pressInstead("discard", "keep").outcome({"data.error"});
   EXPECT_FALSE(held(outcome, "no_moved"));
