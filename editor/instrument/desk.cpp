@@ -333,6 +333,18 @@ void startAssigned(InstrumentDesk& desk, Editor& editor) {
     return;
   }
   startExercise(desk, editor, *exercise);
+const Exercise* assignedExercise(InstrumentDesk& desk) {
+  const auto& assignment = *desk.assignment;
+  const auto* variant = assignment.variantOf(desk.student);
+  if (variant == nullptr) variant = &assignment.variants.front();
+  auto& kept = desk.assigned_exercise;
+  if (kept && kept->hash == assignment.hash && kept->seed == variant->seed) return &kept->exercise;
+  auto read = assignment.exerciseWith(*variant);
+  kept.reset();
+  if (read) kept = AssignedExercise{assignment.hash, variant->seed, *std::move(read)};
+  return kept ? &kept->exercise : nullptr;
+}
+
   desk.assigned = desk.rehearsal != nullptr;
   desk.started = utcNow();
 }

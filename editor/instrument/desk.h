@@ -45,6 +45,13 @@ struct Graded {
   std::string refused;           // what could not be written, and why
 };
 
+// A variant of an assignment, read once for all frames that show it.
+struct AssignedExercise {
+  std::string hash;  // of the assignment
+  std::uint64_t seed = 0;
+  Exercise exercise;
+};
+
 // What lies on the student's desk: a device on the open project, or one in an exercise; what is beside it.
 struct InstrumentDesk {
   const EmulatedDevice* device = &emulatedDevices().front();
@@ -64,12 +71,13 @@ struct InstrumentDesk {
   std::vector<std::string> exercises_refused;    // files of the user's folder, and why
   std::optional<std::uint64_t> exercises_stamp;  // of what was read
   std::string student;
-  std::optional<Assignment> assignment;   // that was opened last
-  bool assigned = false;                  // the exercise that runs is the student's variant of it
-  std::string started;                    // when that one began, UTC
-  std::unique_ptr<Task<Graded>> marking;  // of the exercise that runs: it rests meanwhile
-  std::filesystem::path result;           // to be handed in; empty: none
-  std::optional<Marks> marks;             // of the exercise that was finished last
+  std::optional<Assignment> assignment;               // that was opened last
+  std::optional<AssignedExercise> assigned_exercise;  // of the student in it, as it was read last
+  bool assigned = false;                              // the exercise that runs is the student's variant of it
+  std::string started;                                // when that one began, UTC
+  std::unique_ptr<Task<Graded>> marking;              // of the exercise that runs: it rests meanwhile
+  std::filesystem::path result;                       // to be handed in; empty: none
+  std::optional<Marks> marks;                         // of the exercise that was finished last
   std::filesystem::path marks_folder;
   MistakeView mistakes;                // what of them is in the view
   DesktopOpener opener;                // of the certificate
@@ -125,6 +133,9 @@ void connect(InstrumentDesk& desk, Session& session);
 void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercise);
 // A file that a lecturer gave to a class, and the variant of it that belongs to desk.student.
 void openAssignment(InstrumentDesk& desk, const std::filesystem::path& file);
+// The exercise of the student in the assignment, else of its first variant; null where it cannot be read. Valid until
+// another one is asked for.
+const Exercise* assignedExercise(InstrumentDesk& desk);
 std::string whyNotStartAssigned(const InstrumentDesk& desk);  // for people; empty: it can
 void startAssigned(InstrumentDesk& desk, Editor& editor);
 // It has ended and is marked in the background; a marking that is cancelled lets it go on.

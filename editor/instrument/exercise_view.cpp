@@ -46,8 +46,8 @@ void readExercises(InstrumentDesk& desk) {
 bool assigned(InstrumentDesk& desk, Editor& editor, const std::string& language, const std::string& why) {
   const auto& assignment = *desk.assignment;
   const auto* variant = assignment.variantOf(desk.student);
-  const auto exercise = assignment.exerciseWith(variant == nullptr ? assignment.variants.front() : *variant);
-  if (!exercise) return false;
+  const auto* exercise = assignedExercise(desk);
+  if (exercise == nullptr) return false;
   const auto why_not = why.empty() ? whyNotStartAssigned(desk) : why;
   if (ui::wideButton("###assigned", exercise->id + "  " + exercise->title.in(language), why_not,
                      variant == nullptr ? nullptr : exercise->goal.in(language).c_str())) {

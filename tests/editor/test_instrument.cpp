@@ -142,6 +142,11 @@ TEST_F(InstrumentGui, OpensAnAssignedExerciseForItsStudentsOnlyAndLeavesAResultT
   EXPECT_NE(whyNotStartAssigned(desk), "");
   desk.student = "s-001";
   EXPECT_EQ(whyNotStartAssigned(desk), "");
+  const auto* shown = assignedExercise(desk);
+  ASSERT_NE(shown, nullptr);
+  EXPECT_EQ(shown->id, "T-RTC360");
+  const auto* steps = shown->steps.data();
+  EXPECT_EQ(assignedExercise(desk)->steps.data(), steps) << "read once, not once a frame";
   startAssigned(desk, editor);
   ASSERT_NE(desk.rehearsal, nullptr) << desk.refused;
   EXPECT_TRUE(desk.rehearsal->exercise().solution.empty());
