@@ -37,6 +37,20 @@ fs::path freshFolder(const std::string& id) {
   }
 }
 
+// "E14 Resection", as a folder may be called: the project of an exercise is called so.
+std::string folderName(const Exercise& exercise, const std::string& language) {
+  constexpr std::size_t kMostBytes = 80;
+  std::string name = exercise.id + " " + exercise.title.in(language);
+  for (char& c : name)
+    if (c == '/' || static_cast<unsigned char>(c) < ' ') c = '-';
+  std::size_t end = std::min(name.size(), kMostBytes);
+  while (end < name.size() && end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0) == 0x80)
+    --end;  // no half letter
+  name.resize(end);
+  while (!name.empty() && (name.back() == ' ' || name.back() == '.')) name.pop_back();
+  return name;
+}
+
 // What a device can drive; the one for any scanner drives all that stand on a tripod, also the user's own.
 std::vector<std::pair<std::string, std::string>> scannersOf(const DeviceType& type) {
   const auto& drives = type.definition.instruments;
@@ -109,20 +123,6 @@ void carryTo(InstrumentDesk& desk, const Document& document, const std::string& 
   act(desk, {Kind::wait, "", "", carryingTime_s(bodyOf(desk.shown()->type().instrument.id), way_m), {}});
 }
 
-void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& device, const std::string& instrument) {
-  desk.device = &device;
-  desk.instrument = instrument;
-  desk.host.reset();
-  desk.growing.reset();
-  desk.view.face.clear();  // of the device before
-  desk.refused.clear();
-  desk.said.clear();
-  auto type = loadDevice(device, instrument);
-  if (!type) {
-    desk.problem = describe(type.error());
-    return;
-  }
-  desk.scanners = scannersOf(**type);
 void standBy(InstrumentDesk& desk, const Document& document, const std::optional<Eigen::Vector3d>& feet) {
   if (!feet) return act(desk, {Kind::hand, "step_behind", "", 0, {}});
   const auto* phase = findPhase(desk.shown()->type().definition, desk.shown()->state().phase);
@@ -137,6 +137,20 @@ void standBy(InstrumentDesk& desk, const Document& document, const std::optional
              {}});
 }
 
+void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& device, const std::string& instrument) {
+  desk.device = &device;
+  desk.instrument = instrument;
+  desk.host.reset();
+  desk.growing.reset();
+  desk.view.face.clear();  // of the device before
+  desk.refused.clear();
+  desk.said.clear();
+  auto type = loadDevice(device, instrument);
+  if (!type) {
+    desk.problem = describe(type.error());
+    return;
+  }
+  desk.scanners = scannersOf(**type);
   desk.host = std::make_unique<DeviceHost>(*std::move(type), editor.session.document(), editor.wake);
   // A device that remembers no choice begins in the editor's language; in an exercise in that of the exercise.
   auto& state = desk.host->device().change();
@@ -240,6 +254,7 @@ void advance(InstrumentDesk& desk, Editor& editor) {
       editor.wake();  // panels that were drawn before this one show it, too
     }
   }
+  editor.session.say(desk.running()->takeReport());
   takeMarks(desk, editor);
   desk.mistakes.follow(editor);
   showInScene(desk, editor);
@@ -254,7 +269,6 @@ void advance(InstrumentDesk& desk, Editor& editor) {
 }
 
 namespace {
-  editor.session.say(desk.running()->takeReport());
 
 std::string whyForbidden(const InstrumentDesk& desk, const Session& session, std::string_view verb) {
   if (!desk.rehearsal || desk.ended()) return {};
@@ -319,6 +333,18 @@ void openAssignment(InstrumentDesk& desk, const fs::path& file) {
     desk.refused = describe(read.error());
 }
 
+const Exercise* assignedExercise(InstrumentDesk& desk) {
+  const auto& assignment = *desk.assignment;
+  const auto* variant = assignment.variantOf(desk.student);
+  if (variant == nullptr) variant = &assignment.variants.front();
+  auto& kept = desk.assigned_exercise;
+  if (kept && kept->hash == assignment.hash && kept->seed == variant->seed) return &kept->exercise;
+  auto read = assignment.exerciseWith(*variant);
+  kept.reset();
+  if (read) kept = AssignedExercise{assignment.hash, variant->seed, *std::move(read)};
+  return kept ? &kept->exercise : nullptr;
+}
+
 std::string whyNotStartAssigned(const InstrumentDesk& desk) {
   if (desk.student.empty()) return tr("Enter your id as it is in the class list under Student.");
   if (desk.assignment->variantOf(desk.student) == nullptr)
@@ -333,18 +359,6 @@ void startAssigned(InstrumentDesk& desk, Editor& editor) {
     return;
   }
   startExercise(desk, editor, *exercise);
-const Exercise* assignedExercise(InstrumentDesk& desk) {
-  const auto& assignment = *desk.assignment;
-  const auto* variant = assignment.variantOf(desk.student);
-  if (variant == nullptr) variant = &assignment.variants.front();
-  auto& kept = desk.assigned_exercise;
-  if (kept && kept->hash == assignment.hash && kept->seed == variant->seed) return &kept->exercise;
-  auto read = assignment.exerciseWith(*variant);
-  kept.reset();
-  if (read) kept = AssignedExercise{assignment.hash, variant->seed, *std::move(read)};
-  return kept ? &kept->exercise : nullptr;
-}
-
   desk.assigned = desk.rehearsal != nullptr;
   desk.started = utcNow();
 }
@@ -363,11 +377,12 @@ void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercis
     desk.refused = describe(rehearsal.error());
     return;
   }
-  if (auto saved = saveProject((*rehearsal)->document(), folder / "project", quiet); !saved) {
+  const auto project = folder / folderName(exercise, (*rehearsal)->device().state().language);
+  if (auto saved = saveProject((*rehearsal)->document(), project, quiet); !saved) {
     desk.refused = describe(saved.error());
     return;
   }
-  if (!editor.session.open(folder / "project")) return;
+  if (!editor.session.open(project)) return;
   editor.showClouds({});  // what was looked at before belongs to another environment
   editor.view.colour = ColourMode::model;
   editor.scan_choice = ScanChoice{.instrument = (*rehearsal)->device().type().instrument.id};

@@ -114,6 +114,9 @@ const Document& documentOf(const InstrumentDesk& desk, const Editor& editor);
 void act(InstrumentDesk& desk, const RehearsalAction& action);
 // Its instrument is taken to a station; the device's clock goes on meanwhile, by the way between both places.
 void carryTo(InstrumentDesk& desk, const Document& document, const std::string& station);
+// Whoever works with it has gone out of its sight, or, with feet (local frame), into it: that is in the picture only
+// while it scans, as whoever starts it has the time to go.
+void standBy(InstrumentDesk& desk, const Document& document, const std::optional<Eigen::Vector3d>& feet);
 void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& device, const std::string& instrument);
 // A project that was opened or imported has its own device, with its memory filled from what the project holds.
 void followProject(InstrumentDesk& desk, Editor& editor);
@@ -122,9 +125,6 @@ void advance(InstrumentDesk& desk, Editor& editor);
 // Whether somebody in the scene is near enough to its instrument to see what the display on its body shows.
 bool displayIsSeen(const InstrumentDesk& desk, const Editor& editor);
 
-// Whoever works with it has gone out of its sight, or, with feet (local frame), into it: that is in the picture only
-// while it scans, as whoever starts it has the time to go.
-void standBy(InstrumentDesk& desk, const Document& document, const std::optional<Eigen::Vector3d>& feet);
 // From now on an exercise has a say in what happens to the session's document, and what is done there in the survey
 // belongs to the exercise that runs or is recorded; the session can say what the device works on. The desk must live as
 // long as the session has something to do.

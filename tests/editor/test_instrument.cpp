@@ -332,6 +332,12 @@ TEST_F(Desk, NothingIsDoneAndNoTimePassesOnceAnExerciseIsMarked) {
   EXPECT_NE(desk.said.find("ended"), std::string::npos);
 }
 
+TEST_F(Desk, CallsTheProjectOfAnExerciseByItsIdAndTitle) {
+  begin("T-RTC360");
+  EXPECT_EQ(editor.session.name(), "T-RTC360 " + desk.rehearsal->exercise().title.in("en"));
+  EXPECT_EQ(editor.session.folder().parent_path(), desk.rehearsal->folder());
+}
+
 TEST_F(Desk, WhatWasDoneToTheEnvironmentIsSavedWhenTheExerciseIsLeft) {
   begin("T-RTC360");
   const auto folder = desk.rehearsal->folder();
@@ -344,23 +350,12 @@ TEST_F(Desk, WhatWasDoneToTheEnvironmentIsSavedWhenTheExerciseIsLeft) {
   editor.session.wait();
   EXPECT_FALSE(editor.session.modified());
   EXPECT_TRUE(editor.session.errors().empty());
-  const auto again = loadProject(folder / "project", quiet);
+  const auto again = loadProject(editor.session.folder(), quiet);
   ASSERT_TRUE(again) << describe(again.error());
   const auto& stations = again->job->stations;
   EXPECT_TRUE(std::any_of(stations.begin(), stations.end(), [](const Station& s) { return s.name == "S9"; }));
 }
 
-// A teacher's file beside the program's.
-class OwnLayout : public testing::Test {
- protected:
-  OwnLayout() : type_(*loadDevice(*findDevice("leica-rtc360"))), device_(type_) {
-    setenv("STANDPOINT_LAYOUTS", folder_.path().c_str(), 1);
-  }
-  ~OwnLayout() override { unsetenv("STANDPOINT_LAYOUTS"); }
-  void write(const nlohmann::json& layout) {
-    std::ofstream(folder_.path() / "leica-rtc360.json", std::ios::binary) << layout.dump(1);
-    // A file system that counts in seconds would not tell two writes apart.
-    std::filesystem::last_write_time(
 TEST_F(Desk, PutsWhoeverReturnsIntoThePictureOnlyWhileItScans) {
   begin("E14");
   auto& device = desk.rehearsal->device();
@@ -380,6 +375,17 @@ TEST_F(Desk, PutsWhoeverReturnsIntoThePictureOnlyWhileItScans) {
   EXPECT_FALSE(device.state().around.operator_in_view);
 }
 
+// A teacher's file beside the program's.
+class OwnLayout : public testing::Test {
+ protected:
+  OwnLayout() : type_(*loadDevice(*findDevice("leica-rtc360"))), device_(type_) {
+    setenv("STANDPOINT_LAYOUTS", folder_.path().c_str(), 1);
+  }
+  ~OwnLayout() override { unsetenv("STANDPOINT_LAYOUTS"); }
+  void write(const nlohmann::json& layout) {
+    std::ofstream(folder_.path() / "leica-rtc360.json", std::ios::binary) << layout.dump(1);
+    // A file system that counts in seconds would not tell two writes apart.
+    std::filesystem::last_write_time(
         folder_.path() / "leica-rtc360.json",
         std::filesystem::file_time_type::clock::now() + ++later_ * std::chrono::seconds(2));
   }
