@@ -98,7 +98,10 @@ double GraphicsPace::median_s() const {
   return *middle;
 }
 
-std::string GraphicsPace::moved(double frame_s) {
+std::string GraphicsPace::moved(double frame_s) { return take(frame_s, true); }
+std::string GraphicsPace::worked(double frame_s) { return take(frame_s, false); }
+
+std::string GraphicsPace::take(double frame_s, bool whole) {
   if (!means_ || choice_ != GraphicsChoice::automatic || !(frame_s >= 0)) return {};
   frames_s_.push_back(frame_s);
   sum_s_ += frame_s;
@@ -108,9 +111,9 @@ std::string GraphicsPace::moved(double frame_s) {
   }
   if (frames_s_.size() < kFewestFrames || sum_s_ < kSustained_s) return {};
   const double usual_s = median_s();
-  calm_s_ = usual_s < kQuick_s ? calm_s_ + frame_s : 0;
+  if (whole) calm_s_ = usual_s < kQuick_s ? calm_s_ + frame_s : 0;
   if (usual_s > kSlow_s && level_ > GraphicsLevel::low) return change(-1, usual_s);
-  if (calm_s_ >= kCalm_s && mayRise(usual_s)) return change(1, usual_s);
+  if (whole && calm_s_ >= kCalm_s && mayRise(usual_s)) return change(1, usual_s);
   return {};
 }
 

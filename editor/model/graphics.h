@@ -53,6 +53,9 @@ class GraphicsPace {
 
   // A whole frame while the camera moved. What is to be said of it: the level has changed; mostly "".
   std::string moved(double frame_s);
+  // One while the camera stood and an instrument worked. It may lower the level; that it was quick says nothing of what
+  // a moving camera would cost, as most of the picture was not drawn anew.
+  std::string worked(double frame_s);
 
   // What a picture of the scene costs at a level while the camera moves.
   void measured(GraphicsLevel level, double picture_s) { cost_s_[static_cast<std::size_t>(level)] = picture_s; }
@@ -63,6 +66,7 @@ class GraphicsPace {
  private:
   GraphicsLevel most() const;
   void start();
+  std::string take(double frame_s, bool whole);
   double median_s() const;
   bool mayRise(double frame_s) const;
   std::string change(int steps, double frame_s);

@@ -109,6 +109,8 @@ class SceneView {
   virtual GraphicsMeans means() { return {}; }
   // Pictures drawn so far in which nothing but the camera was another one.
   virtual std::uint64_t movedPictures() const { return 0; }
+  // In which nothing but a working instrument was, and the points that it measures.
+  virtual std::uint64_t workedPictures() const { return 0; }
   // How long such a picture takes at the level of `state`; drawn for that.
   virtual double cost_s(const ViewState& /*state*/, int /*width_px*/, int /*height_px*/) { return 0; }
 };

@@ -153,7 +153,9 @@ class VtkSceneView : public SceneView {
     // A picture that was made fine stays so until something changes.
     if (changed || resized || (fine && !fine_) || layers_.building()) {
       const bool after_measuring = std::exchange(measured_, false);
-      if (!fine && !resized && !after_measuring && drawn_ && onlyCameraDiffers(*drawn_, state)) ++moved_pictures_;
+      const bool counts = changed && !fine && !resized && !after_measuring && drawn_;
+      if (counts && onlyCameraDiffers(*drawn_, state)) ++moved_pictures_;
+      if (counts && onlyPartsMove(*drawn_, state)) ++worked_pictures_;
       width_ = w;
       height_ = h;
       draw(state, fine, resized);
@@ -186,6 +188,7 @@ class VtkSceneView : public SceneView {
   }
 
   std::uint64_t movedPictures() const override { return moved_pictures_; }
+  std::uint64_t workedPictures() const override { return worked_pictures_; }
 
   // The first picture builds and compiles what it needs; the quickest of the next three was held up the least.
   double cost_s(const ViewState& state, int width, int height) override {
@@ -557,7 +560,7 @@ class VtkSceneView : public SceneView {
   std::unique_ptr<Backdrop> backdrop_;
   std::unique_ptr<Finish> finish_;
   GLuint shown_ = 0;  // the picture
-  std::uint64_t moved_pictures_ = 0;
+  std::uint64_t moved_pictures_ = 0, worked_pictures_ = 0;
   int factor_ = 1;  // pixels that are drawn, for each of the picture, each way
   bool shading_ = false;
   bool measured_ = false;  // the last picture was drawn for its time

@@ -247,7 +247,7 @@ class Window {
     last_frame_s_ = now;
     takeInput();
     rescale();
-    const auto moved_pictures = scene_->movedPictures();
+    const auto moved_pictures = scene_->movedPictures(), worked_pictures = scene_->workedPictures();
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::NewFrame();
     const auto not_measured = editor_.graphics.notMeasured();
@@ -260,15 +260,17 @@ class Window {
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     if (takeDisplay(editor_, display_, *ImGui::GetDrawData())) pacer_.drawSome();
     glFinish();
-    timeFrame(glfwGetTime() - now, scene_->movedPictures() != moved_pictures);
+    timeFrame(glfwGetTime() - now, scene_->movedPictures() != moved_pictures,
+              scene_->workedPictures() != worked_pictures);
     glfwSwapBuffers(handle_);
     showCursor();
     showTitle();
   }
 
-  void timeFrame(double seconds, bool moved) {
-    if (moved) {
-      if (auto said = editor_.graphics.moved(seconds); !said.empty()) editor_.say(std::move(said));
+  void timeFrame(double seconds, bool moved, bool worked) {
+    if (moved || worked) {
+      auto said = moved ? editor_.graphics.moved(seconds) : editor_.graphics.worked(seconds);
+      if (!said.empty()) editor_.say(std::move(said));
     }
     if (editor_.fine_picture && !was_fine_) fine_picture_s_ = seconds;
     was_fine_ = editor_.fine_picture;

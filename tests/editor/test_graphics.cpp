@@ -39,6 +39,22 @@ TEST(GraphicsPace, LowersALevelOnceBelow25FramesForASustainedTimeAndSaysSo) {
   EXPECT_EQ(pace.level(), GraphicsLevel::low);
 }
 
+TEST(GraphicsPace, IsLoweredByAnInstrumentThatWorksSlowlyAndNotRaisedByOneThatWorksQuickly) {
+  const auto work = [](GraphicsPace& pace, double frame_s, double seconds) {
+    std::vector<std::string> said;
+    for (double t = 0; t < seconds; t += frame_s)
+      if (auto words = pace.worked(frame_s); !words.empty()) said.push_back(std::move(words));
+    return said;
+  };
+  auto pace = paceOf(true);
+  const auto said = work(pace, 1.0 / 14, 60);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0], "Graphics lowered to Low: 14 frames per second");
+  EXPECT_TRUE(work(pace, 0.005, 60).empty()) << "most of these pictures is kept from the one before";
+  EXPECT_EQ(pace.level(), GraphicsLevel::low);
+  EXPECT_EQ(run(pace, 0.005, 30).size(), 1U) << "whole ones are drawn so quickly, too";
+}
+
 TEST(GraphicsPace, GoesDownStepByStep) {
   auto pace = paceOf(false);
   const auto said = run(pace, 0.1, 30);

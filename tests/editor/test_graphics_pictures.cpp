@@ -379,6 +379,28 @@ TEST_F(Levels, CountPicturesInWhichOnlyTheCameraMoved) {
   EXPECT_EQ(view().movedPictures(), before + 1) << "drawn for its time";
 }
 
+TEST_F(Levels, CountPicturesInWhichOnlyAnInstrumentWorks) {
+  const auto moved = view().movedPictures(), worked = view().workedPictures();
+  Station station;
+  station.instrument_height_m = 1.6;
+  station.true_pose.translation = {3, 2, 1.6};
+  state.working = WorkingInstrument{standing(station, "leica-rtc360"), {}};
+  draw(false);
+  EXPECT_EQ(view().workedPictures(), worked) << "it has come";
+  for (int i = 0; i < 3; ++i) {
+    state.working->motion.head_rad += 0.1;
+    draw(false);
+  }
+  EXPECT_EQ(view().workedPictures(), worked + 3);
+  draw(false);
+  EXPECT_EQ(view().workedPictures(), worked + 3) << "nothing has moved";
+  EXPECT_EQ(view().movedPictures(), moved);
+  state.camera.azimuth_rad += 0.1;
+  draw(false);
+  EXPECT_EQ(view().workedPictures(), worked + 3);
+  EXPECT_EQ(view().movedPictures(), moved + 1);
+}
+
 TEST_F(Levels, AShaderThatTheDriverRefusesIsAReasonAndNoCrash) {
   view().texture(state, kWidth, kHeight, false);
   const FullScreenProgram broken("#version 150\nthis is no shader");
