@@ -101,9 +101,9 @@ class InstrumentPanel {
   }
 
   // What is on it scrolls; the tabs stay.
-  void page(const char* title, void (*draw)(InstrumentDesk&, Editor&), Editor& editor) {
+  void page(const char* title, void (*contents)(InstrumentDesk&, Editor&), Editor& editor) {
     if (!ImGui::BeginTabItem(ui::Label(title))) return;
-    if (ImGui::BeginChild(title)) draw(desk_, editor);
+    if (ImGui::BeginChild(title)) contents(desk_, editor);
     ImGui::EndChild();
     ImGui::EndTabItem();
   }
