@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "core/environment.h"
 
@@ -23,6 +24,13 @@ inline bool isRoofOrCeiling(const Environment& environment, std::uint32_t produc
     at = part.whole;
   }
   return false;
+}
+
+// Of each product.
+inline std::vector<bool> roofsAndCeilings(const Environment& environment) {
+  std::vector<bool> result;
+  for (std::uint32_t i = 0; i < environment.products.size(); ++i) result.push_back(isRoofOrCeiling(environment, i));
+  return result;
 }
 
 }  // namespace standpoint

@@ -2,7 +2,6 @@
 #include "editor/walking/walk_ground.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -10,7 +9,8 @@
 #include <vector>
 
 #include "core/ceiling.h"
-#include "optimizer/walk/avatar.h"
+#include "optimizer/walk/walkable.h"
+#include "optimizer/walk/walker.h"
 
 namespace standpoint {
 
@@ -18,7 +18,8 @@ namespace {
 
 using GroundPtr = std::shared_ptr<const WalkedGround>;
 
-GroundPtr groundOf(std::shared_ptr<const Environment> environment, std::shared_ptr<const CollideResult> collision) {
+Result<GroundPtr> groundOf(std::shared_ptr<const Environment> environment,
+                           std::shared_ptr<const CollideResult> collision, const Body& body, Progress& progress) {
   double lowest = 1e300;
   for (const auto& shape : collision->shapes)
     for (const auto& p : shape.mesh.positions) lowest = std::min(lowest, static_cast<double>(p.z()));
@@ -27,12 +28,16 @@ GroundPtr groundOf(std::shared_ptr<const Environment> environment, std::shared_p
   std::vector<CollisionShape> shapes;
   std::copy_if(collision->shapes.begin(), collision->shapes.end(), std::back_inserter(shapes),
                [&](const CollisionShape& shape) { return door_of[shape.product] < 0; });
+  progress.stage("Find the walkable surface", progress.fraction());
+  const CollideOptions crouched{.agent_radius_m = body.radius_m,
+                                .agent_height_m = std::min(Walker::kCrouched_m, body.height_m)};
+  TRY_ASSIGN(const auto low, walkableSurface(shapes, roofsAndCeilings(*environment), crouched, progress));
   Obstacles obstacles(shapes);
   auto doors = std::make_shared<const DoorLeaves>(doorLeaves(*environment));
   WalkableMap map(collision->walkable);
   return std::make_shared<const WalkedGround>(WalkedGround{std::move(environment), std::move(collision),
                                                            std::move(obstacles), std::move(doors), std::move(spaces),
-                                                           std::move(map), lowest});
+                                                           std::move(map), WalkableMap(low.mesh), lowest});
 }
 
 // On the surface, or on its rim, where it and the body's own sweeps differ by a cell and a skin.
@@ -46,23 +51,6 @@ bool isNear(const WalkableMap& map, const Eigen::Vector3d& feet) {
   return map.under(feet).has_value();
 }
 
-bool isOpenToTheSky(const Obstacles& obstacles, const Eigen::Vector3d& feet) {
-  constexpr double kNothingAbove_m = 100;
-  return !obstacles.ray(feet + Eigen::Vector3d(0, 0, 0.02), feet + Eigen::Vector3d(0, 0, kNothingAbove_m));
-}
-
-// What nobody walks on by itself, in crouching neither: tables, railings, tops of walls.
-bool isNoFloor(const Product& product) {
-  static constexpr std::array kClasses = {"IfcFurni", "IfcRailing", "IfcWall", "IfcWindow", "IfcDoor", "IfcSanitary"};
-  return std::any_of(kClasses.begin(), kClasses.end(), [&](const char* c) { return product.ifc_class.starts_with(c); });
-}
-
-// With so much room above that the walkable surface, which counts height in cells, would have it.
-bool standsUpright(const Obstacles& obstacles, const Body& body, const Eigen::Vector3d& feet) {
-  constexpr double kSkin_m = 0.02, kCells_m = 0.1;
-  return Avatar(obstacles, {body.radius_m, body.height_m + kCells_m}).stand(feet, kSkin_m);
-}
-
 }  // namespace
 
 Landing landingOn(const WalkedGround& ground, const Body& body, const Eigen::Vector3d& point,
@@ -71,27 +59,27 @@ Landing landingOn(const WalkedGround& ground, const Body& body, const Eigen::Vec
   if (!landing.why_not.empty()) return landing;
   if (isRoofOrCeiling(*ground.environment, landing.product))
     landing.why_not = "roof";
-  else if (!isNear(ground.map, landing.feet) &&
-           (isNoFloor(ground.environment->products[landing.product]) ||
-            isOpenToTheSky(ground.obstacles, landing.feet) || standsUpright(ground.obstacles, body, landing.feet)))
+  else if (!isNear(ground.map, landing.feet) && !isNear(ground.crouched_map, landing.feet))
     landing.why_not = "not walkable";
   return landing;
 }
 
 bool WalkGround::isFor(const Document& document, const Body& body) const {
-  return task_ && environment_ == document.imported && body_ == body;
+  return task_ && environment_ == document.imported && collision_ == document.collision && body_ == body;
 }
 
 void WalkGround::prepare(const Document& document, const Body& body, const std::function<void()>& wake) {
-  if (!document.imported || document.collision || isFor(document, body)) return;
+  if (!document.imported || isFor(document, body)) return;
   environment_ = document.imported;
+  collision_ = document.collision;
   body_ = body;
   task_ = std::make_unique<Task<GroundPtr>>(
       "Prepare the walkable surface",
-      [environment = environment_, body](Progress& progress) -> Result<GroundPtr> {
+      [environment = environment_, collision = collision_, body](Progress& progress) -> Result<GroundPtr> {
+        if (collision) return groundOf(environment, collision, body, progress);
         TRY_ASSIGN(auto made,
                    collide(*environment, {.agent_radius_m = body.radius_m, .agent_height_m = body.height_m}, progress));
-        return groundOf(environment, std::make_shared<const CollideResult>(std::move(made)));
+        return groundOf(environment, std::make_shared<const CollideResult>(std::move(made)), body, progress);
       },
       wake);
 }
@@ -101,13 +89,6 @@ void WalkGround::cancel() {
 }
 
 GroundPtr WalkGround::of(const Document& document, const Body& body) const {
-  if (document.collision && document.imported) {
-    if (!of_document_ || of_document_->collision != document.collision ||
-        of_document_->environment != document.imported)
-      of_document_ = groundOf(document.imported, document.collision);
-    return of_document_;
-  }
-  of_document_.reset();
   if (!isFor(document, body) || !task_->done() || !task_->result()) return nullptr;
   return *task_->result();
 }

@@ -22,16 +22,16 @@ struct WalkedGround {
   std::shared_ptr<const DoorLeaves> doors;
   std::vector<SpaceBody> spaces;
   WalkableMap map;
+  WalkableMap crouched_map;  // of whoever crouches; the other one has none of what is lower than the body
   double lowest_m = 0;
 };
 
-// landingAt(), but neither on a roof nor, where the walkable surface has no place, under the open sky, upright, or on
-// what is no floor: on top of a wall, a table, a railing. Where one must crouch that surface knows nothing.
+// landingAt(), but neither on a roof nor where the walkable surface has no place, not even for whoever crouches.
 Landing landingOn(const WalkedGround& ground, const Body& body, const Eigen::Vector3d& point,
                   const Eigen::Vector3d& normal);
 
-// The document's collision shapes, made ready to walk between. Where it has none, they are computed beside the
-// interface for this view alone: that somebody looked around is no change of the document, and no step to undo.
+// The document's collision shapes, made ready to walk between beside the interface. Where it has none, they are
+// computed for this view alone: that somebody looked around is no change of the document, and no step to undo.
 class WalkGround {
  public:
   // Starts where nothing is there or under way.
@@ -51,9 +51,9 @@ class WalkGround {
   bool isFor(const Document& document, const Body& body) const;
 
   std::shared_ptr<const Environment> environment_;  // of the task
+  std::shared_ptr<const CollideResult> collision_;  // likewise; null where the document has none
   Body body_;
   std::unique_ptr<Task<std::shared_ptr<const WalkedGround>>> task_;
-  mutable std::shared_ptr<const WalkedGround> of_document_;  // of the shapes that it has itself
 };
 
 }  // namespace standpoint

@@ -37,12 +37,6 @@ std::vector<bool> stopping(const Environment& environment, const CollideOptions&
   return result;
 }
 
-std::vector<bool> roofsAndCeilings(const Environment& environment) {
-  std::vector<bool> result;
-  for (std::uint32_t i = 0; i < environment.products.size(); ++i) result.push_back(isRoofOrCeiling(environment, i));
-  return result;
-}
-
 // The first product that is where no shape can be.
 std::optional<std::uint32_t> productTooFar(const Environment& environment, const std::vector<bool>& stops) {
   for (const auto& instance : environment.instances) {
