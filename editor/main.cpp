@@ -224,22 +224,25 @@ int openWindow(const Arguments& arguments) {
   Editor editor(allVerbs(), wakeWindow);
   attachInstrument(editor);
   const auto crashes = takeNewCrashes(recoveryRoot());
-  const auto start = [&] {
+  const auto prepare = [&] {
     auto stored = readSettings(settingsFile());
     editor.settings = std::move(stored.settings);
     speak(editor.settings.language);
     if (!stored.problem.empty()) editor.say(std::move(stored.problem));
     editor.dialogs.recovery = findLeftWork(recoveryRoot());
-    openAll(editor, arguments.paths);
   };
+  const auto open = [&] { openAll(editor, arguments.paths); };
   if (crashes.again_at_start) {
     editor.settings.graphics = GraphicsChoice::low;
     editor.dialogs.bare = true;
-    editor.dialogs.start_as_usual = start;
+    editor.dialogs.start_as_usual = [&] { prepare(), open(); };
   } else {
-    start();
+    prepare();
   }
-  const auto shown = runWindow(editor, arguments.width, arguments.height, crashes.any);
+  const auto ready = [&] {
+    if (!crashes.again_at_start) open();
+  };
+  const auto shown = runWindow(editor, arguments.width, arguments.height, crashes.any, ready);
   if (!shown && shown.error().source == kNoOpenGl) return goOnWithoutOpenGl(shown.error());
   if (editor.dialogs.start_as_usual)
     return shown ? 0 : fail(shown.error());  // the user's preferences stay as they were

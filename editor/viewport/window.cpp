@@ -79,7 +79,8 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  void run() {
+  void run(const std::function<void()>& ready) {
+    ready();
     while (!editor_.quit) {
       waitForWork();
       if (glfwWindowShouldClose(handle_) != 0) {
@@ -316,7 +317,7 @@ void wakeWindow() {
   glfwPostEmptyEvent();
 }
 
-Result<void> runWindow(Editor& editor, int width, int height, bool after_crash) {
+Result<void> runWindow(Editor& editor, int width, int height, bool after_crash, const std::function<void()>& ready) {
   static std::string last_glfw_error;
   glfwSetErrorCallback([](int, const char* text) { last_glfw_error = text; });
   if (glfwInit() == GLFW_FALSE)
@@ -339,7 +340,7 @@ Result<void> runWindow(Editor& editor, int width, int height, bool after_crash) 
   shown_window.store(&pacer, std::memory_order_release);
   {
     Window window(editor, handle, pacer, after_crash);
-    window.run();
+    window.run(ready);
   }
   editor.session.cancelAll();  // a task that still runs may wake a window that is about to go
   editor.session.wait();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "core/result.h"
@@ -16,7 +17,8 @@ void wakeWindow();
 constexpr const char* kNoOpenGl = "OpenGL";
 
 // Opens the window, shows the editor until it is quit. Width and height in points; `after_crash` is remembered for the
-// next start, should this one crash soon.
-Result<void> runWindow(Editor& editor, int width, int height, bool after_crash);
+// next start, should this one crash soon. `ready` is called just before the first frame: what it starts holds that up
+// no more, neither by its work nor by a model to be drawn.
+Result<void> runWindow(Editor& editor, int width, int height, bool after_crash, const std::function<void()>& ready);
 
 }  // namespace standpoint
