@@ -137,6 +137,19 @@ bool writesDocument(const Verb& verb) { return verb.scope == VerbScope::creates 
 // While one of these runs, the document stays as it is.
 bool holdsDocument(const Verb& verb) { return writesDocument(verb) || std::string_view(verb.name) == "save-project"; }
 
+Task<Outcome>::Work workOf(const Verb& verb, const Document& snapshot, const json& options) {
+  return [&verb, snapshot, options](Progress& progress) { return runVerb(verb, snapshot, options, progress); };
+}
+
+// An answer that nobody reads can be large, and takes as long to go as many pictures: it goes on the worker.
+Task<Outcome>::Work withoutAnswer(Task<Outcome>::Work work) {
+  return [work = std::move(work)](Progress& progress) {
+    auto outcome = work(progress);
+    if (outcome) outcome->answer = nullptr;
+    return outcome;
+  };
+}
+
 }  // namespace
 
 std::string whyNoModel(const Document& document) {
@@ -199,15 +212,16 @@ void Session::launch(const Verb& wanted, json options, std::string title, Task<O
 bool Session::start(std::string_view name, json options, std::string title) {
   if (!whyNot(name).empty()) return false;
   const Verb& wanted = *verb(name);
-  auto work = [&wanted, snapshot = document(), options](Progress& progress) {
-    return runVerb(wanted, snapshot, options, progress);
-  };
+  auto work = withoutAnswer(workOf(wanted, document(), options));
   launch(wanted, std::move(options), title.empty() ? wanted.summary : std::move(title), std::move(work));
   return true;
 }
 
 bool Session::startAndShow(std::string_view name, json options, std::string title) {
-  if (!start(name, std::move(options), std::move(title))) return false;
+  if (!whyNot(name).empty()) return false;
+  const Verb& wanted = *verb(name);
+  auto work = workOf(wanted, document(), options);
+  launch(wanted, std::move(options), title.empty() ? wanted.summary : std::move(title), std::move(work));
   running_.back()->shows_answer = true;
   return true;
 }
@@ -225,7 +239,7 @@ bool Session::start(const VerbOptions& options, std::string title, Work work) {
     TRY(checkOptions(*wanted, job));
     return work(snapshot, progress);
   };
-  launch(*wanted, std::move(job), std::move(title), std::move(checked));
+  launch(*wanted, std::move(job), std::move(title), withoutAnswer(std::move(checked)));
   return true;
 }
 
