@@ -258,6 +258,14 @@ void DeviceHost::start(const Order& order, const Document& document, const fs::p
       if (!found) return failure(found.error());
       return [found = *std::move(found)](DeviceHost& host, const Document&) { host.device_.targetsDone(found); };
     });
+  } else if (const auto* pick = std::get_if<PickOrder>(&order)) {
+    startTask("Target", [document, order = *pick, s = seed](Progress& p) -> Result<Delivery> {
+      auto picked = pickedTarget(document, order, s, p);
+      if (!picked) return failure(picked.error());
+      return [file = order.file, picked = *std::move(picked)](DeviceHost& host, const Document&) {
+        host.device_.pickDone(file, picked);
+      };
+    });
   } else if (const auto* preview = std::get_if<PreviewOrder>(&order)) {
     startTask("Preview", [file = preview->file](Progress& p) -> Result<Delivery> {
       auto read = readPreview(file, p);

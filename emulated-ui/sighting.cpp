@@ -52,6 +52,15 @@ std::string wordOf(NoFit reason) {
   return "no_fit.none";
 }
 
+constexpr double kStandsBefore_m = 0.05;  // as a tripod's leg or a post does; a board's own tilt and noise are less
+constexpr const char* kOtherKind = "no_fit.other_kind";
+
+const Target* targetOf(const Document& document, const std::string& name) {
+  const auto& targets = document.job->targets;
+  const auto found = std::find_if(targets.begin(), targets.end(), [&](const Target& t) { return t.name == name; });
+  return found == targets.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 const Station* stationOf(const Document& document, const std::string& name) {
@@ -117,17 +126,41 @@ Result<std::vector<FittedTarget>> targetsIn(const Document& document, const fs::
   return targets;
 }
 
+Result<FittedTarget> pickedTarget(const Document& document, const PickOrder& order, std::uint64_t seed,
+                                  Progress& progress) {
+  FittedTarget picked;
+  picked.name = order.name;
+  picked.why_not = "no_fit.none";
+  if (!document.job) return picked;
+  TRY_ASSIGN(const auto all, targetsIn(document, order.file, seed, progress));
+  const double aimed_m = order.spot_m.norm();
+  double nearest_rad = 1e9;
+  for (const auto& t : all) {
+    if (!t.found) continue;
+    const double radius_m = targetOf(document, t.name)->size_m / 2;
+    // The cross is on something before it, or what was fitted is the wall that hides it.
+    if (aimed_m < t.range_m - radius_m - kStandsBefore_m || t.error_m > radius_m) continue;
+    const double off_rad = std::acos(std::clamp(order.spot_m.dot(t.centre_m) / (aimed_m * t.range_m), -1.0, 1.0));
+    const double seen_rad = std::atan(radius_m / std::max(0.1, t.range_m));
+    if (off_rad > seen_rad + order.reach_rad || off_rad > nearest_rad) continue;
+    nearest_rad = off_rad;
+    const bool told = t.kind == order.kind;
+    picked = told ? t : FittedTarget{};
+    picked.name = order.name;
+    if (!told) picked.why_not = kOtherKind;
+  }
+  return picked;
+}
+
 Result<FittedTarget> sightTarget(const Document& document, const SightOrder& order, const fs::path& file,
                                  std::uint64_t seed, Progress& progress) {
   const auto* station = stationOf(document, order.station);
   if (station == nullptr) return failure(ErrorKind::usage, "unknown station", order.station);
-  const auto& targets = document.job->targets;
-  const auto target =
-      std::find_if(targets.begin(), targets.end(), [&](const Target& t) { return t.name == order.target; });
-  if (target == targets.end()) return failure(ErrorKind::usage, "unknown target", order.target);
+  const auto* target = targetOf(document, order.target);
+  if (target == nullptr) return failure(ErrorKind::usage, "unknown target", order.target);
   FittedTarget missed;
   missed.name = target->name;
-  missed.why_not = "no_fit.other_kind";
+  missed.why_not = kOtherKind;
   if ((target->kind == TargetKind::sphere) != (order.kind == "sphere")) return missed;
   TRY_ASSIGN(auto instrument, instrumentById(order.instrument));
   ScanVerbOptions options;

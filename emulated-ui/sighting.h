@@ -26,6 +26,9 @@ Result<Eigen::Quaterniond> levelledFromScanner(const Station& station, const Ins
 // All targets of the job in a stored setup.
 Result<std::vector<FittedTarget>> targetsIn(const Document& document, const std::filesystem::path& file,
                                             std::uint64_t seed, Progress& progress);
+// The one that is seen at a point of a stored setup, not behind it, under the name that it is given.
+Result<FittedTarget> pickedTarget(const Document& document, const PickOrder& order, std::uint64_t seed,
+                                  Progress& progress);
 // One target by a fine scan of a window about it, into `file`, which is gone afterwards.
 Result<FittedTarget> sightTarget(const Document& document, const SightOrder& order, const std::filesystem::path& file,
                                  std::uint64_t seed, Progress& progress);

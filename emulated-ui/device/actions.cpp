@@ -11,6 +11,8 @@
 #include "emulated-ui/device/effects.h"
 #include "emulated-ui/device/format.h"
 #include "emulated-ui/device/linking.h"
+#include "emulated-ui/device/picking.h"
+#include "emulated-ui/device/picture.h"
 
 namespace standpoint {
 
@@ -150,17 +152,11 @@ Result<void> viewSetup(Device& device, const std::string&) {
 Result<void> measure(Device& device, const std::string& at) {
   const auto* setup = device.shownSetup();
   if (setup == nullptr || !setup->preview) return failure(ErrorKind::usage, device.word("no_preview"));
-  const auto comma = at.find(',');
-  if (comma == std::string::npos)
-    return failure(ErrorKind::usage, "u,v required: fractions of the image from its upper left corner");
-  const double u = std::strtod(at.c_str(), nullptr), v = std::strtod(at.c_str() + comma + 1, nullptr);
-  if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return failure(ErrorKind::usage, "the point is outside the image");
-  const auto& p = *setup->preview;
-  const auto column = static_cast<std::size_t>(u * p.columns), row = static_cast<std::size_t>((1 - v) * p.rows);
-  const std::size_t cell = std::min<std::size_t>(row, p.rows - 1) * p.columns + column;
-  if (!std::isfinite(p.x_m[cell])) return failure(ErrorKind::usage, device.word("no_point"));
+  if (!placeIn(at)) return failure(ErrorKind::usage, "u,v required: fractions of the image from its upper left corner");
+  const auto spot = spotIn(*setup->preview, at);
+  if (!spot) return failure(ErrorKind::usage, device.word("no_point"));
   auto& entries = device.change().entries;
-  const auto place = fmt::format("{} {} {}", p.x_m[cell], p.y_m[cell], p.z_m[cell]);
+  const auto place = fmt::format("{} {} {}", spot->x(), spot->y(), spot->z());
   const auto from = entries.find("measured_from");
   if (from == entries.end()) {
     entries["measured_from"] = place;
@@ -170,7 +166,7 @@ Result<void> measure(Device& device, const std::string& at) {
   }
   double x = 0, y = 0, z = 0;
   if (std::sscanf(from->second.c_str(), "%lf %lf %lf", &x, &y, &z) == 3) {
-    const double plan = std::hypot(p.x_m[cell] - x, p.y_m[cell] - y), up = p.z_m[cell] - z;
+    const double plan = std::hypot(spot->x() - x, spot->y() - y), up = spot->z() - z;
     entries["measured"] = fmt::format("{:.4f}", std::hypot(plan, up));
     entries["measured_horizontal"] = fmt::format("{:.4f}", plan);
     entries["measured_vertical"] = fmt::format("{:.4f}", up);
@@ -246,6 +242,9 @@ const std::vector<DeviceAction>& sharedActions() {
       {"view_setup", viewSetup},
       {"measure", measure},
       {"measure_targets", measureTargets},
+      {"begin_picking", beginPicking},
+      {"aim", aim},
+      {"pick_aimed", pickAimed},
       {"link_newest", linkNewest},
       {"link_setups", linkSetups},
       {"lay_cloud", layCloud},

@@ -390,6 +390,17 @@ void Device::targetsDone(std::vector<FittedTarget> targets) {
     ask("refused", word("target_not_found"));  // else the press seems to have done nothing
 }
 
+void Device::pickDone(const std::string& file, const FittedTarget& target) {
+  note("picked", target.found ? target.name : "");
+  if (!target.found) return ask("refused", word("target_not_found"));
+  for (auto& p : state_.projects)
+    for (auto& setup : p.setups) {
+      if (setup.file != file) continue;
+      std::erase_if(setup.targets, [&](const FittedTarget& t) { return t.name == target.name; });
+      setup.targets.push_back(target);
+    }
+}
+
 // What was picked comes under the ID that was typed, in the place of an earlier sight of that ID.
 void Device::sightDone(const FittedTarget& target) {
   note("sighted", target.found ? target.name : "");

@@ -73,6 +73,7 @@ class Device {
   void targetsDone(std::vector<FittedTarget> targets);
   void previewDone(const std::string& file, const std::shared_ptr<const ScanPreview>& preview);
   void sightDone(const FittedTarget& target);
+  void pickDone(const std::string& file, const FittedTarget& target);
   void transferDone(const std::vector<std::string>& files);
   void orderFailed(const std::string& message);
   // True once after the device has stored a scan: from then on the setup exists.

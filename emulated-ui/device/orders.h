@@ -82,6 +82,15 @@ struct FittedTarget {
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();    // as fitted, in the setup's own frame
 };
 
+// Fit the target that is seen at a point of a stored setup.
+struct PickOrder {
+  std::string file;
+  Eigen::Vector3d spot_m = Eigen::Vector3d::UnitX();  // what the cross-hair is on, in the setup's frame
+  double reach_rad = 0;                               // half a cell of the picture that was aimed in
+  std::string kind;                                   // that the device is told: "sphere" or "checkerboard"
+  std::string name;                                   // that it gets
+};
+
 // Pick one target, scan a window about it finely, and measure it.
 struct SightOrder {
   std::string instrument;  // id
@@ -110,7 +119,7 @@ struct TransferOrder {
   std::string extension;  // of the copies: ".las"; empty: as the files are
 };
 
-using Order = std::variant<ScanOrder, LinkOrder, TargetOrder, PreviewOrder, TransferOrder, SightOrder>;
+using Order = std::variant<ScanOrder, LinkOrder, TargetOrder, PreviewOrder, TransferOrder, SightOrder, PickOrder>;
 
 struct StoredSetup {
   std::string project;

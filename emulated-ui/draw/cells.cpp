@@ -290,6 +290,7 @@ void drawCell(Pen& pen, const Widget& w, const Region& region, const Box& box) {
     case Look::ring: ring(pen, w, box); break;
     case Look::sweep: sweep(pen, w, box); break;
     case Look::thumbs: thumbs(pen, w, box); break;
+    case Look::cross: drawCross(pen, w, box); break;
     case Look::normal:
       if (w.kind == WidgetKind::key) {
         block(pen, w, box);

@@ -51,10 +51,11 @@ struct DeviceView {
   Keyboard keyboard;
   std::array<double, 4> area{};  // edges while one is dragged: from_h, to_h, from_v, to_v in degrees
   int dragged_edge = -1;
-  std::string grabbed;     // the form that a finger lies on
-  bool scrolling = false;  // the finger has moved it
-  bool held = false;       // what it lies on was held long enough
-  MapGrip grip;            // what of a map the finger holds
+  std::string grabbed;                       // the form that a finger lies on
+  bool scrolling = false;                    // the finger has moved it
+  bool held = false;                         // what it lies on was held long enough
+  std::optional<std::array<double, 2>> aim;  // u, v under the cross-hair while the picture is moved
+  MapGrip grip;                              // what of a map the finger holds
   // A texture of a preview; 0 or empty: none can be had.
   std::function<std::uint64_t(const std::shared_ptr<const ScanPreview>&)> texture;
   // The font whose letters are made for about this height; empty or null: the current one.

@@ -35,6 +35,7 @@ std::set<WidgetKind> kindsFor(Look as) {
     case Look::ring:
     case Look::sweep: return {WidgetKind::progress};
     case Look::thumbs: return {WidgetKind::list};
+    case Look::cross: return {WidgetKind::preview};
   }
   return {};
 }

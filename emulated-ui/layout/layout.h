@@ -48,9 +48,10 @@ enum class Look : std::uint8_t {
   ring,    // progress as a ring with its value inside
   sweep,   // progress as a picture that grows from the left
   thumbs,  // a list as pictures beside one another
+  cross,   // a preview that is moved under a cross-hair
 };
-inline constexpr const char* kLookNames[] = {"normal", "tile",   "block", "round", "icon",  "pair",
-                                             "figure", "slider", "ring",  "sweep", "thumbs"};
+inline constexpr const char* kLookNames[] = {"normal", "tile",   "block", "round", "icon",   "pair",
+                                             "figure", "slider", "ring",  "sweep", "thumbs", "cross"};
 
 struct Region {
   RegionKind kind = RegionKind::empty;

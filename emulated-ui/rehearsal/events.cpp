@@ -90,6 +90,7 @@ std::vector<EventRow> sharedEvents() {
       {.name = "measured", .detail = Detail::text, .about = "distance measured in the preview"},
       {.name = "setup_deleted", .detail = Detail::text, .about = "its name"},
       {.name = "targets", .detail = Detail::text, .about = "targets searched: number found"},
+      {.name = "picked", .detail = Detail::text, .about = "target fitted under the cross-hair: its name, or nothing"},
       {.name = "sighted", .detail = Detail::text, .about = "target measured: its name (P-series)"},
       {.name = "oriented", .detail = Detail::text, .about = "station set-up accepted: the method (P-series)"},
       {.name = "linked", .detail = Detail::text, .about = "link attempted: joined or refused"},

@@ -208,5 +208,73 @@ TEST_F(DrawnGestures, TheRingTurnsItAnticlockwiseAboutItsSetup) {
   EXPECT_NEAR(turn, 90, 1);
 }
 
+// A picture of 8 x 4 cells under the cross.
+class DrawnCross : public DrawnGestures {
+ protected:
+  void openCross() {
+    openMap("targets");
+    for (auto& setup : d->project()->setups) setup.points = 1000, setup.preview = smallPreview();
+    d->change().shown = 2;
+    ASSERT_TRUE(d.press({"pick_targets"}));
+    for (int i = 0; i < 3; ++i) (void)frame();
+    const auto& io = ImGui::GetIO();
+    middle_ = {0, 0};
+    // The largest part of the screen holds the picture; its middle is found by where a drag begins.
+    for (float y = 0; y < io.DisplaySize.y && middle_.x == 0; y += 6)
+      for (float x = 0; x < kWidth && middle_.x == 0; x += 6)
+        if (const auto press = drag({x, y}, {x + 12, y}); press && press->widget == "pick_view")
+          middle_ = {x + 30, y + 30};
+  }
+  static std::pair<double, double> uv(const Press& press) {
+    double u = 0, v = 0;
+    EXPECT_EQ(std::sscanf(press.value.c_str(), "%lf,%lf", &u, &v), 2);
+    return {u, v};
+  }
+  ImVec2 middle_;
+};
+
+TEST_F(DrawnCross, APictureIsDraggedUnderItAndTheAimIsWhatLiesThere) {
+  openCross();
+  ASSERT_GT(middle_.x, 0);
+  const auto press = drag(middle_, {middle_.x - 10, middle_.y});
+  ASSERT_TRUE(press);
+  EXPECT_EQ(press->widget, "pick_view");
+  EXPECT_GT(uv(*press).first, 0.5) << "what lay to the right has come";
+  EXPECT_NEAR(uv(*press).second, 0.5, 1e-6);
+}
+
+TEST_F(DrawnCross, ATapBringsWhatItIsOnUnderTheCross) {
+  openCross();
+  ASSERT_GT(middle_.x, 0);
+  d->change().entries["aim"] = "0.50000,0.50000";
+  const auto there = drag(middle_, middle_);
+  ASSERT_TRUE(there);
+  EXPECT_EQ(there->widget, "pick_view");
+  const auto [u, v] = uv(*there);
+  EXPECT_GT(std::hypot(u - 0.5, v - 0.5), 0.01) << "the finger was not in the middle";
+  d->change().entries["aim"] = there->value;
+  // The picture has come by as much as the finger was off: the same tap again is as far from there.
+  const auto again = drag(middle_, middle_);
+  ASSERT_TRUE(again);
+  EXPECT_NEAR(std::remainder(uv(*again).first - u - (u - 0.5), 1), 0, 1e-4);
+}
+
+TEST_F(DrawnCross, AnArrowKeyNudgesByACellAndGoesRoundAtTheEdgeWhereverThePointerIs) {
+  openCross();
+  ASSERT_GT(middle_.x, 0);
+  d->change().entries["aim"] = "0.93750,0.50000";  // the last of the eight columns
+  auto& io = ImGui::GetIO();
+  io.MousePos = {1, 1};
+  io.KeyMap[ImGuiKey_RightArrow] = 14;
+  (void)frame();
+  io.KeysDown[14] = true;
+  const auto press = frame();
+  io.KeysDown[14] = false;
+  ASSERT_TRUE(press);
+  EXPECT_EQ(press->widget, "pick_view");
+  EXPECT_NEAR(uv(*press).first, 0.0625, 1e-4);
+  EXPECT_NEAR(uv(*press).second, 0.5, 1e-4);
+}
+
 }  // namespace
 }  // namespace standpoint

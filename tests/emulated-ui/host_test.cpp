@@ -5,6 +5,9 @@
 #include <fstream>
 #include <thread>
 
+#include <fmt/format.h>
+
+#include "emulated-ui/sighting.h"
 #include "pointclouds/formats.h"
 #include "tests/emulated-ui/support.h"
 #include "tests/project/support.h"
@@ -178,6 +181,82 @@ TEST_F(Host, TheDevicesMemoryIsFilledFromTheProject) {
   EXPECT_EQ(setups[0].project, "House");
   EXPECT_EQ(setups[0].number, 1);
   EXPECT_EQ(setups[0].station, "S1");
+}
+
+// Three spheres stand in the room; what is under the cross is picked under the name that is typed.
+class PickingHost : public Host {
+ protected:
+  PickingHost() {
+    Job job = *document_.job;
+    const Eigen::Vector3d eye{2.5, 2, 1.6};
+    job.targets = {{"T1", TargetKind::sphere, {1, 0.8, 1.2}, Eigen::Vector3d::UnitX(), 0.145},
+                   {"T2", TargetKind::sphere, {5.2, 1, 2}, Eigen::Vector3d::UnitX(), 0.145},
+                   {"T3", TargetKind::sphere, {1.2, 3.4, 1.9}, Eigen::Vector3d::UnitX(), 0.145}};
+    for (const auto& t : job.targets) towards_.push_back((t.centre - eye).normalized());
+    document_.job = std::make_shared<const Job>(std::move(job));
+    press({"resolution=6mm", "scan"});
+    const auto stored = runUntilIdle(1);
+    EXPECT_TRUE(stored);
+    if (stored) document_ = stored->document;
+    press({"look"});
+    runOrder();
+    press({"targets", "pick_targets"});
+  }
+  // The cell of the picture that looks that way.
+  std::string place(const Eigen::Vector3d& towards) {
+    const auto& p = *device().shownSetup()->preview;
+    std::size_t best = 0;
+    double most = -1;
+    for (std::size_t i = 0; i < p.x_m.size(); ++i) {
+      if (!std::isfinite(p.x_m[i])) continue;
+      const double along = Eigen::Vector3d(p.x_m[i], p.y_m[i], p.z_m[i]).normalized().dot(towards);
+      if (along > most) most = along, best = i;
+    }
+    return fmt::format("{:.5f},{:.5f}", (static_cast<double>(best % p.columns) + 0.5) / p.columns,
+                       1 - (static_cast<double>(best / p.columns) + 0.5) / p.rows);
+  }
+  const std::vector<FittedTarget>& picked() { return device().shownSetup()->targets; }
+
+  std::vector<Eigen::Vector3d> towards_;
+};
+
+TEST_F(PickingHost, WhatIsUnderTheCrossIsPickedUnderTheNameThatIsTyped) {
+  EXPECT_EQ(device().state().screen, "pick_target");
+  press({"pick_view=" + place(towards_[1]), "target_name=Door", "pick_type=sphere", "pick"});
+  runOrder();
+  ASSERT_EQ(picked().size(), 1U) << device().state().dialog_detail;
+  EXPECT_EQ(picked()[0].name, "Door");
+  EXPECT_GT(picked()[0].centre_m.normalized().dot(towards_[1]), std::cos(0.002));
+  press({"pick_view=" + place(towards_[0]), "pick"});
+  runOrder();
+  ASSERT_EQ(picked().size(), 1U) << "the name has a new place";
+  EXPECT_GT(picked()[0].centre_m.normalized().dot(towards_[0]), std::cos(0.002));
+}
+
+TEST_F(PickingHost, AWallAndAnotherKindAreNotPicked) {
+  const Eigen::Vector3d between = (towards_[0] + towards_[2]).normalized();
+  press({"pick_view=" + place(between), "pick_type=sphere", "pick"});
+  runOrder();
+  EXPECT_EQ(device().state().dialog, "refused") << "there is only the wall";
+  press({"ok", "pick_view=" + place(towards_[0]), "pick_type=checkerboard", "pick"});
+  runOrder();
+  EXPECT_EQ(device().state().dialog, "refused") << "it is a sphere";
+  EXPECT_TRUE(picked().empty());
+}
+
+TEST_F(PickingHost, WhatStandsBeforeATargetIsNotTheTarget) {
+  const auto pick = [&](double share) {
+    const auto& job = *document_.job;
+    const Eigen::Vector3d centre = job.stations[0].true_pose.rotation.conjugate() *
+                                   (job.targets[1].centre - job.stations[0].true_pose.translation);
+    Progress progress;
+    auto picked =
+        pickedTarget(document_, {device().shownSetup()->file, share * centre, 0.005, "sphere", "Door"}, 1, progress);
+    return picked && picked->found;
+  };
+  EXPECT_TRUE(pick(0.97)) << "its own surface";
+  EXPECT_TRUE(pick(1.3)) << "a coarse cell has seen the wall beside it";
+  EXPECT_FALSE(pick(0.6)) << "a post before it";
 }
 
 // A P40 in the lower room with four targets on its walls and in the room: measured one after the other, solved,

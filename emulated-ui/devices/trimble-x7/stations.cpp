@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "emulated-ui/device/picture.h"
 #include "emulated-ui/devices/trimble-x7/links.h"
 #include "emulated-ui/devices/trimble-x7/tablet.h"
 
@@ -15,17 +16,6 @@ namespace {
 
 constexpr std::size_t kLatest = 5, kNearest = 3;
 const std::string kAnnotation = "annotation.";  // + file and number: a value of the device
-
-// "u,v", shares of the picture from its upper left; nothing where no point came back.
-std::optional<Eigen::Vector3d> spotIn(const ScanPreview& picture, const std::string& at) {
-  double u = 0, v = 0;
-  if (std::sscanf(at.c_str(), "%lf,%lf", &u, &v) != 2 || !(u >= 0 && u < 1 && v >= 0 && v < 1)) return std::nullopt;
-  const auto column = static_cast<std::size_t>(u * picture.columns),
-             row = static_cast<std::size_t>((1 - v) * picture.rows);
-  const std::size_t cell = std::min<std::size_t>(row, picture.rows - 1) * picture.columns + column;
-  if (!std::isfinite(picture.x_m[cell])) return std::nullopt;
-  return Eigen::Vector3d(picture.x_m[cell], picture.y_m[cell], picture.z_m[cell]);
-}
 
 }  // namespace
 
