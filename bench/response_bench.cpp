@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// bench_response MODEL E,N,H: how soon each emulated device answers a finger. In the window of the whole editor,
+// 1280×800 drawn by the machine's OpenGL without a display (EGL), a pointer taps all over the body of every device,
+// screen after screen; a tap that changes what the device shows is a press. Two times of each: from the finger's going
+// down to the end of the frame that shows the key pressed, and from its lifting to the end of the frame that shows what
+// the press did. Ends with 1 where one of them is above 50 ms, or where nothing of a device could be pressed.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include "editor/instrument/desk.h"
+#include "editor/instrument/instrument.h"
+#include "editor/shell/editor.h"
+#include "editor/viewport/offscreen.h"
+#include "project/verb.h"
+
+using namespace standpoint;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr double kLimit_ms = 50;
+constexpr int kAcross = 7, kDown = 9;
+
+double msSince(Clock::time_point from) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - from).count();
+}
+
+// All that a display can show of what a press did.
+std::string shownBy(const Device& device) {
+  const auto screen = device.screen();
+  std::string all = screen.id + "|" + device.state().dialog + (device.asleep() ? "|asleep" : "");
+  for (const auto& w : screen.widgets) all += "|" + w.id + "=" + w.value + (w.enabled ? "" : "!");
+  return all;
+}
+
+struct Times {
+  std::vector<double> down_ms, answer_ms;
+  std::string slowest;  // the screen on which the worst answer came
+  double worst_ms = 0;
+};
+
+class Finger {
+ public:
+  Finger(Editor& editor, Offscreen& offscreen, InstrumentDesk& desk)
+      : editor_(editor), offscreen_(offscreen), desk_(desk) {}
+
+  void tap(ImVec2 at, Times& times) {
+    auto& io = ImGui::GetIO();
+    io.MousePos = at;
+    offscreen_.frame(editor_);
+    const auto before = shownBy(*desk_.shown());
+    const auto screen = desk_.shown()->screen().id;
+    const auto went_down = Clock::now();
+    io.MouseDown[0] = true;
+    offscreen_.frame(editor_);
+    const double down_ms = msSince(went_down);
+    const auto lifted = Clock::now();
+    io.MouseDown[0] = false;
+    offscreen_.frame(editor_);
+    const bool acted = shownBy(*desk_.shown()) != before;
+    offscreen_.frame(editor_);  // a press acts after its frame has been laid out, so the next one shows it
+    const double answer_ms = msSince(lifted);
+    if (!acted) return;
+    times.down_ms.push_back(down_ms);
+    times.answer_ms.push_back(answer_ms);
+    if (answer_ms > times.worst_ms) times.worst_ms = answer_ms, times.slowest = screen;
+  }
+
+ private:
+  Editor& editor_;
+  Offscreen& offscreen_;
+  InstrumentDesk& desk_;
+};
+
+// The body of the device with its keys and display, in the window.
+ImRect bodyInWindow() {
+  ImRect all(FLT_MAX, FLT_MAX, -FLT_MAX, -FLT_MAX);
+  for (const auto* window : ImGui::GetCurrentContext()->Windows)
+    if (window->Active && std::string(window->Name).find("/body_") != std::string::npos) all.Add(window->Rect());
+  return all;
+}
+
+void wake(InstrumentDesk& desk) {
+  act(desk, {RehearsalAction::Kind::press, desk.shown()->type().definition.keys.front().id, "", 0, {}});
+  desk.shown()->tick(200);
+}
+
+Times measure(Editor& editor, Offscreen& offscreen, InstrumentDesk& desk, const EmulatedDevice& device) {
+  Times times;
+  Finger finger(editor, offscreen, desk);
+  chooseDevice(desk, editor, device, {});
+  if (desk.shown() == nullptr) return times;
+  wake(desk);
+  for (int i = 0; i < 6; ++i) offscreen.frame(editor);
+  for (int i = 0; i < kAcross * kDown; ++i) {
+    const auto body = bodyInWindow();
+    if (body.IsInverted()) return times;
+    finger.tap({body.Min.x + body.GetWidth() * (static_cast<float>(i % kAcross) + 0.5F) / kAcross,
+                body.Min.y + body.GetHeight() * (static_cast<float>(i / kAcross) + 0.5F) / kDown},
+               times);
+    if (desk.shown()->busy() || !desk.shown()->on()) {  // it scans, or was turned off: begun anew
+      chooseDevice(desk, editor, device, {});
+      wake(desk);
+      for (int k = 0; k < 3; ++k) offscreen.frame(editor);
+    }
+  }
+  return times;
+}
+
+double median(std::vector<double> all) {
+  std::sort(all.begin(), all.end());
+  return all[all.size() / 2];
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  if (count != 3) return std::printf("bench_response MODEL E,N,H (a place on a floor, in the file's frame)\n"), 2;
+  auto offscreen = Offscreen::create(1280, 800, 1);
+  if (!offscreen) return std::printf("no OpenGL without a display: %s\n", describe(offscreen.error()).c_str()), 1;
+  const auto folder = std::filesystem::temp_directory_path() / "standpoint-bench-response";
+  std::filesystem::remove_all(folder);
+  Editor editor({verbs().begin(), verbs().end()}, [] {});
+  auto& desk = attachInstrument(editor);
+  (*offscreen)->adopt(editor);
+  std::vector<double> on(3);
+  std::sscanf(words[2], "%lf,%lf,%lf", &on[0], &on[1], &on[2]);
+  for (const auto& [verb, options] : {std::pair<const char*, nlohmann::json>{"import", {{"files", {words[1]}}}},
+                                      {"station", {{"add", "S1"}, {"on", on}}}}) {
+    editor.session.start(verb, options);
+    editor.session.wait();
+    editor.update();
+    if (!editor.session.errors().empty()) return std::printf("cannot open %s or set up there\n", words[1]), 1;
+  }
+  editor.session.save(folder);
+  editor.session.wait();
+  editor.workspace = Workspace::instrument;
+  editor.fine_picture = false;
+  for (int i = 0; i < 8; ++i) (*offscreen)->frame(editor);
+  editor.picker.wait();
+  editor.graphics.begin((*offscreen)->scene().means());
+
+  bool slow = false;
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // it is watched in a file
+  std::printf("%-18s %7s  %-22s %-22s\n", "device", "presses", "down: median, worst", "answer: median, worst");
+  for (const auto& device : emulatedDevices()) {
+    const auto times = measure(editor, **offscreen, desk, device);
+    if (times.answer_ms.empty()) {
+      std::printf("%-18s nothing could be pressed\n", device.id);
+      slow = true;
+      continue;
+    }
+    const double down_ms = *std::max_element(times.down_ms.begin(), times.down_ms.end());
+    std::printf("%-18s %7zu  %6.1f ms, %6.1f ms    %6.1f ms, %6.1f ms on '%s'\n", device.id, times.answer_ms.size(),
+                median(times.down_ms), down_ms, median(times.answer_ms), times.worst_ms, times.slowest.c_str());
+    slow |= down_ms > kLimit_ms || times.worst_ms > kLimit_ms;
+  }
+  std::filesystem::remove_all(folder);
+  return slow ? 1 : 0;
+}
