@@ -8,7 +8,9 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <imgui.h>
@@ -26,7 +28,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr double kLimit_ms = 50;
-constexpr int kAcross = 7, kDown = 9;
+constexpr int kAcross = 14, kDown = 22;
+constexpr std::size_t kEnough = 24;  // presses of each device
 
 double msSince(Clock::time_point from) {
   return std::chrono::duration<double, std::milli>(Clock::now() - from).count();
@@ -42,7 +45,7 @@ std::string shownBy(const Device& device) {
 
 struct Times {
   std::vector<double> down_ms, answer_ms;
-  std::string slowest;  // the screen on which the worst answer came
+  std::string slowest;  // the screen and widget of which the worst answer came
   double worst_ms = 0;
 };
 
@@ -57,6 +60,7 @@ class Finger {
     offscreen_.frame(editor_);
     const auto before = shownBy(*desk_.shown());
     const auto screen = desk_.shown()->screen().id;
+    const auto noted = desk_.shown()->state().log.size();
     const auto went_down = Clock::now();
     io.MouseDown[0] = true;
     offscreen_.frame(editor_);
@@ -70,7 +74,10 @@ class Finger {
     if (!acted) return;
     times.down_ms.push_back(down_ms);
     times.answer_ms.push_back(answer_ms);
-    if (answer_ms > times.worst_ms) times.worst_ms = answer_ms, times.slowest = screen;
+    if (answer_ms <= times.worst_ms) return;
+    const auto& log = desk_.shown()->state().log;
+    times.worst_ms = answer_ms;
+    times.slowest = log.size() > noted ? log[noted].detail : screen;
   }
 
  private:
@@ -92,24 +99,31 @@ void wake(InstrumentDesk& desk) {
   desk.shown()->tick(200);
 }
 
+// Every widget that a pointer finds on the body, screen after screen, once each.
 Times measure(Editor& editor, Offscreen& offscreen, InstrumentDesk& desk, const EmulatedDevice& device) {
   Times times;
   Finger finger(editor, offscreen, desk);
-  chooseDevice(desk, editor, device, {});
-  if (desk.shown() == nullptr) return times;
-  wake(desk);
-  for (int i = 0; i < 6; ++i) offscreen.frame(editor);
-  for (int i = 0; i < kAcross * kDown; ++i) {
+  const auto begin = [&] {
+    chooseDevice(desk, editor, device, {});
+    if (desk.shown() == nullptr) return;
+    (void)desk.shown()->hand("stand_at", "S1");
+    wake(desk);
+    for (int i = 0; i < 4; ++i) offscreen.frame(editor);
+  };
+  begin();
+  std::set<std::pair<std::string, ImGuiID>> tapped;
+  for (int i = 0; i < kAcross * kDown && desk.shown() != nullptr && times.answer_ms.size() < kEnough; ++i) {
     const auto body = bodyInWindow();
     if (body.IsInverted()) return times;
-    finger.tap({body.Min.x + body.GetWidth() * (static_cast<float>(i % kAcross) + 0.5F) / kAcross,
-                body.Min.y + body.GetHeight() * (static_cast<float>(i / kAcross) + 0.5F) / kDown},
-               times);
-    if (desk.shown()->busy() || !desk.shown()->on()) {  // it scans, or was turned off: begun anew
-      chooseDevice(desk, editor, device, {});
-      wake(desk);
-      for (int k = 0; k < 3; ++k) offscreen.frame(editor);
-    }
+    const ImVec2 at{body.Min.x + body.GetWidth() * (static_cast<float>(i % kAcross) + 0.5F) / kAcross,
+                    body.Min.y + body.GetHeight() * (static_cast<float>(i / kAcross) + 0.5F) / kDown};
+    ImGui::GetIO().MousePos = at;
+    offscreen.frame(editor);
+    offscreen.frame(editor);  // what the pointer is on is known one frame late
+    const auto under = ImGui::GetHoveredID();
+    if (under == 0 || !tapped.insert({desk.shown()->screen().id, under}).second) continue;
+    finger.tap(at, times);
+    if (desk.shown()->busy() || !desk.shown()->on() || !desk.shown()->state().dialog.empty()) begin();
   }
   return times;
 }
