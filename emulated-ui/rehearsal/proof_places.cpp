@@ -413,7 +413,7 @@ class ProofPlaces::Finder {
   }
 
   // The target that says it most.
-  std::optional<ProofPlace> worstTarget(ProofPlace place, const std::vector<const StoredSetup*>& setups,
+  std::optional<ProofPlace> worstTarget(const ProofPlace& place, const std::vector<const StoredSetup*>& setups,
                                         std::string_view fact) {
     const bool by_points = isByPoints(fact);
     const bool by_residual = fact.ends_with("residual");

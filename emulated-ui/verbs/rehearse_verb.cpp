@@ -341,7 +341,7 @@ Result<RehearseOutcome> runRehearse(const Document& document, const RehearseOpti
     }
   // The student chose the format: no loss of this verb's own.
   for (const auto& lost : rehearsal->host().takeReport().issues) outcome.report.note(lost.source, lost.message);
-  TRY_ASSIGN(const auto marks, marksOf(*rehearsal, options.student, options.language, progress));
+  TRY_ASSIGN(auto marks, marksOf(*rehearsal, options.student, options.language, progress));
   TRY(writeMarks(*rehearsal, marks, folder));
   outcome.text = marksText(marks);
   if (chosen.assignment) {
