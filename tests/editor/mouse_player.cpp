@@ -59,14 +59,10 @@ std::string MousePlayer::refusal() const {
   return desk_.said == desk_.shown()->state().moved_along ? std::string() : desk_.said;
 }
 
-void MousePlayer::click(ImVec2 at, float down_s) {
-  auto& io = ImGui::GetIO();
+void MousePlayer::click(ImVec2 at) {
   gui_.moveTo(at);
-  io.MouseDown[0] = true;
+  gui_.press();
   gui_.frame();
-  for (float held_s = 0; held_s < down_s; held_s += io.DeltaTime) gui_.frame();
-  io.MouseDown[0] = false;
-  gui_.frames(3);
   ++clicks_;
 }
 

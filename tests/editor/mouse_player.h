@@ -16,7 +16,7 @@ namespace standpoint {
 // done without the pointer.
 class MousePlayer {
  public:
-  MousePlayer(Editor& editor, InstrumentDesk& desk, GuiDriver& gui) : editor_(editor), desk_(desk), gui_(gui) {}
+  MousePlayer(InstrumentDesk& desk, GuiDriver& gui) : desk_(desk), gui_(gui) {}
   // Empty: done. Else what is in the way.
   std::string play(const RehearsalAction& action);
   int clicks() const { return clicks_; }
@@ -28,14 +28,13 @@ class MousePlayer {
   std::string enter(const Widget& widget, const std::string& value);
   std::string dragEdges(const Widget& widget, const std::string& value);
   std::string refusal() const;
-  void click(ImVec2 at, float down_s = 0);
+  void click(ImVec2 at);
   void drag(ImVec2 from, ImVec2 to);
   const Widget* onDevice(const std::string& id);
   // In sight: the part of it that a pointer reaches; tabs are turned and lists scrolled for it.
   std::optional<ImRect> reach(const Widget& widget, const std::string& option = {});
   std::optional<ImRect> visible(const Widget& widget, const std::string& option, std::string* scroll) const;
 
-  Editor& editor_;
   InstrumentDesk& desk_;
   GuiDriver& gui_;
   Screen screen_;  // that was asked last

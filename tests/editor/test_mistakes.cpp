@@ -66,13 +66,7 @@ class MistakeGui : public testing::Test {
  protected:
   MistakeGui() {
     setenv("HOME", folder_.path().c_str(), 1);
-    connect(desk, editor.session);
-    editor.workspace = Workspace::instrument;
-    editor.draw_instrument = [this](Editor& e) {
-      followProject(desk, e);
-      advance(desk, e);
-      drawExercises(desk, e);
-    };
+    showExercises(desk, editor);
   }
   // Levelled by nobody; with the exercise's solution, or without as an assigned one.
   void doWithoutLevelling(bool has_solution) {

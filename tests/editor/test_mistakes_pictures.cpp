@@ -27,13 +27,7 @@ class MistakePictures : public testing::Test {
     if (!made) GTEST_SKIP() << describe(made.error());
     offscreen_ = std::move(*made);
     offscreen_->adopt(editor_);
-    connect(desk_, editor_.session);
-    editor_.workspace = Workspace::instrument;
-    editor_.draw_instrument = [this](Editor& e) {
-      followProject(desk_, e);
-      advance(desk_, e);
-      drawExercises(desk_, e);
-    };
+    showExercises(desk_, editor_);
   }
   void shows(const std::string& id, const std::string& device, const std::string& rule_id,
              const std::function<void(Actions&)>& spoil) {

@@ -46,7 +46,7 @@ TEST_P(ByMouse, IsSolved) {
   ASSERT_NE(desk.rehearsal, nullptr) << desk.refused;
   gui.settle();
   desk.time_factor = 1;  // what the player needs is not taken for a long time on the device
-  MousePlayer player(editor, desk, gui);
+  MousePlayer player(desk, gui);
   int number = 0;
   for (const auto& action : exercise.solution) {
     const auto wrong = player.play(action);
