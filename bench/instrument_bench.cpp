@@ -6,16 +6,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "bench/desk_on_model.h"
 #include "core/units.h"
-#include "editor/instrument/desk.h"
-#include "editor/instrument/instrument.h"
-#include "editor/shell/editor.h"
-#include "editor/viewport/offscreen.h"
-#include "project/verb.h"
 
 using namespace standpoint;
 
@@ -26,13 +21,6 @@ constexpr int kMostFrames = 300;
 constexpr double kMost_s = 12;
 
 double secondsSince(Clock::time_point from) { return std::chrono::duration<double>(Clock::now() - from).count(); }
-
-bool does(Editor& editor, const char* verb, const nlohmann::json& options) {
-  editor.session.start(verb, options);
-  editor.session.wait();
-  editor.update();
-  return editor.session.errors().empty();
-}
 
 void press(InstrumentDesk& desk, const std::vector<std::string>& widgets) {
   for (const auto& text : widgets) {
@@ -83,30 +71,18 @@ void say(const char* where, const Times& t) {
 
 int main(int count, char** words) {
   if (count != 3) return std::printf("bench_instrument MODEL E,N,H (a place on a floor, in the file's frame)\n"), 2;
-  auto offscreen = Offscreen::create(1280, 800, 1);
-  if (!offscreen) return std::printf("no OpenGL without a display: %s\n", describe(offscreen.error()).c_str()), 1;
-  const auto folder = std::filesystem::temp_directory_path() / "standpoint-bench-instrument";
-  std::filesystem::remove_all(folder);
-  Editor editor({verbs().begin(), verbs().end()}, [] {});
-  auto& desk = attachInstrument(editor);
-  (*offscreen)->adopt(editor);
-  std::vector<double> on(3);
-  std::sscanf(words[2], "%lf,%lf,%lf", &on[0], &on[1], &on[2]);
-  if (!does(editor, "import", {{"files", {words[1]}}}) || !does(editor, "station", {{"add", "S1"}, {"on", on}}))
-    return std::printf("cannot open %s or set up there\n", words[1]), 1;
-  editor.session.save(folder);
-  editor.session.wait();
-  editor.workspace = Workspace::instrument;
-  for (int i = 0; i < 8; ++i) (*offscreen)->frame(editor);
-  editor.picker.wait();
-  editor.graphics.begin((*offscreen)->scene().means());
+  DeskOnModel opened;
+  if (!opened.open(words[1], words[2], "instrument")) return 1;
+  auto& offscreen = opened.offscreen;
+  auto& editor = opened.editor;
+  auto& desk = opened.desk;
   desk.time_factor = 1;  // so that there is time to count
 
   press(desk, {"power"});
   desk.shown()->tick(60);
   press(desk, {"job", "new_job", "name=House", "create", "settings", "resolution=6mm", "images=off", "back", "scan"});
   const auto waited = Clock::now();
-  while (editor.held.motion.fans.empty() && secondsSince(waited) < 60) (*offscreen)->frame(editor);
+  while (editor.held.motion.fans.empty() && secondsSince(waited) < 60) offscreen->frame(editor);
 
   const auto& pose = editor.session.document().job->stations.front().true_pose;
   auto& camera = editor.view.camera;
@@ -117,10 +93,9 @@ int main(int count, char** words) {
   camera.azimuth_rad = 0.6;
   camera.elevation_rad = 0.1;
   editor.fine_picture = false;
-  say("two metres away", measure(editor, **offscreen, desk));
+  say("two metres away", measure(editor, *offscreen, desk));
   camera.distance_m = 0.5;
   camera.view_angle_rad = 32 * kRadPerDeg;
-  say("before its display", measure(editor, **offscreen, desk));
-  std::filesystem::remove_all(folder);
+  say("before its display", measure(editor, *offscreen, desk));
   return 0;
 }

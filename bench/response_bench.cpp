@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <set>
 #include <string>
 #include <utility>
@@ -16,11 +15,7 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
-#include "editor/instrument/desk.h"
-#include "editor/instrument/instrument.h"
-#include "editor/shell/editor.h"
-#include "editor/viewport/offscreen.h"
-#include "project/verb.h"
+#include "bench/desk_on_model.h"
 
 using namespace standpoint;
 
@@ -137,35 +132,14 @@ double median(std::vector<double> all) {
 
 int main(int count, char** words) {
   if (count != 3) return std::printf("bench_response MODEL E,N,H (a place on a floor, in the file's frame)\n"), 2;
-  auto offscreen = Offscreen::create(1280, 800, 1);
-  if (!offscreen) return std::printf("no OpenGL without a display: %s\n", describe(offscreen.error()).c_str()), 1;
-  const auto folder = std::filesystem::temp_directory_path() / "standpoint-bench-response";
-  std::filesystem::remove_all(folder);
-  Editor editor({verbs().begin(), verbs().end()}, [] {});
-  auto& desk = attachInstrument(editor);
-  (*offscreen)->adopt(editor);
-  std::vector<double> on(3);
-  std::sscanf(words[2], "%lf,%lf,%lf", &on[0], &on[1], &on[2]);
-  for (const auto& [verb, options] : {std::pair<const char*, nlohmann::json>{"import", {{"files", {words[1]}}}},
-                                      {"station", {{"add", "S1"}, {"on", on}}}}) {
-    editor.session.start(verb, options);
-    editor.session.wait();
-    editor.update();
-    if (!editor.session.errors().empty()) return std::printf("cannot open %s or set up there\n", words[1]), 1;
-  }
-  editor.session.save(folder);
-  editor.session.wait();
-  editor.workspace = Workspace::instrument;
-  editor.fine_picture = false;
-  for (int i = 0; i < 8; ++i) (*offscreen)->frame(editor);
-  editor.picker.wait();
-  editor.graphics.begin((*offscreen)->scene().means());
-
+  DeskOnModel opened;
+  if (!opened.open(words[1], words[2], "response")) return 1;
+  opened.editor.fine_picture = false;
   bool slow = false;
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // it is watched in a file
   std::printf("%-18s %7s  %-22s %-22s\n", "device", "presses", "down: median, worst", "answer: median, worst");
   for (const auto& device : emulatedDevices()) {
-    const auto times = measure(editor, **offscreen, desk, device);
+    const auto times = measure(opened.editor, *opened.offscreen, opened.desk, device);
     if (times.answer_ms.empty()) {
       std::printf("%-18s nothing could be pressed\n", device.id);
       slow = true;
@@ -176,6 +150,5 @@ int main(int count, char** words) {
                 median(times.down_ms), down_ms, median(times.answer_ms), times.worst_ms, times.slowest.c_str());
     slow |= down_ms > kLimit_ms || times.worst_ms > kLimit_ms;
   }
-  std::filesystem::remove_all(folder);
   return slow ? 1 : 0;
 }
