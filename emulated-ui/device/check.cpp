@@ -68,6 +68,7 @@ class Checker {
     checkTransitions();
     checkPhases();
     checkDialogs();
+    checkSounds();
     checkReach();
     return std::move(faults_);
   }
@@ -216,6 +217,13 @@ class Checker {
         if (!b.event.empty() && !known_.contains(b.event))
           fault("/dialogs/" + dialog.id + "/" + b.id, fmt::format("no phase handles the event '{}'", b.event));
     }
+  }
+
+  void checkSounds() {
+    checkCondition(d().sounds.when, "/sounds/when");
+    for (const auto& row : d().sounds.rows)
+      for (const auto& event : row.on)
+        if (const auto wrong = unheardOf(d(), event); !wrong.empty()) fault("/sounds/rows/" + row.id + "/on", wrong);
   }
 
   // A screen is left by a widget that goes elsewhere or sends an event, or by the phase that shows it.

@@ -146,6 +146,35 @@ SensorRow sensorRow(JsonFields& f) {
   return s;
 }
 
+SoundRow soundRow(JsonFields& f) {
+  SoundRow s;
+  s.id = f.text("id");
+  s.on = f.texts("on");
+  s.source = f.text("source");
+  if (s.on.empty()) f.wrong("on", "name at least one event, such as \"pressed\" or \"phase.booting\"");
+  const std::string shape = "tones must be a list of [hertz, milliseconds], such as [[880, 120], [0, 60], [880, 120]]";
+  const auto* tones = f.required("tones");
+  if (tones == nullptr) return s;
+  if (!tones->is_array() || tones->empty()) {
+    f.wrong("tones", shape);
+    return s;
+  }
+  double all_ms = 0;
+  for (std::size_t i = 0; i < tones->size(); ++i) {
+    const auto& tone = (*tones)[i];
+    const auto place = fmt::format("{}/{}", f.pointer("tones"), i);
+    if (!tone.is_array() || tone.size() != 2) {
+      f.fault().say(place, shape);
+      return s;
+    }
+    s.tones.push_back({numberAt(f.fault(), tone[0], place + "/0", 0, 12000),
+                       numberAt(f.fault(), tone[1], place + "/1", 1, kLongestSound_ms)});
+    all_ms += s.tones.back().milliseconds;
+  }
+  if (all_ms > kLongestSound_ms) f.wrong("tones", fmt::format("longer than {:.0f} ms in all", kLongestSound_ms));
+  return s;
+}
+
 SkinRow skinRow(JsonFields& f) {
   SkinRow s;
   const std::pair<const char*, std::uint32_t*> colours[] = {{"body", &s.body},
@@ -315,6 +344,11 @@ Result<DeviceDefinition> readDefinition(const std::filesystem::path& file) {
     d.dialogs.push_back(std::move(dialog));
   });
   root.object("skin", [&](JsonFields& f) { d.skin = skinRow(f); });
+  root.object("sounds", [&](JsonFields& f) {
+    d.sounds.when = conditionAt(f, "when");
+    f.list("rows", [&](JsonFields& row) { d.sounds.rows.push_back(soundRow(row)); });
+    refuseTwins(fault, d.sounds.rows, f.pointer("rows"));
+  });
   root.object("scan", [&](JsonFields& f) {
     d.scan.name = f.textOr("name", d.scan.name);
     d.scan.project_base = f.flagOr("project_base", false);

@@ -13,6 +13,7 @@
 #include "emulated-ui/device/condition.h"
 #include "emulated-ui/device/default_transitions.h"
 #include "emulated-ui/device/screen.h"
+#include "emulated-ui/device/sounds.h"
 
 namespace standpoint {
 
@@ -149,6 +150,7 @@ struct DeviceDefinition {
   std::vector<WidgetRow> keys;  // on the body
   std::vector<DialogRow> dialogs;
   std::vector<SensorRow> sensors;
+  SoundsRow sounds;
   // Transitions that need no code of the device's own; with roles, those that all devices share stand behind them.
   std::vector<Transition> transitions;
   std::optional<DeviceRoles> roles;

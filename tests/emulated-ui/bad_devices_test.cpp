@@ -99,6 +99,26 @@ TEST_F(BadDevice, EachMistakeIsNamedWithItsPlace) {
        [](json& j) { named(named(j["screens"], "home")["widgets"], "scan")["event"] = "scann"; }},
       {"leica-rtc360/device.json /screens/home/battery/warns: unknown fact 'batery'",
        [](json& j) { named(named(j["screens"], "home")["widgets"], "battery")["warns"] = "batery < 1"; }},
+      {"leica-rtc360/device.json /sounds/when: unknown fact 'value.hum'",
+       [](json& j) { j["sounds"]["when"] = "value.hum == on"; }},
+      {"leica-rtc360/device.json /sounds/rows/key/on: unknown event 'presed'",
+       [](json& j) { named(j["sounds"]["rows"], "key")["on"] = {"presed"}; }},
+      {"leica-rtc360/device.json /sounds/rows/key/on: unknown phase 'scaning'",
+       [](json& j) { named(j["sounds"]["rows"], "key")["on"] = {"phase.scaning"}; }},
+      {"leica-rtc360/device.json /sounds/rows/key/on: unknown trouble 'flood'",
+       [](json& j) { named(j["sounds"]["rows"], "key")["on"] = {"trouble.flood"}; }},
+      {"x.json /sounds/rows/0/tones: tones must be a list of [hertz, milliseconds]",
+       [](json& j) { j["sounds"]["rows"][0]["tones"] = "beep"; }},
+      {"x.json /sounds/rows/0/tones/0: tones must be a list", [](json& j) { j["sounds"]["rows"][0]["tones"] = {440}; }},
+      {"x.json /sounds/rows/0/tones/0/0",
+       [](json& j) {
+         j["sounds"]["rows"][0]["tones"] = json::array({{-440, 100}});
+       }},
+      {"x.json /sounds/rows/0/tones: longer than 3000 ms in all",
+       [](json& j) {
+         j["sounds"]["rows"][0]["tones"] = json::array({{440, 2000}, {880, 2000}});
+       }},
+      {"x.json /sounds/rows/0/on: name at least one event", [](json& j) { j["sounds"]["rows"][0].erase("on"); }},
   };
   for (const auto& wrong : kWrong) EXPECT_THAT(saysOf("leica-rtc360", wrong.edit), HasSubstr(wrong.message));
 }
