@@ -14,6 +14,7 @@ endif()
 find_package(OpenGL REQUIRED COMPONENTS OpenGL EGL)
 find_package(Freetype REQUIRED)
 find_package(glfw3 3.3 REQUIRED)
+find_package(OpenAL REQUIRED)  # sounds of instruments
 find_package(PROJ REQUIRED)
 find_package(EXPAT REQUIRED)
 find_package(ZLIB REQUIRED)

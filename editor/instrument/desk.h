@@ -98,6 +98,7 @@ struct InstrumentDesk {
   PreviewPictures pictures;
   LayoutFollower layouts;
   MotionOfDevice motion;
+  std::uint64_t heard = 0;                // events of the device's log that have sounded, or were to
   std::shared_ptr<GrowingCloud> growing;  // of the scan that was begun last; null: none, or it was carried away
   std::string growing_at;                 // the station of that
 

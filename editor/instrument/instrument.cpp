@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 #include "editor/instrument/desk.h"
+#include "editor/instrument/speaker.h"
 #include "editor/instrument/ticker.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/widgets.h"
@@ -23,7 +24,7 @@ constexpr std::array kClockFactors = {1.0, 5.0, 20.0, 100.0};
 
 class InstrumentPanel {
  public:
-  explicit InstrumentPanel(std::function<void()> wake) : ticker_(std::move(wake)) {}
+  explicit InstrumentPanel(const std::function<void()>& wake) : ticker_(wake), speaker_(wake) {}
 
   void draw(Editor& editor) {
     followProject(desk_, editor);
@@ -47,6 +48,7 @@ class InstrumentPanel {
     if (beside) ImGui::SameLine();
     if (desk_.shown() != nullptr && ImGui::BeginChild("beside", {0, 0})) tabs(editor);
     if (desk_.shown() != nullptr) ImGui::EndChild();
+    sound(editor);
     const bool exercising = desk_.rehearsal != nullptr && !desk_.ended();
     desk_.was_busy = desk_.shown() != nullptr && (exercising || desk_.running()->busy());
     ticker_.run(desk_.was_busy || ImGui::IsMouseDown(ImGuiMouseButton_Left));  // a finger that stays down is a hold
@@ -82,6 +84,17 @@ class InstrumentPanel {
     if (!desk_.layouts.problem().empty()) return ui::wrapped(trf("Layout not used: {}", desk_.layouts.problem()));
     if (!desk_.refused.empty()) return ui::wrapped(desk_.refused);
     ui::dimWrapped("Screens drawn by Standpoint; not affiliated with or endorsed by the manufacturers.");
+  }
+
+  // What the device lets hear of what has happened since the last frame.
+  void sound(Editor& editor) {
+    const auto* device = desk_.shown();
+    const auto noted = device == nullptr ? 0 : device->state().noted;
+    const auto* due = noted > desk_.heard && editor.settings.sounds ? soundSince(*device, desk_.heard) : nullptr;
+    desk_.heard = noted;
+    if (due != nullptr) speaker_.play(due->tones);
+    const auto problem = speaker_.takeProblem();
+    if (!problem.empty()) editor.session.say(LogLevel::warning, tr("Instrument sounds"), problem);
   }
 
   // In words what the device's clock waits for, once that has taken a moment.
@@ -174,6 +187,7 @@ class InstrumentPanel {
   static std::string clockName(double factor) { return factor == 1 ? tr("real time") : trf("{:.0f}× speed", factor); }
 
   Ticker ticker_;
+  Speaker speaker_;
   InstrumentDesk desk_;
   const EmulatedDevice* wanted_ = nullptr;
   std::string wanted_instrument_;

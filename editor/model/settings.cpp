@@ -86,10 +86,15 @@ json toJson(const Settings& settings) {
     const auto& a = settings.areas[i];
     areas[nameOf(static_cast<Workspace>(i))] = {{"left", a.left}, {"right", a.right}, {"bottom", a.bottom}};
   }
-  return {{"recent", settings.recent},           {"areas", std::move(areas)},
-          {"last_folder", settings.last_folder}, {"user_scale", settings.user_scale},
-          {"recovery", settings.recovery},       {"graphics", graphicsKey(settings.graphics)},
-          {"theme", themeKey(settings.theme)},   {"language", settings.language}};
+  return {{"recent", settings.recent},
+          {"areas", std::move(areas)},
+          {"last_folder", settings.last_folder},
+          {"user_scale", settings.user_scale},
+          {"recovery", settings.recovery},
+          {"graphics", graphicsKey(settings.graphics)},
+          {"theme", themeKey(settings.theme)},
+          {"language", settings.language},
+          {"sounds", settings.sounds}};
 }
 
 Settings settingsFrom(const json& object, std::vector<std::string>& wrong) {
@@ -120,6 +125,7 @@ Settings settingsFrom(const json& object, std::vector<std::string>& wrong) {
   // Before, a copy was kept every so many minutes, or never.
   if (object.value("recovery_minutes", json()) == 0) result.recovery = false;
   if (const auto* recovery = reader.find("recovery", json::value_t::boolean)) result.recovery = recovery->get<bool>();
+  if (const auto* sounds = reader.find("sounds", json::value_t::boolean)) result.sounds = sounds->get<bool>();
   reader.choice("graphics", result.graphics, graphicsChoice);
   reader.choice("theme", result.theme, themeOf);
   reader.choice("language", result.language, languageChoice);

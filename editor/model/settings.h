@@ -39,6 +39,7 @@ struct Settings {
   bool recovery = true;     // keep a copy of unsaved work after every change
   GraphicsChoice graphics = GraphicsChoice::automatic;
   Theme theme = Theme::dark;
+  bool sounds = false;   // of instruments
   std::string language;  // code of words.h; "": as the user's locale says
   bool operator==(const Settings&) const = default;
 

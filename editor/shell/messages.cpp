@@ -268,6 +268,8 @@ void drawPreferences(Editor& editor) {
     drawLanguages(editor);
     ui::propertyLabel("Recovery copy after every change");
     ui::checkbox("###recovery", &editor.settings.recovery);
+    ui::propertyLabel("Instrument sounds");
+    ui::checkbox("###sounds", &editor.settings.sounds);
     ui::endProperties();
   }
   ui::heading(editor, "Graphics");

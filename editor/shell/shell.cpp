@@ -129,7 +129,7 @@ void viewMenu(Editor& editor) {
            "workspace-survey", "workspace-instrument", "workspace-inspect"});
   ImGui::Separator();
   graphicsMenu(editor);
-  items(editor, {editor.settings.theme == Theme::light ? "theme-dark" : "theme-light"});
+  items(editor, {editor.settings.theme == Theme::light ? "theme-dark" : "theme-light", "sounds"});
   submenu(editor, "", "Interface size###menu-size", {"interface-larger", "interface-smaller", "interface-usual"});
 }
 
