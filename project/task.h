@@ -15,6 +15,10 @@
 
 namespace standpoint {
 
+// What this thread and the threads that it starts compute gives way to whoever draws: they get a quarter of a processor
+// for which a thread of usual priority asks, too, and all of it otherwise.
+void computeInBackground();
+
 // One background run of any function that takes Progress&. The function owns what it works on and gives back what it
 // made, so that it writes nothing that could be gone before it ends. The starter polls done() from its own thread, then
 // takes the result. A task that is destroyed cancels and waits.
@@ -26,6 +30,7 @@ class Task {
   Task(std::string title, Work work, std::function<void()> wake = {}) : title_(std::move(title)) {
     progress_.onChange(wake);
     worker_ = std::thread([this, work = std::move(work), wake = std::move(wake)] {
+      computeInBackground();
       result_ = guarded(work);
       done_.store(true, std::memory_order_release);
       if (wake) wake();

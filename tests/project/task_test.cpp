@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "project/task.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <stdexcept>
+#include <sys/resource.h>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -34,6 +36,22 @@ TEST(Task, IsCancelledAtOnceAndSaysSo) {
   const auto result = task.take();
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().kind, ErrorKind::cancelled);
+}
+
+TEST(Task, GivesWayToTheThreadThatStartedItAsDoWhatItStarts) {
+  const auto niceness = [] { return getpriority(PRIO_PROCESS, 0); };  // on Linux of the calling thread
+  const int before = niceness();
+  Task<std::pair<int, int>> task("nice", [&](Progress&) -> Result<std::pair<int, int>> {
+    int of_helper = 0;
+    std::thread([&] { of_helper = niceness(); }).join();
+    return std::pair(niceness(), of_helper);
+  });
+  const auto result = task.take();
+  ASSERT_TRUE(result);
+  const int nicest = std::min(19, before + 5);
+  EXPECT_EQ(result->first, nicest);
+  EXPECT_EQ(result->second, nicest);
+  EXPECT_EQ(niceness(), before);
 }
 
 TEST(Task, ThatIsDroppedCancelsItself) {
