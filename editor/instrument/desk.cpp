@@ -227,6 +227,7 @@ void advance(InstrumentDesk& desk, Editor& editor) {
   desk.last = now;
   // Only waiting is shortened: what the student needs to read and press takes its own time, also in an exercise.
   desk.running()->time_factor = desk.running()->busy() ? desk.time_factor : 1;
+  const bool ran = desk.running()->task() != nullptr;
   desk.running()->watch = [&desk, &editor](const ScanOrder& order) {
     desk.growing = std::make_shared<GrowingCloud>(desk.motion.shape(*desk.shown()), editor.shift_m());
     desk.growing_at = order.station;
@@ -257,7 +258,11 @@ void advance(InstrumentDesk& desk, Editor& editor) {
   editor.session.say(desk.running()->takeReport());
   takeMarks(desk, editor);
   desk.mistakes.follow(editor);
-  showInScene(desk, editor);
+  // Its display says first that it begins; what then moves in the scene costs a picture more, and comes with the next.
+  if (ran || desk.running()->task() == nullptr)
+    showInScene(desk, editor);
+  else
+    editor.wake();
   if (const auto view = desk.shown()->takeView()) editor.showClouds({view->file});
   if (!desk.view.texture)
     desk.view.texture = [&desk, &editor](const std::shared_ptr<const ScanPreview>& preview) -> std::uint64_t {
