@@ -31,6 +31,8 @@ namespace {
 
 using namespace standpoint;
 
+constexpr double kFlight_s = 0.25;
+
 constexpr const char* kUsage =
     "standpoint-editor [PROJECT or MODEL...]\nstandpoint-editor --pictures OUTDIR [--size 1280x800] [--scale 1] "
     "[--language en] [--theme dark|light] PROJECT or MODEL\nstandpoint-editor --devices OUTDIR [--language en] "
@@ -222,6 +224,7 @@ int goOnWithoutOpenGl(const Error& error) {
 
 int openWindow(const Arguments& arguments) {
   Editor editor(allVerbs(), wakeWindow);
+  editor.flight = CameraFlight(kFlight_s);
   attachInstrument(editor);
   const auto crashes = takeNewCrashes(recoveryRoot());
   const auto prepare = [&] {

@@ -26,7 +26,7 @@ class FramePacer {
   struct Reasons {
     bool input = false;         // is waiting to be drawn
     bool key_held = false;      // repeats once a frame
-    bool walker_moves = false;  // slows down, falls or rises by itself
+    bool walker_moves = false;  // slows down, falls or rises by itself; or the camera flies
     bool text_edited = false;   // its cursor blinks
     bool job_runs = false;      // its bar moves
     bool refining = false;      // the picture gets better by being drawn again

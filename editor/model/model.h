@@ -13,6 +13,7 @@
 
 #include "editor/bodies/standing.h"
 #include "editor/camera/camera.h"
+#include "editor/camera/camera_flight.h"
 #include "editor/clouds/cloud.h"
 #include "editor/clouds/cloud_loader.h"
 #include "editor/clouds/live_cloud.h"
@@ -209,6 +210,7 @@ struct Model : Style {
   std::vector<ShownUnderlay> growing;  // what its scan has measured so far
   Walk walk;                           // while the tool is Tool::walk
   Fly fly;                             // while the tool is Tool::fly
+  CameraFlight flight;                 // while neither is
   WalkGround walk_ground;
   WalkPlace wanted_walk;  // from where, as soon as the ground is there
   ViewHistory views;

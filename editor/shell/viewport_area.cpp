@@ -255,7 +255,12 @@ void drawViewport(Editor& editor) {
   if (view.frame_wanted) {
     frame(view.camera, editor.buildingBounds(), size.x / size.y);
     view.frame_wanted = false;
+    editor.flight.settle(view.camera);
   }
+  if (editor.walk.active() || view.tool == Tool::fly)
+    editor.flight.settle(view.camera);
+  else
+    editor.flight.step(view.camera, ImGui::GetIO().DeltaTime);
   measureGraphics(editor, size);
   if (proves)
     drawTwoClouds(editor, origin, size);
@@ -293,6 +298,8 @@ void drawViewport(Editor& editor) {
   if (!on_probe && !on_handle && !on_station && !on_clip)
     handleMouse(editor, view.in_right_half ? right : origin, hovered);
   handleMoving(editor);
+  if (view.dragging || ImGui::GetIO().MouseWheel != 0 || ImGui::GetIO().MouseWheelH != 0)
+    editor.flight.settle(view.camera);
   if (editor.proof && !editor.preview.isOpen()) {
     drawProofPlace(editor, origin, whole);
     drawOverlay(editor, origin, whole);
