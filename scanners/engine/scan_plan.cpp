@@ -96,7 +96,8 @@ ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignme
   if (effects.has(Effect::striping)) column_noise.emplace(instrument, settings.columns, elevations, key);
   if (effects.has(Effect::range_noise)) white_fraction = column_noise ? static_cast<double>(column_noise->white()) : 1;
   if (weather.rain_mm_h > 0 || weather.snow_mm_h > 0 || weather.fog_mor_m > 0 || weather.dust_mor_m > 0)
-    scatterers.emplace(instrument, weather, drop_threshold, settings.max_range_m, key);
+    scatterers.emplace(instrument, weather, drop_threshold, settings.max_range_m, key, settings.passes,
+                       effects.has(Effect::near_range));
   for (std::uint32_t row = 0; row < settings.rows + kPacket; ++row) {
     sine.push_back(std::sin(elevation_rad(row)));
     cosine.push_back(std::cos(elevation_rad(row)));

@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kNodes = 1024;
 constexpr std::uint32_t kDropChannel = 32;  // of Philox; further blocks of a pulse 256 apart, kinds 128 apart
+constexpr std::uint32_t kFogChannel = 96;   // further blocks 256 apart
 constexpr double kNearest_m = 0.1;          // an instrument without a shortest range
 constexpr double kSmallest_m = 5e-5;        // smaller drops are mist and belong to the haze
 constexpr double kWater = 0.02;             // ((n - 1) / (n + 1))², n = 1.33
@@ -25,11 +26,13 @@ constexpr double kFogBackscatter = 0.046;   // β · MOR, per steradian
 }  // namespace
 
 Scatterers::Scatterers(const Instrument& instrument, const Weather& weather, double min_x, double max_range_m,
-                       const RandomKey& key)
+                       const RandomKey& key, int passes, bool near_range)
     : instrument_(instrument),
       key_(key),
       min_x_(min_x),
-      extinction_per_m_(standpoint::extinction_per_m(weather, instrument.wavelength_nm)) {
+      extinction_per_m_(standpoint::extinction_per_m(weather, instrument.wavelength_nm)),
+      photons_per_x_(kPhotonsAtThreshold * passes / min_x),
+      near_range_(near_range) {
   const double nearest = std::max(instrument.min_range_m, kNearest_m);
   const double span = portable::log(std::max(max_range_m, 1.01 * nearest) / nearest);
   for (std::size_t i = 0; i < kNodes; ++i)
@@ -37,7 +40,7 @@ Scatterers::Scatterers(const Instrument& instrument, const Weather& weather, dou
   if (weather.rain_mm_h > 0) populations_.push_back({ScattererKind::drop, rainDrops(weather.rain_mm_h), kWater, {}});
   if (weather.snow_mm_h > 0) populations_.push_back({ScattererKind::flake, snowFlakes(weather.snow_mm_h), kIce, {}});
   for (auto& population : populations_) count(population);
-  if (weather.fog_mor_m > 0 || weather.dust_mor_m > 0) tabulateFog(weather);
+  if (weather.fog_mor_m > 0 || weather.dust_mor_m > 0) openGates(weather, max_range_m);
 }
 
 double Scatterers::beamDiameter(double range_m) const {
@@ -46,8 +49,9 @@ double Scatterers::beamDiameter(double range_m) const {
 }
 
 double Scatterers::white(double range_m) const {
-  return static_cast<double>(nearRangeFactor(instrument_, static_cast<float>(range_m))) *
-         portable::exp(-std::min(2 * extinction_per_m_ * range_m, 600.0)) / (range_m * range_m);
+  const float seen = near_range_ ? nearRangeFactor(instrument_, static_cast<float>(range_m)) : 1;
+  return static_cast<double>(seen) * portable::exp(-std::min(2 * extinction_per_m_ * range_m, 600.0)) /
+         (range_m * range_m);
 }
 
 // x = F white(r) min(D / beam, 1)²: the smallest D that reaches the least x.
@@ -140,19 +144,43 @@ double Scatterers::softPower(double range_m, double pulse_length_m, double backs
   return std::numbers::pi * backscatter_per_m * sum * pulse_length_m / kSteps;
 }
 
-// A phase scanner has no pulse: what its finest tone cannot tell apart takes its place.
-void Scatterers::tabulateFog(const Weather& weather) {
+// A phase scanner has no pulse: what its finest tone cannot tell apart takes its place. Gates that reach the least x
+// with a chance of less than some 1e-9 are left out.
+void Scatterers::openGates(const Weather& weather, double max_range_m) {
+  constexpr double kDeviations = 6;
   const auto& waveform = instrument_.waveform;
   const double length_m =
       waveform.pulse_width_s > 0 ? kSpeedOfLight_m_s * waveform.pulse_width_s : waveform.fine_wavelength_m;
   double backscatter = 0;
   if (weather.fog_mor_m > 0) backscatter += kFogBackscatter / weather.fog_mor_m;
   if (weather.dust_mor_m > 0) backscatter += kFogBackscatter / weather.dust_mor_m;
-  SoftReturn best;
-  for (const double range_m : nodes_m_) {
-    const double x = softPower(range_m, length_m, backscatter);
-    if (x > best.x) best = {range_m, x};
-    fog_.push_back(best);
+  gate_m_ = length_m / 2;
+  for (double from_m = nodes_m_.front(); from_m < max_range_m; from_m += gate_m_) {
+    const double x = softPower(from_m + gate_m_ / 2, length_m, backscatter);
+    const double photons = x * photons_per_x_;
+    if (photons + kDeviations * std::sqrt(photons) >= min_x_ * photons_per_x_) gates_.push_back({from_m, x});
+  }
+}
+
+// A Poisson number from a normal one, by the first two terms of its Cornish–Fisher expansion: where it matters there
+// are tens of photons. What is counted may come from anywhere within its gate.
+void Scatterers::fog(std::uint32_t column, std::uint32_t row, double max_range_m, Scatterer& best) const {
+  std::uint32_t channel = kFogChannel;
+  for (std::size_t i = 0; i < gates_.size(); i += 2, channel += 256) {
+    const auto block = philox(key_, column, row, channel);
+    for (std::size_t k = 0; k < 2 && i + k < gates_.size(); ++k) {
+      const Gate& gate = gates_[i + k];
+      const double range_m = gate.from_m + gate_m_ * uniform(block[2 + k]);
+      if (range_m > max_range_m) return;
+      float sine, cosine;
+      portable::sinCosTurn(static_cast<float>(uniform(block[1])), sine, cosine);
+      const double normal =
+          std::sqrt(-2 * portable::log(uniform(block[0]))) * static_cast<double>(k == 0 ? cosine : sine);
+      const double mean = gate.x * photons_per_x_;
+      const double counted = mean + std::sqrt(mean) * normal + (normal * normal - 1) / 6;
+      const double x = counted / photons_per_x_;
+      if (x > best.x) best = {ScattererKind::fog, range_m, x};
+    }
   }
 }
 
@@ -161,10 +189,7 @@ std::optional<Scatterer> Scatterers::strongest(std::uint32_t column, std::uint32
   if (!(max_range_m > nodes_m_[0])) return std::nullopt;
   Scatterer best;
   for (const auto& population : populations_) drops(population, column, row, max_range_m, best);
-  if (!fog_.empty()) {
-    const auto& soft = fog_[nodeBefore(max_range_m)];
-    if (soft.x > best.x) best = {ScattererKind::fog, soft.range_m, soft.x};
-  }
+  fog(column, row, max_range_m, best);
   if (best.x <= 0 || best.x < min_x) return std::nullopt;
   return best;
 }

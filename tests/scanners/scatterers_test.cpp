@@ -155,33 +155,115 @@ TEST(Air, ThatIsClearSendsNothingBack) {
   EXPECT_FALSE(wet.strongest(0, 0, std::numeric_limits<double>::quiet_NaN(), 0));
 }
 
-// Beyond the near range the convolution with so short a pulse is its area, c τ / 2, times the backscatter there.
-TEST(Fog, AnswersWithTheBackscatterWithinThePulse) {
-  auto instrument = testing::instrument("riegl-vz-400i");
-  instrument.near_range_m = 0;
-  instrument.min_range_m = 30;
-  const Scatterers air(instrument, {kNoAir.visibility_km, 0, 0, 100, 0}, 1e-9, 100, {1, 1});
-  const auto soft = air.strongest(0, 0, 60, 0);
-  ASSERT_TRUE(soft);
-  EXPECT_EQ(soft->kind, ScattererKind::fog);
-  EXPECT_NEAR(soft->range_m, 30, 0.01);
-  const double half_pulse_m = 299792458.0 * instrument.waveform.pulse_width_s / 2;
-  const double at = 30 - half_pulse_m;  // in the middle of the pulse
-  const double x = std::numbers::pi * 0.046 / 100 * half_pulse_m * std::exp(-2 * std::log(20) / 100 * at) / (at * at);
-  EXPECT_NEAR(soft->x / x, 1, 0.01);
+// The pulse, a squared sine of the length c τ, over the backscatter of the fog (physics.md §2.6), as fine sums.
+double meanOfGate(const Instrument& instrument, double mor_m, double middle_m) {
+  const double length_m = 299792458.0 * instrument.waveform.pulse_width_s, alpha = std::log(20) / mor_m;
+  constexpr int kSteps = 4000;
+  double sum = 0;
+  for (int k = 0; k < kSteps; ++k) {
+    const double turn = (k + 0.5) / kSteps, r = middle_m - turn * length_m;
+    if (r <= 0.01) break;
+    const double near = 1 / (1 + std::pow(instrument.near_range_m / r, instrument.near_range_power));
+    sum += std::pow(std::sin(std::numbers::pi * turn), 2) * near * std::exp(-2 * alpha * r) / (r * r);
+  }
+  return std::numbers::pi * 0.046 / mor_m * sum * length_m / kSteps;
 }
 
-TEST(Fog, IsSeenNearerThanAWallInItAndNotAtAllWhenThin) {
+// Σ of a Poisson distribution from `least` on; what is exactly that counts half.
+double poissonFrom(double mean, int least) {
+  double below = 0, term = std::exp(-mean);
+  for (int n = 0; n < least; ++n, term *= mean / n) below += term;
+  return 1 - below - term / 2;
+}
+
+// Share of pulses in which one gate before the wall counts enough.
+double expectedShare(const Instrument& instrument, double mor_m, double wall_m, double min_x) {
+  const double gate_m = 299792458.0 * instrument.waveform.pulse_width_s / 2;
+  double none = 1;
+  for (double r = std::max(instrument.min_range_m, 0.1); r < wall_m - gate_m; r += gate_m) {
+    const double photons = Scatterers::kPhotonsAtThreshold * meanOfGate(instrument, mor_m, r + gate_m / 2) / min_x;
+    none *= 1 - poissonFrom(photons, static_cast<int>(Scatterers::kPhotonsAtThreshold));
+  }
+  return 1 - none;
+}
+
+Seen inFog(const Instrument& instrument, double mor_m, double min_x, double far_m = 20) {
+  const Scatterers air(instrument, {kNoAir.visibility_km, 0, 0, mor_m, 0}, min_x, 130, {7, 3});
+  std::vector<Scatterer> found;
+  for (std::uint32_t p = 0; p < kPulses; ++p)
+    if (const auto s = air.strongest(p / 200, p % 200, far_m, min_x)) found.push_back(*s);
+  return summary(found);
+}
+
+// From all of the pulses to none there is a wide band of visibility, in which some see the fog and some the wall.
+TEST(Fog, IsSeenByAsManyPulsesAsCountEnoughPhotonsOfIt) {
+  for (const char* id : {"leica-rtc360", "trimble-x7"}) {
+    const auto instrument = testing::instrument(id);
+    const double least = detectionThreshold(*resolveSettings(instrument, {}), 0);
+    double last = 1.01;
+    int between = 0;
+    for (double mor_m = 10; mor_m < 1000; mor_m *= 1.12) {
+      const double share = inFog(instrument, mor_m, least).fraction;
+      EXPECT_NEAR(share, expectedShare(instrument, mor_m, 20, least), 0.02) << id << " in " << mor_m << " m";
+      EXPECT_LE(share, last + 0.01) << id << " in " << mor_m << " m";
+      between += share > 0.02 && share < 0.98 ? 1 : 0;
+      last = share;
+    }
+    EXPECT_GE(between, 4) << id << ": a factor of 1.5 of visibility";
+    EXPECT_LT(last, 1e-3) << id;
+  }
+}
+
+TEST(Fog, LiesInADepthAndNotOnAShell) {
+  const auto instrument = testing::instrument("leica-rtc360");
+  const double least = detectionThreshold(*resolveSettings(instrument, {}), 0);
+  const Scatterers air(instrument, {kNoAir.visibility_km, 0, 0, 30, 0}, least, 130, {7, 3});
+  constexpr double kBin_m = 0.02;
+  std::vector<int> bins(1000);
+  int found = 0;
+  for (std::uint32_t p = 0; p < kPulses; ++p)
+    if (const auto s = air.strongest(p / 200, p % 200, 20, least))
+      ++bins[static_cast<std::size_t>(s->range_m / kBin_m)], ++found;
+  ASSERT_GT(found, kPulses * 0.9);
+  EXPECT_LT(*std::max_element(bins.begin(), bins.end()), 0.1 * found);
+  EXPECT_GT(std::count_if(bins.begin(), bins.end(), [](int n) { return n > 0; }), 20);
+}
+
+TEST(Fog, IsCountedMoreSurelyInTheMeanOfMorePulses) {
+  const auto instrument = testing::instrument("leica-rtc360");
+  constexpr double kMean_x = 1e-4;
+  const auto deviation = [&](int passes) {
+    const Scatterers air(instrument, {kNoAir.visibility_km, 0, 0, 30, 0}, kMean_x, 130, {7, 3}, passes);
+    std::vector<Scatterer> found;
+    for (std::uint32_t p = 0; p < kPulses; ++p)
+      if (const auto s = air.strongest(p / 200, p % 200, 0.75, 0)) found.push_back(*s);
+    return summary(found).log_x_deviation;
+  };
+  EXPECT_NEAR(deviation(1) / deviation(4), 2, 0.1);
+}
+
+TEST(Fog, IsSeenFromWhereTheReceiverSeesItUnlessThatIsLeftOut) {
+  const auto instrument = testing::instrument("leica-rtc360");
+  const auto least = detectionThreshold(*resolveSettings(instrument, {}), 0);
+  const auto x = [&](bool near_range) {
+    const Scatterers air(instrument, {kNoAir.visibility_km, 0, 0, 30, 0}, least, 130, {7, 3}, 1, near_range);
+    double sum = 0;
+    for (std::uint32_t row = 0; row < 1000; ++row) sum += air.strongest(0, row, 20, 0)->x;
+    return sum;
+  };
+  EXPECT_GT(x(false), 3 * x(true)) << "0.1 of the light from half a metre comes in";
+}
+
+TEST(Fog, AnswersAsDustOfTheSameVisibilityAndHidesAWall) {
   const auto instrument = testing::instrument("leica-rtc360");
   const double least = detectionThreshold(*resolveSettings(instrument, {}), 0);
   const Scatterers thick(instrument, {23, 0, 0, 30, 0}, least, 130, {1, 1});
-  const Scatterers thin(instrument, {23, 0, 0, 2000, 0}, least, 130, {1, 1});
   const Scatterers dust(instrument, {23, 0, 0, 0, 30}, least, 130, {1, 1});
   const auto soft = thick.strongest(0, 0, 20, least);
   ASSERT_TRUE(soft);
+  EXPECT_EQ(soft->kind, ScattererKind::fog);
   EXPECT_LT(soft->range_m, 3);
   EXPECT_EQ(soft->x, dust.strongest(0, 0, 20, least)->x);
-  EXPECT_FALSE(thin.strongest(0, 0, 20, least));
   const double wall = 0.5 / 400 / (1 + std::pow(1.5 / 20, 2)) * std::exp(-2 * 20 * std::log(20) / 30);
   EXPECT_LT(wall, soft->x);  // a wall at 20 m is lost in a fog of 30 m
 }
