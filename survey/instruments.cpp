@@ -17,23 +17,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Result<void> addFrom(std::vector<KnownInstrument>& known, const fs::path& folder, bool own) {
-  auto instruments = readInstruments(folder);
-  if (!instruments) {
-    Error error = instruments.error();
-    if (own) error.message += fmt::format(" (in your custom instruments, {})", folder.string());
-    return failure(std::move(error));
+// The user's own: each by itself, so that a mistake in one blocks no other.
+void addOwn(InstrumentFiles& files, const fs::path& folder) {
+  const auto own = instrumentFiles(folder);
+  if (!own) return files.broken.push_back({"", folder, own.error()});
+  const auto shipped = static_cast<std::ptrdiff_t>(files.usable.size());
+  for (const auto& file : *own) {
+    const std::string id = file.stem().string();
+    const auto same = std::find_if(files.usable.begin(), files.usable.begin() + shipped,
+                                   [&](const KnownInstrument& k) { return k.instrument.id == id; });
+    if (same != files.usable.begin() + shipped) {
+      auto message = fmt::format("duplicate id '{}', also used by {}: give yours another id and file name", id,
+                                 same->file.string());
+      files.broken.push_back({id, file, {ErrorKind::unusable, std::move(message), file.string()}});
+    } else if (auto instrument = readInstrument(file)) {
+      files.usable.push_back({std::move(*instrument), file, true});
+    } else {
+      Error error = instrument.error();
+      error.message +=
+          fmt::format(" (in your custom instruments, {}: correct the file or move it away)", folder.string());
+      files.broken.push_back({id, file, std::move(error)});
+    }
   }
-  for (auto& i : *instruments) {
-    const fs::path file = folder / (i.id + ".json");
-    for (const auto& k : known)
-      if (k.instrument.id == i.id)
-        return failure(ErrorKind::unusable,
-                       fmt::format("duplicate id '{}', also used by {}: change one of them", i.id, k.file.string()),
-                       file.string());
-    known.push_back({std::move(i), file, own});
-  }
-  return {};
 }
 
 // A file's name on every system, and a word on the command line.
@@ -67,19 +72,23 @@ fs::path tripodStandFile() { return dataFolder() / "scanners" / "stands" / "trip
 
 fs::path ownInstrumentsFolder() { return ownPath("STANDPOINT_INSTRUMENTS", "instruments"); }
 
-Result<std::vector<KnownInstrument>> instrumentsWithFiles() {
-  std::vector<KnownInstrument> known;
-  TRY(addFrom(known, shippedInstrumentsFolder(), false));
+Result<InstrumentFiles> instrumentsWithFiles() {
+  InstrumentFiles files;
+  const fs::path folder = shippedInstrumentsFolder();
+  TRY_ASSIGN(auto shipped, readInstruments(folder));
+  for (auto& i : shipped) {
+    const fs::path file = folder / (i.id + ".json");
+    files.usable.push_back({std::move(i), file, false});
+  }
   std::error_code code;
-  if (const auto own = ownInstrumentsFolder(); !own.empty() && fs::is_directory(own, code))
-    TRY(addFrom(known, own, true));
-  return known;
+  if (const auto own = ownInstrumentsFolder(); !own.empty() && fs::is_directory(own, code)) addOwn(files, own);
+  return files;
 }
 
 Result<std::vector<Instrument>> knownInstruments() {
-  TRY_ASSIGN(auto known, instrumentsWithFiles());
+  TRY_ASSIGN(auto files, instrumentsWithFiles());
   std::vector<Instrument> instruments;
-  for (auto& k : known) instruments.push_back(std::move(k.instrument));
+  for (auto& k : files.usable) instruments.push_back(std::move(k.instrument));
   return instruments;
 }
 
@@ -90,9 +99,14 @@ std::string idsOf(const std::vector<Instrument>& instruments) {
 }
 
 Result<Instrument> instrumentById(const std::string& id) {
-  TRY_ASSIGN(auto all, knownInstruments());
-  for (auto& i : all)
-    if (i.id == id) return std::move(i);
+  TRY_ASSIGN(auto files, instrumentsWithFiles());
+  for (const auto& b : files.broken)
+    if (b.id == id) return failure(b.error);
+  std::vector<Instrument> all;
+  for (auto& k : files.usable) {
+    if (k.instrument.id == id) return std::move(k.instrument);
+    all.push_back(std::move(k.instrument));
+  }
   return failure(ErrorKind::usage,
                  fmt::format("unknown instrument '{}'; available: {}; or specify a file", id, idsOf(all)),
                  "--instrument");
@@ -115,19 +129,29 @@ Result<Instrument> instrumentNamed(const std::string& id_or_file) {
 }
 
 Result<fs::path> copyInstrument(const std::string& id, const std::string& new_id) {
-  TRY_ASSIGN(const auto known, instrumentsWithFiles());
+  TRY_ASSIGN(const auto files, instrumentsWithFiles());
   const auto named = [&](const std::string& wanted) {
     const auto is = [&](const KnownInstrument& k) { return k.instrument.id == wanted; };
-    return std::find_if(known.begin(), known.end(), is);
+    return std::find_if(files.usable.begin(), files.usable.end(), is);
+  };
+  const auto taken_by = [&](const std::string& wanted) {
+    const auto taken = named(wanted);
+    if (taken != files.usable.end()) return taken->file;
+    const auto is = [&](const BrokenInstrument& b) { return b.id == wanted; };
+    const auto broken = std::find_if(files.broken.begin(), files.broken.end(), is);
+    return broken == files.broken.end() ? fs::path() : broken->file;
   };
   const auto original = named(id);
-  if (original == known.end()) return failure(ErrorKind::usage, fmt::format("unknown instrument '{}'", id), "--copy");
+  if (original == files.usable.end()) {
+    for (const auto& b : files.broken)
+      if (b.id == id) return failure(b.error);
+    return failure(ErrorKind::usage, fmt::format("unknown instrument '{}'", id), "--copy");
+  }
   if (!isId(new_id))
     return failure(ErrorKind::usage, "an id can contain lowercase letters, digits, - and _, up to 64 characters",
                    "--as");
-  if (const auto taken = named(new_id); taken != known.end())
-    return failure(ErrorKind::usage, fmt::format("id '{}' is already used by {}", new_id, taken->file.string()),
-                   "--as");
+  if (const auto taken = taken_by(new_id); !taken.empty())
+    return failure(ErrorKind::usage, fmt::format("id '{}' is already used by {}", new_id, taken.string()), "--as");
   const fs::path folder = ownInstrumentsFolder();
   if (folder.empty())
     return failure(ErrorKind::usage, "no folder for custom instruments: set STANDPOINT_INSTRUMENTS", "--copy");

@@ -6,7 +6,6 @@
 #include "core/data_folder.h"
 #include "materials/materials.h"
 #include "project/verb.h"
-#include "survey/instruments.h"
 
 namespace standpoint {
 
@@ -18,10 +17,12 @@ const Catalogue& readCatalogue(Catalogue& catalogue) {
     catalogue.materials = std::move(*library);
   else
     catalogue.problem = describe(library.error());
-  if (auto instruments = knownInstruments())
-    catalogue.instruments = std::move(*instruments);
-  else
-    catalogue.problem += (catalogue.problem.empty() ? "" : "\n") + describe(instruments.error());
+  if (auto files = instrumentsWithFiles()) {
+    for (auto& known : files->usable) catalogue.instruments.push_back(std::move(known.instrument));
+    catalogue.broken = std::move(files->broken);
+  } else {
+    catalogue.problem += (catalogue.problem.empty() ? "" : "\n") + describe(files.error());
+  }
   return catalogue;
 }
 

@@ -8,6 +8,7 @@
 #include "core/physical_material.h"
 #include "project/document.h"
 #include "scanners/instruments/instrument.h"
+#include "survey/instruments.h"
 
 namespace standpoint {
 
@@ -16,6 +17,7 @@ struct Catalogue {
   bool read = false;
   std::vector<PhysicalMaterial> materials;
   std::vector<Instrument> instruments;
+  std::vector<BrokenInstrument> broken;               // of the user's own instruments
   std::string problem;                                // why something could not be read
   std::vector<PhysicalMaterial> offered;              // with the user's own in place of those that have their id …
   std::shared_ptr<const MaterialChoice> offered_for;  // … of this document

@@ -52,6 +52,7 @@ void drawInstrumentChoice(const Model& model, ScanChoice& asked, const Instrumen
   for (const auto& i : model.catalogue().instruments)
     if (!i.moving && ImGui::Selectable(fmt::format("{} {}###{}", i.maker, i.model, i.id).c_str(), i.id == chosen.id))
       chooseInstrument(asked, i);
+  listBrokenInstruments(model);
   ImGui::EndCombo();
 }
 
@@ -266,6 +267,15 @@ void draw(const Model& model, ScanState& state, Actions& actions) {
 }
 
 }  // namespace
+
+void listBrokenInstruments(const Model& model) {
+  for (const auto& broken : model.catalogue().broken) {
+    ImGui::BeginDisabled();
+    ImGui::Selectable(trf("Broken: {}", broken.file.filename().string()).c_str());
+    ImGui::EndDisabled();
+    ui::tooltip(describe(broken.error));
+  }
+}
 
 void drawScanPanel(const Model& model, PanelStates& states, Actions& actions) {
   draw(model, states.of<ScanState>(), actions);

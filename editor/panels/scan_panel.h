@@ -9,6 +9,11 @@
 
 namespace standpoint {
 
+struct Model;
+
+// Entries at the end of a list of instruments, not to be chosen: the user's own that are wrong, with place and remedy.
+void listBrokenInstruments(const Model& model);
+
 struct ScanState {
   std::shared_ptr<const ScanChoice> remembered;  // the document's, that Model::scan_choice was last filled from
   std::optional<ScanChoice> started;             // with the last press of "Scan"

@@ -8,6 +8,7 @@
 #include "editor/model/verification_view.h"
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
+#include "editor/panels/scan_panel.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
@@ -53,6 +54,7 @@ void chooseInstrument(const Model& model, VerifyState& state) {
     if (ImGui::Selectable(fmt::format("{} {}  ({:.0f} nm)###{}", i.maker, i.model, i.wavelength_nm, i.id).c_str(),
                           i.id == state.instrument))
       state.instrument = i.id;
+  listBrokenInstruments(model);
   ImGui::EndCombo();
 }
 

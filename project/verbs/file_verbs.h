@@ -170,6 +170,12 @@ struct InstrumentRow {
   std::map<std::string, std::variant<std::vector<std::string>, InstrumentRange>> settings;  // by key: its choices
 };
 const AnswerFields<InstrumentRow>& answerFields(const InstrumentRow*);
+struct BrokenInstrumentRow {  // of the user's own: what is wrong where
+  std::string id;
+  std::filesystem::path file;
+  std::string source, message;
+};
+const AnswerFields<BrokenInstrumentRow>& answerFields(const BrokenInstrumentRow*);
 struct InstrumentCopy {
   std::string id, from;
   std::filesystem::path file;
@@ -179,6 +185,7 @@ struct InstrumentsAnswer {
   std::optional<InstrumentCopy> copied;
   std::filesystem::path own_folder, schema;
   std::vector<InstrumentRow> instruments;
+  std::vector<BrokenInstrumentRow> broken;  // likewise listed as warnings; nothing else minds them
 };
 const AnswerFields<InstrumentsAnswer>& answerFields(const InstrumentsAnswer*);
 Result<Answered<InstrumentsAnswer>> runInstruments(const Document& document, const InstrumentsOptions& options,

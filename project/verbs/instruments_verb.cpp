@@ -53,6 +53,13 @@ const AnswerFields<InstrumentRow>& answerFields(const InstrumentRow*) {
   return fields;
 }
 
+const AnswerFields<BrokenInstrumentRow>& answerFields(const BrokenInstrumentRow*) {
+  using A = BrokenInstrumentRow;
+  static const AnswerFields<A> fields = {
+      {"id", &A::id}, {"file", &A::file}, {"source", &A::source}, {"message", &A::message}};
+  return fields;
+}
+
 const AnswerFields<InstrumentCopy>& answerFields(const InstrumentCopy*) {
   using A = InstrumentCopy;
   static const AnswerFields<A> fields = {{"id", &A::id}, {"from", &A::from}, {"file", &A::file}};
@@ -64,7 +71,8 @@ const AnswerFields<InstrumentsAnswer>& answerFields(const InstrumentsAnswer*) {
   static const AnswerFields<A> fields = {{"copied", &A::copied, kLeftOut},
                                          {"own_folder", &A::own_folder},
                                          {"schema", &A::schema},
-                                         {"instruments", &A::instruments}};
+                                         {"instruments", &A::instruments},
+                                         {"broken", &A::broken}};
   return fields;
 }
 
@@ -80,15 +88,19 @@ Result<Answered<InstrumentsAnswer>> runInstruments(const Document& document, con
     answer.copied = InstrumentCopy{new_id, id, file};
     outcome.description = fmt::format("Copied {} to {}", id, file.string());
   }
-  TRY_ASSIGN(const auto known, instrumentsWithFiles());
+  TRY_ASSIGN(const auto files, instrumentsWithFiles());
   answer.own_folder = ownInstrumentsFolder();
   answer.schema = shippedInstrumentsFolder() / "schema.json";
   std::string ids;
-  for (const auto& k : known) {
+  for (const auto& k : files.usable) {
     answer.instruments.push_back(rowOf(k));
     ids += (ids.empty() ? "" : ", ") + k.instrument.id;
   }
-  if (outcome.description.empty()) outcome.description = fmt::format("{} instruments: {}", known.size(), ids);
+  for (const auto& b : files.broken) {
+    answer.broken.push_back({b.id, b.file, b.error.source, b.error.message});
+    outcome.report.warn(b.error.source, "broken: " + b.error.message);
+  }
+  if (outcome.description.empty()) outcome.description = fmt::format("{} instruments: {}", files.usable.size(), ids);
   return outcome;
 }
 

@@ -168,6 +168,8 @@ struct Instrument {
 };
 
 Result<Instrument> readInstrument(const std::filesystem::path& file);
+// The files of a folder that should hold an instrument each, sorted.
+Result<std::vector<std::filesystem::path>> instrumentFiles(const std::filesystem::path& folder);
 // Every *.json of the folder, by id. An unknown key, a missing source or a figure out of its unit's range is an error
 // with file and JSON pointer.
 Result<std::vector<Instrument>> readInstruments(const std::filesystem::path& folder);

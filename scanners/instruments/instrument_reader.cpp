@@ -369,7 +369,7 @@ Result<Instrument> readInstrument(const std::filesystem::path& file) {
   return instrument;
 }
 
-Result<std::vector<Instrument>> readInstruments(const std::filesystem::path& folder) {
+Result<std::vector<std::filesystem::path>> instrumentFiles(const std::filesystem::path& folder) {
   std::error_code code;
   std::vector<std::filesystem::path> files;
   for (std::filesystem::directory_iterator entry(folder, code), last; !code && entry != last; entry.increment(code))
@@ -377,6 +377,11 @@ Result<std::vector<Instrument>> readInstruments(const std::filesystem::path& fol
       files.push_back(entry->path());
   if (code) return failure(ErrorKind::file_system, "cannot be listed: " + code.message(), folder.string());
   std::sort(files.begin(), files.end());
+  return files;
+}
+
+Result<std::vector<Instrument>> readInstruments(const std::filesystem::path& folder) {
+  TRY_ASSIGN(const auto files, instrumentFiles(folder));
   std::vector<Instrument> instruments;
   for (const auto& file : files) {
     TRY_ASSIGN(auto instrument, readInstrument(file));

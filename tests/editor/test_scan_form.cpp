@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdlib>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -113,6 +115,25 @@ TEST_F(ScanPanel, SwitchesEffectsOneByOneAndAllTogether) {
   ASSERT_TRUE(gui.click("###ideal"));
   gui.frames(2);
   EXPECT_EQ(asked().effects, Effects::none());
+}
+
+struct BrokenOwnInstrument {
+  BrokenOwnInstrument() {
+    folder.write("mine.json", "{ \"id\": \"mine\", ");
+    setenv("STANDPOINT_INSTRUMENTS", folder.path().c_str(), 1);
+  }
+  ~BrokenOwnInstrument() { unsetenv("STANDPOINT_INSTRUMENTS"); }
+  TemporaryFolder folder;
+};
+class ScanPanelBesideABrokenInstrument : BrokenOwnInstrument, public ScanPanel {};
+
+TEST_F(ScanPanelBesideABrokenInstrument, ListsItAndGoesOnWithTheOthers) {
+  EXPECT_NE(editor.instrument("leica-rtc360"), nullptr);
+  ASSERT_TRUE(gui.click("###instrument"));
+  gui.frames(2);
+  const auto* broken = gui.find("Broken: mine.json");
+  ASSERT_NE(broken, nullptr);
+  EXPECT_TRUE(broken->disabled);
 }
 
 TEST_F(ScanPanel, NeedsNoSavedProjectToScanIn) {

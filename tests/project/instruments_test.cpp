@@ -65,21 +65,44 @@ TEST_F(OwnInstruments, AreCopiedEditedAndReadBesideTheShippedOnes) {
   EXPECT_EQ(instrumentById("leica-rtc360")->min_range_m, 0.5);
 }
 
-TEST_F(OwnInstruments, OfWhichOneIsWrongAreRefusedWithFileAndPlace) {
+// Neither the shipped instruments nor the user's others are in the way of a mistake in one.
+TEST_F(OwnInstruments, OfWhichOneIsWrongAreListedAsBrokenAndTheOthersGoOn) {
   answer({{"copy", "velodyne-vlp-16"}, {"as", "mine"}});
+  answer({{"copy", "trimble-x7"}, {"as", "other"}});
   auto text = contentOf(own() / "mine.json");
   text.replace(text.find("\"heads\""), 7, "\"hands\"");
   std::ofstream(own() / "mine.json") << text;
-  const auto wrong = instrumentById("leica-rtc360");
+  std::ofstream(own() / "cut.json") << "{ \"id\": \"cut\", ";
+  fs::create_directory(own() / "folder.json");
+
+  EXPECT_EQ(instrumentById("leica-rtc360")->id, "leica-rtc360");
+  EXPECT_EQ(instrumentById("other")->id, "other");
+  EXPECT_EQ(knownInstruments()->size(), 26U);
+  const auto wrong = instrumentById("mine");
   ASSERT_FALSE(wrong);
   EXPECT_EQ(wrong.error().source, "mine.json /moving/heads");
   EXPECT_THAT(wrong.error().message, HasSubstr(own().string()));
+  EXPECT_THAT(wrong.error().message, HasSubstr("correct the file"));
+  EXPECT_EQ(refused({{"copy", "mine"}, {"as", "third"}}).source, "mine.json /moving/heads");
+  EXPECT_THAT(refused({{"copy", "leica-rtc360"}, {"as", "cut"}}).message, HasSubstr("already used by"));
+
+  const auto listed = answer(nlohmann::json::object());
+  EXPECT_EQ(listed["instruments"].size(), 26U);
+  ASSERT_EQ(listed["broken"].size(), 3U);
+  EXPECT_EQ(listed["broken"][0]["id"], "cut");
+  EXPECT_EQ(listed["broken"][2]["file"], (own() / "mine.json").string());
+  EXPECT_EQ(listed["broken"][2]["source"], "mine.json /moving/heads");
+  Progress progress;
+  const auto outcome = runVerb(*findVerb(verbs(), "instruments"), Document{}, nlohmann::json::object(), progress);
+  ASSERT_EQ(outcome->report.issues.size(), 3U);
+  EXPECT_EQ(outcome->report.losses(), 0U);
 }
 
-TEST_F(OwnInstruments, WithAnIdThatThereIsAreRefusedWithBothFiles) {
+TEST_F(OwnInstruments, WithAnIdThatThereIsAreBrokenWithBothFiles) {
   fs::create_directories(own());
   fs::copy_file(shippedInstrumentsFolder() / "trimble-x7.json", own() / "trimble-x7.json");
-  const auto error = refused(nlohmann::json::object());
+  EXPECT_EQ(instrumentById("leica-rtc360")->id, "leica-rtc360");
+  const auto error = instrumentById("trimble-x7").error();  // whose figures are meant is not for us to say
   EXPECT_EQ(error.source, (own() / "trimble-x7.json").string());
   EXPECT_THAT(error.message, HasSubstr((shippedInstrumentsFolder() / "trimble-x7.json").string()));
 }
