@@ -56,8 +56,7 @@ ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignme
       settings(settings_),
       trajectory(trajectory_),
       options(options_),
-      clock(instrument_, settings_),
-      noise_law(instrument_) {
+      clock(instrument_, settings_) {
   const Effects effects = options.effects;
   const double average = 1 / std::sqrt(static_cast<double>(settings.passes));
   noise_scale = settings.noise_factor * average;
@@ -84,7 +83,7 @@ ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignme
   if (effects.has(Effect::interference)) interference = options.interference;
   if (effects.has(Effect::sun) && options.sun)
     daylight.emplace(scene, instrument, *options.sun, at(trajectory, 0).translation);
-  receiver = receiverOf(instrument, noise_law, effects, extinction_per_m(weather, instrument.wavelength_nm));
+  receiver = receiverOf(instrument, effects, extinction_per_m(weather, instrument.wavelength_nm));
   if (effects.has(Effect::amplitude_noise))
     receiver.fluctuation =
         fluctuationOf(instrument, detectionThreshold(settings, 0) * instrument.detection_softness, settings.passes);

@@ -46,7 +46,6 @@ struct ScanPlan {
   ScanOptions options;
   PulseClock clock;
   SystematicErrors errors;
-  RangeNoiseLaw noise_law;
   Receiver receiver;
   double noise_scale = 0;  // of σ: noise_factor / √passes
   double jitter_rad = 0;

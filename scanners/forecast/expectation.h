@@ -7,6 +7,7 @@
 #include "core/face_patches.h"
 #include "scanners/engine/ray_engine.h"
 #include "scanners/radiometry/radiometry.h"
+#include "scanners/radiometry/range_noise_law.h"
 
 namespace standpoint {
 
@@ -42,7 +43,7 @@ class ReturnLaw {
  private:
   Instrument instrument_;
   ScanSettings settings_;
-  RangeNoiseLaw noise_law_;
+  RangeNoiseParts noise_;
   double clear_air_per_m_ = 0, threshold_ = 0, softness_ = 0, noise_scale_ = 1;
 };
 

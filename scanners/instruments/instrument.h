@@ -141,7 +141,9 @@ struct Instrument {
   double angle_jitter_rad = 0;                  // the part that differs from pulse to pulse
   double range_bias_m = 0, range_bias_ppm = 0;  // accuracy: systematic, drawn once per scan
   std::vector<RangeNoise> range_noise;          // 1 σ on a plane
-  double near_range_m = 0;                      // η_opt = 1 / (1 + (near_range / R)^power), physics.md §2.2; 0 = none
+  double noise_knee_m = 0;  // of a sheet with one figure: where σ on white is √2 of the floor; …
+                            // … 0 = as the technology's class has it
+  double near_range_m = 0;  // η_opt = 1 / (1 + (near_range / R)^power), physics.md §2.2; 0 = none
   int near_range_power = 2;
   NearRangeCurve near_range_curve;                     // instead of these two, where there is one
   double detection_softness = 0;                       // σ of the detection threshold as a share of it, §2.7

@@ -181,6 +181,11 @@ class InstrumentReader : FigureReader {
           entry.fields.wrong("", "repeats an entry of the same range and reflectivity");
       instrument_.range_noise.push_back(noise);
     }
+    if (!root.fields.has("noise_knee_m")) return;
+    instrument_.noise_knee_m = figure(root, "noise_knee_m", {0.1, 10000});
+    if (instrument_.range_noise.size() > 1)
+      fail("/noise_knee_m",
+           "is for a single figure: the figures of range_noise say themselves how noise falls with power");
   }
 
   // The other technology's figure is an unknown key.

@@ -137,38 +137,4 @@ double innerTransmittance(double index, double transmittance) {
   return std::clamp(2 * transmittance / (b + std::sqrt(b * b + 4 * a * transmittance)), 0.0, 1.0);
 }
 
-RangeNoiseLaw::RangeNoiseLaw(const Instrument& instrument) {
-  std::map<double, std::vector<RangeNoise>> by_reflectivity;
-  for (const auto& figure : instrument.range_noise) by_reflectivity[figure.reflectivity].push_back(figure);
-  for (const auto& [reflectivity, figures] : by_reflectivity) {
-    // Least squares of σ² over q = 1/x², neither part negative.
-    double n = 0, sum_q = 0, sum_v = 0, sum_qq = 0, sum_qv = 0;
-    for (const auto& figure : figures) {
-      const double x = reflectivity / (figure.range_m * figure.range_m) *
-                       static_cast<double>(nearRangeFactor(instrument, static_cast<float>(figure.range_m)));
-      const double q = 1 / (x * x);
-      const double v = figure.sigma_m * figure.sigma_m;
-      n += 1, sum_q += q, sum_v += v, sum_qq += q * q, sum_qv += q * v;
-    }
-    double slope = n > 1 ? (n * sum_qv - sum_q * sum_v) / (n * sum_qq - sum_q * sum_q) : sum_v / (2 * sum_q);
-    slope = std::max(0.0, slope);
-    double floor = (sum_v - slope * sum_q) / n;
-    if (floor < 0) floor = 0, slope = sum_qv / sum_qq;
-    curves_.push_back(
-        {portable::log2(static_cast<float>(reflectivity)), static_cast<float>(floor), static_cast<float>(slope)});
-  }
-}
-
-double RangeNoiseLaw::sigma(double x, double lambert_equivalent) const {
-  const auto of = [&](const Curve& curve) { return std::sqrt(curve.floor_m2 + curve.slope_m2 / (x * x)); };
-  double sigma = of(curves_.front());
-  const double place = std::log2(lambert_equivalent);
-  for (std::size_t i = 1; i < curves_.size(); ++i) {
-    const double from = curves_[i - 1].log2_reflectivity;
-    const double fraction = std::clamp((place - from) / (curves_[i].log2_reflectivity - from), 0.0, 1.0);
-    sigma += fraction * (of(curves_[i]) - sigma);
-  }
-  return sigma;
-}
-
 }  // namespace standpoint

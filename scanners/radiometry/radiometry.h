@@ -90,22 +90,4 @@ SlabPower stack(SlabPower one, int panes);
 // The one-way inner transmittance that makes the whole slab transmit `transmittance` at normal incidence.
 double innerTransmittance(double index, double transmittance);
 
-// White range noise over (range, reflectivity): for each tabulated reflectivity σ² = σ0² + (k/x)² (§3.1) is fitted to
-// the sheet's figures, exactly where there are one or two; between reflectivities σ is linear in log ρ_eq. A single
-// figure cannot give two numbers: half of its variance is taken as σ0².
-class RangeNoiseLaw {
- public:
-  struct Curve {
-    float log2_reflectivity = 0;
-    float floor_m2 = 0;  // σ0²
-    float slope_m2 = 0;  // k²
-  };
-  explicit RangeNoiseLaw(const Instrument& instrument);
-  const std::vector<Curve>& curves() const { return curves_; }
-  double sigma(double x, double lambert_equivalent) const;
-
- private:
-  std::vector<Curve> curves_;
-};
-
 }  // namespace standpoint

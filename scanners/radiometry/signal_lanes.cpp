@@ -85,7 +85,7 @@ STANDPOINT_INLINE void power(SignalLanes& lanes, const Receiver& receiver) {
 }
 
 // What is measured of x: it never falls to nothing, for a pulse that is not there is not measured.
-STANDPOINT_INLINE void fluctuate(const SignalLanes& lanes, const Fluctuation& f, const float* inverse_x2,
+STANDPOINT_INLINE void fluctuate(const SignalLanes& lanes, const Fluctuation& f, const float* inverse_x,
                                  float* measured) {
   for (int k = 0; k < kSignalLanes; ++k) measured[k] = lanes.x[k];
   if (!f.any) return;
@@ -94,7 +94,7 @@ STANDPOINT_INLINE void fluctuate(const SignalLanes& lanes, const Fluctuation& f,
   for (int k = 0; k < kSignalLanes; ++k) {
     const float spot2 = exit2 / (lanes.range_m[k] * lanes.range_m[k]) + spread2;
     const float variance =
-        jitter2 + speckle2 / (1 + grains * spot2) + dark2 * (1 + lanes.background[k]) * inverse_x2[k];
+        jitter2 + speckle2 / (1 + grains * spot2) + dark2 * (1 + lanes.background[k]) * (inverse_x[k] * inverse_x[k]);
     const float factor = 1 + lanes.fluctuation[k] * std::sqrt(variance);
     measured[k] = lanes.x[k] * (factor > 0.05F ? factor : 0.05F);
   }
@@ -112,38 +112,20 @@ STANDPOINT_INLINE void store(SignalLanes& lanes, const float* measured, float lo
       lanes.intensity[k] = static_cast<float>(static_cast<std::int32_t>(lanes.intensity[k] * steps + 0.5F)) / steps;
 }
 
-STANDPOINT_INLINE void noise(SignalLanes& lanes, const RangeNoiseLaw::Curve* curves, int count,
-                             const float* inverse_x2) {
-  float place[kSignalLanes] = {};
-  if (count > 1)  // one curve is that of every reflectivity
-    for (int k = 0; k < kSignalLanes; ++k)
-      place[k] = portable::log2(lanes.equivalent[k] > 1e-6F ? lanes.equivalent[k] : 1e-6F);
-  for (int i = 0; i < count; ++i) {
-    const float floor = curves[i].floor_m2;
-    const float slope = curves[i].slope_m2;
-    const float from = i > 0 ? curves[i - 1].log2_reflectivity : 0;
-    const float scale = i > 0 ? 1 / (curves[i].log2_reflectivity - from) : 0;
-    for (int k = 0; k < kSignalLanes; ++k) {
-      const float sigma = std::sqrt(floor + slope * (1 + lanes.background[k]) * inverse_x2[k]);
-      const float fraction = (place[k] - from) * scale;
-      const float least = fraction < 0 ? 0 : fraction;
-      const float weight = i == 0 || least > 1 ? 1 : least;
-      lanes.sigma_m[k] = i == 0 ? sigma : lanes.sigma_m[k] + weight * (sigma - lanes.sigma_m[k]);
-    }
-  }
+STANDPOINT_INLINE void noise(SignalLanes& lanes, const Receiver& receiver, const float* inverse_x) {
+  const float floor = receiver.noise_floor_m2, shot = receiver.noise_shot_m2, amplifier = receiver.noise_amplifier_m2;
+  for (int k = 0; k < kSignalLanes; ++k)
+    lanes.sigma_m[k] = std::sqrt(floor + (1 + lanes.background[k]) * (shot + amplifier * inverse_x[k]) * inverse_x[k]);
 }
 
 STANDPOINT_CLONES void receiveLanes(SignalLanes& lanes, const Receiver& receiver) {
   reflect(lanes);
   power(lanes, receiver);
-  float measured[kSignalLanes], inverse_x2[kSignalLanes];
-  for (int k = 0; k < kSignalLanes; ++k) {
-    const float x = lanes.x[k] > 1e-12F ? lanes.x[k] : 1e-12F;  // its square can be inverted
-    inverse_x2[k] = 1 / (x * x);
-  }
-  fluctuate(lanes, receiver.fluctuation, inverse_x2, measured);
+  float measured[kSignalLanes], inverse_x[kSignalLanes];
+  for (int k = 0; k < kSignalLanes; ++k) inverse_x[k] = 1 / (lanes.x[k] > 1e-12F ? lanes.x[k] : 1e-12F);
+  fluctuate(lanes, receiver.fluctuation, inverse_x, measured);
   store(lanes, measured, receiver.low_db, receiver.high_db, receiver.levels);
-  noise(lanes, receiver.curves, receiver.curve_count, inverse_x2);
+  noise(lanes, receiver, inverse_x);
 }
 
 STANDPOINT_CLONES void powerLanes(SignalLanes& lanes, const Receiver& receiver, float* x) {
@@ -154,7 +136,7 @@ STANDPOINT_CLONES void powerLanes(SignalLanes& lanes, const Receiver& receiver, 
 
 }  // namespace
 
-Receiver receiverOf(const Instrument& instrument, const RangeNoiseLaw& law, Effects effects, double extinction_per_m) {
+Receiver receiverOf(const Instrument& instrument, Effects effects, double extinction_per_m) {
   Receiver receiver;
   receiver.near_range_m = effects.has(Effect::near_range) ? static_cast<float>(instrument.near_range_m) : 0;
   receiver.near_range_power = instrument.near_range_power;
@@ -166,8 +148,10 @@ Receiver receiverOf(const Instrument& instrument, const RangeNoiseLaw& law, Effe
   receiver.low_db = static_cast<float>(instrument.intensity_low_db);
   receiver.high_db = static_cast<float>(instrument.intensity_high_db);
   receiver.levels = effects.has(Effect::quantisation) ? static_cast<float>(instrument.intensity_levels - 1) : 0;
-  receiver.curves = law.curves().data();
-  receiver.curve_count = static_cast<int>(law.curves().size());
+  const auto noise = rangeNoiseParts(instrument);
+  receiver.noise_floor_m2 = static_cast<float>(noise.floor_m2);
+  receiver.noise_shot_m2 = static_cast<float>(noise.shot_m2);
+  receiver.noise_amplifier_m2 = static_cast<float>(noise.amplifier_m2);
   return receiver;
 }
 

@@ -5,6 +5,7 @@
 
 #include "scanners/radiometry/effects.h"
 #include "scanners/radiometry/radiometry.h"
+#include "scanners/radiometry/range_noise_law.h"
 
 namespace standpoint {
 
@@ -50,13 +51,11 @@ struct Receiver {
   float decay_per_m = 0;          // log2 of what the air leaves of two ways, negative
   float low_db = 0, high_db = 1;  // of the stored intensity
   float levels = 0;               // less one; 0 = stored as it is
-  const RangeNoiseLaw::Curve* curves = nullptr;
-  int curve_count = 0;
+  float noise_floor_m2 = 0, noise_shot_m2 = 0, noise_amplifier_m2 = 0;  // as in RangeNoiseParts
   Fluctuation fluctuation;
 };
 
-// `law` must outlive it.
-Receiver receiverOf(const Instrument& instrument, const RangeNoiseLaw& law, Effects effects, double extinction_per_m);
+Receiver receiverOf(const Instrument& instrument, Effects effects, double extinction_per_m);
 
 // `dark` is the σ of x that the receiver has without any light: that of the detection threshold.
 Fluctuation fluctuationOf(const Instrument& instrument, double dark, int passes);

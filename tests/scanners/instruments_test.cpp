@@ -369,6 +369,15 @@ TEST_F(ChangedInstrument, WithAValueOutOfRangeIsRefusedWithItsPlace) {
   EXPECT_EQ(errorOf("\"id\": \"leica-rtc360\"", "\"id\": \"leica\"").source, "leica-rtc360.json /id");
 }
 
+TEST_F(ChangedInstrument, WithAKneeForFiguresThatSayItThemselvesIsRefused) {
+  const auto error =
+      errorOf("\"range_noise\"", "\"noise_knee_m\": { \"value\": 23, \"source\": \"unsourced\" }, \"range_noise\"");
+  EXPECT_EQ(error.source, "leica-rtc360.json /noise_knee_m");
+  EXPECT_THAT(error.message, HasSubstr("single figure"));
+  EXPECT_EQ(errorOf("\"noise_knee_m\": { \"value\": 23", "\"noise_knee_m\": { \"value\": -1", "trimble-x7").source,
+            "trimble-x7.json /noise_knee_m/value");
+}
+
 TEST_F(ChangedInstrument, WhoseCompensatorCannotBeIsRefusedWithItsPlace) {
   EXPECT_EQ(errorOf("\"value\": \"imu\"", "\"value\": \"spirit\"").source, "leica-rtc360.json /compensator/kind/value");
   EXPECT_EQ(errorOf("\"range_deg\": { \"value\": 5", "\"range_deg\": { \"value\": 95").source,

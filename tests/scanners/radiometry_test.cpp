@@ -21,8 +21,7 @@ SignalLanes received(const Instrument& instrument, float equivalent, float range
     lanes.diffuse[k] = equivalent, lanes.oren_a[k] = 1, lanes.cosine[k] = 1;
     lanes.range_m[k] = range, lanes.gain[k] = 1, lanes.variation[k] = 1, lanes.known_x[k] = -1;
   }
-  const RangeNoiseLaw law(instrument);
-  receive(lanes, receiverOf(instrument, law, Effects(), 0));
+  receive(lanes, receiverOf(instrument, Effects(), 0));
   return lanes;
 }
 
@@ -106,19 +105,6 @@ TEST(UnassignedSurface, ReflectsTheLuminanceOfItsColour) {
   EXPECT_NEAR(opticsOf(Colour{0.5F, 0.5F, 0.5F, 1}).diffuse, 0.214, 1e-3);  // IEC 61966-2-1
   EXPECT_FLOAT_EQ(opticsOf(Colour{0, 0, 0, 1}).diffuse, 0.05F);
   EXPECT_GT(opticsOf(Colour{0, 1, 0, 1}).diffuse, opticsOf(Colour{1, 0, 0, 1}).diffuse);
-}
-
-TEST(RangeNoise, MeetsEveryFigureOfEverySheet) {
-  for (const auto& instrument : testing::instruments())
-    for (const auto& figure : instrument.range_noise) {
-      const SignalLanes lanes =
-          received(instrument, static_cast<float>(figure.reflectivity), static_cast<float>(figure.range_m));
-      EXPECT_NEAR(lanes.sigma_m[7] / figure.sigma_m, 1, 0.01)
-          << instrument.id << " " << figure.range_m << " m " << figure.reflectivity;
-      EXPECT_NEAR(
-          RangeNoiseLaw(instrument).sigma(static_cast<double>(lanes.x[7]), figure.reflectivity) / figure.sigma_m, 1,
-          0.01);
-    }
 }
 
 // From where the power falls with range: 1 / (R² + near^p R^(2-p)) is largest at near (p/2 - 1)^(1/p).
