@@ -30,15 +30,16 @@ struct Citation {
   bool operator==(const Citation&) const = default;
 };
 
-// The physics of a surface for a monostatic laser (physics.md §2): reflectance is the Lambert-equivalent diffuse
-// reflectance at normal incidence. A material without reflectance is a named gap: people ask for it, nobody measured
-// it.
+// The physics of a surface for a monostatic laser (physics.md §2): reflectance is the diffuse reflectance at (nearly)
+// normal incidence, over a white Lambert surface. A material without reflectance is a named gap: people ask for it,
+// nobody measured it.
 struct PhysicalMaterial {
-  std::string id;                           // "brick_red_bare"
-  std::string label;                        // "Brick, red, bare"
-  Spectrum reflectance;                     // diffuse part
-  double roughness_rad = 0;                 // Oren–Nayar σ of the facets' slope; 0 = Lambert
-  double gloss_slope = 0;                   // Beckmann slope m of the specular lobe; 0 = no lobe
+  std::string id;              // "brick_red_bare"
+  std::string label;           // "Brick, red, bare"
+  Spectrum reflectance;        // diffuse part
+  bool hemispherical = false;  // that is what goes into the whole hemisphere, lit at 10°; else back along the normal
+  double roughness_rad = 0;    // Oren–Nayar σ of the facets' slope; 0 = Lambert
+  double gloss_slope = 0;      // Beckmann slope m of the specular lobe; 0 = no lobe
   double index_of_refraction = 0;           // n of the coat or body; 0 = no specular part, or a metal
   std::vector<ComplexIndex> complex_index;  // of a metal, wavelengths ascending
   double thickness_m = 0;                   // of one pane; 0 = opaque

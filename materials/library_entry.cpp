@@ -166,6 +166,10 @@ void readGaps(JsonFields& f, PhysicalMaterial& material) {
 
 void readFigures(JsonFields& f, PhysicalMaterial& material) {
   material.reflectance = readSpectrum(f, "reflectance");
+  if (f.has("measured_as")) {
+    material.hemispherical = f.wordOf("measured_as", {"hemispherical", "bidirectional"}) == "hemispherical";
+    if (!f.has("reflectance")) f.wrong("measured_as", "requires reflectance");
+  }
   material.transmittance = readSpectrum(f, "transmittance");
   material.complex_index = readComplexIndex(f);
   for (const auto& figure : kFigures) {
@@ -203,6 +207,7 @@ Result<void> wet(PhysicalMaterial& material, const PhysicalMaterial* dry, const 
   if (isGap(*dry) || !dry->wet_of.empty() || transmits(*dry))
     return (at / "wet_of").unusable("'" + material.wet_of + "' is not a dry opaque material with data");
   material.reflectance = wetted(dry->reflectance);
+  material.hemispherical = dry->hemispherical;
   return checkEnergy(material, at);
 }
 

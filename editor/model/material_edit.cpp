@@ -59,6 +59,7 @@ MaterialEdit editOf(const PhysicalMaterial& m) {
   edit.id = m.id + "_own";
   edit.label = m.label + ", own";
   edit.reflectance_percent = percentOf(m.reflectance);
+  edit.hemispherical = m.hemispherical;
   edit.roughness_deg = m.roughness_rad / kRadPerDeg;
   edit.gloss_slope = m.gloss_slope;
   edit.index_of_refraction = m.index_of_refraction;
@@ -93,6 +94,7 @@ json libraryFileOf(const MaterialEdit& edit) {
     if (key != "id" && key != "label")
       sources[key] = edit.source.empty() ? "unsourced: by the user, from a copy of " + edit.from : "by the user: [own]";
   entry["source"] = std::move(sources);
+  if (edit.hemispherical) entry["measured_as"] = "hemispherical";
   json file = {{"materials", {std::move(entry)}}};
   if (!edit.source.empty()) file["sources"] = {{{"id", "own"}, {"text", edit.source}, {"licence", "the user's own"}}};
   return file;

@@ -18,6 +18,7 @@ struct MaterialEdit {
   std::string from;  // id of the material that it was copied from
   std::string id, label;
   std::array<double, 7> reflectance_percent = {};
+  bool hemispherical = false;  // the reflectance was measured so
   double roughness_deg = 0;
   double gloss_slope = 0, index_of_refraction = 0;
   bool metal = false;  // n and k at wavelengths instead of one index

@@ -6,6 +6,7 @@ namespace standpoint {
 nlohmann::json gltfPhysicalMaterial(const PhysicalMaterial& m) {
   nlohmann::json json = {{"id", m.id}, {"label", m.label}};
   if (!m.reflectance.empty()) json["reflectance"] = m.reflectance;
+  if (m.hemispherical) json["hemispherical"] = true;
   if (!m.transmittance.empty()) json["transmittance"] = m.transmittance;
   if (m.roughness_rad > 0) json["roughnessRad"] = m.roughness_rad;
   if (m.gloss_slope > 0) json["glossSlope"] = m.gloss_slope;

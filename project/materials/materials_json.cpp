@@ -19,6 +19,7 @@ json physicalToJson(const PhysicalMaterial& m) {
   return {{"id", m.id},
           {"label", m.label},
           {"reflectance", m.reflectance},
+          {"hemispherical", m.hemispherical},
           {"roughness_rad", m.roughness_rad},
           {"gloss_slope", m.gloss_slope},
           {"index_of_refraction", m.index_of_refraction},
@@ -47,6 +48,7 @@ PhysicalMaterial physicalFrom(const json& j) {
   m.id = j.at("id");
   m.label = j.at("label");
   m.reflectance = j.at("reflectance").get<Spectrum>();
+  m.hemispherical = j.value("hemispherical", false);
   m.roughness_rad = j.at("roughness_rad");
   m.gloss_slope = j.at("gloss_slope");
   m.index_of_refraction = j.at("index_of_refraction");

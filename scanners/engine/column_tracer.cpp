@@ -23,12 +23,12 @@ void setLane(SignalLanes& lanes, std::size_t k, const PathEnd& end) {
   lanes.cosine[k] = end.cosine;
   lanes.gain[k] = end.gain;
   lanes.known_x[k] = end.known_x;
-  lanes.diffuse[k] = end.optics->diffuse, lanes.oren_a[k] = end.optics->oren_a, lanes.oren_b[k] = end.optics->oren_b;
+  lanes.diffuse[k] = end.optics->diffuse, lanes.roughness[k] = end.optics->roughness;
   lanes.glint[k] = end.optics->glint, lanes.steepness[k] = end.optics->steepness;
   if (retroEquivalent(*end.optics, end.cosine) == 0) return;
   // A retroreflector's gain is no figure of the lanes: as the Lambert surface that sends as much back.
   lanes.diffuse[k] = lambertEquivalent(*end.optics, end.cosine) / end.cosine;
-  lanes.oren_a[k] = 1, lanes.oren_b[k] = 0, lanes.glint[k] = 0;
+  lanes.roughness[k] = 0, lanes.glint[k] = 0;
 }
 
 std::array<std::uint32_t, 4> interferenceDraw(const ScanOptions& options, std::uint32_t column, std::uint32_t row) {

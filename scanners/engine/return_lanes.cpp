@@ -36,8 +36,7 @@ void ReturnLanes::setOptics(int lane, const Optics& of) {
   if (optics[lane] == &of) return;
   optics[lane] = &of;
   signal.diffuse[lane] = of.diffuse;
-  signal.oren_a[lane] = of.oren_a;
-  signal.oren_b[lane] = of.oren_b;
+  signal.roughness[lane] = of.roughness;
   signal.glint[lane] = of.glint;
   signal.steepness[lane] = of.steepness;
   variation[lane] = of.variation;

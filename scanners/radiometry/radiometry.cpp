@@ -20,6 +20,9 @@ constexpr double kSmoothestSlope = 0.0105;
 // Beyond, a mirror image is a hundredth of the mirror's own diffuse return before it is a hand's width away.
 constexpr double kRoughestMirror = 0.0505;
 
+// (1/π) ∫ max(0, cos φ) sin α tan β cos θ dω over the hemisphere, lit at 10°: what of B a hemispherical figure holds.
+constexpr double kHemisphere = 0.0374;
+
 // A class varies from building to building; on one surface by half of that (physics.md §2.9, an engineering figure).
 constexpr double kOnOneSurface = 0.5;
 // Of weathering, 0.3 to 1 m there: for materials of which nobody measured it, which are all so far.
@@ -31,10 +34,12 @@ double linear(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std::pow((s
 
 Optics opticsOf(const PhysicalMaterial& material, double wavelength_nm) {
   Optics optics;
-  optics.diffuse = static_cast<float>(std::clamp(atWavelength(material.reflectance, wavelength_nm), 0.0, 1.0));
   const double variance = material.roughness_rad * material.roughness_rad;
-  optics.oren_a = static_cast<float>(1 - 0.5 * variance / (variance + 0.33));
-  optics.oren_b = static_cast<float>(0.45 * variance / (variance + 0.09));
+  const double rough = 0.45 * variance / (variance + 0.09) / (1 - 0.5 * variance / (variance + 0.33));
+  const double measured = atWavelength(material.reflectance, wavelength_nm);
+  const double head_on = material.hemispherical ? measured / (1 + kHemisphere * rough) : measured;
+  optics.diffuse = static_cast<float>(std::clamp(head_on, 0.0, 1.0));
+  optics.roughness = static_cast<float>(rough);
   optics.transparent = material.thickness_m > 0 && !material.transmittance.empty() && material.index_of_refraction > 1;
   const double slope = material.gloss_slope > 0 ? material.gloss_slope : optics.transparent ? kPaneSlope : 0;
   if (const double specular = specularAtNormal(material, wavelength_nm); slope > 0 && specular > 0) {

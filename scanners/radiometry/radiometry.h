@@ -15,11 +15,11 @@ namespace standpoint {
 
 // A material at the instrument's wavelength.
 struct Optics {
-  float diffuse = 0;             // Lambert-equivalent reflectance at normal incidence
-  float oren_a = 1, oren_b = 0;  // Oren–Nayar 1994, monostatic: ρ (A cos θ + B sin² θ)
-  float glint = 0;               // F0 / 4m²: height of the Beckmann lobe; 0 = no lobe
-  float lobe_slope = 0;          // m
-  float steepness = 0;           // 1 / m²
+  float diffuse = 0;     // what comes back head-on, over a white Lambert surface
+  float roughness = 0;   // B/A of Oren and Nayar 1994, monostatic: ρ (cos θ + B/A sin² θ)
+  float glint = 0;       // F0 / 4m²: height of the Beckmann lobe; 0 = no lobe
+  float lobe_slope = 0;  // m
+  float steepness = 0;   // 1 / m²
   bool transparent = false;
   double index = 1;                // n of a pane
   double inner_transmittance = 1;  // of one way through its body at normal incidence
@@ -33,6 +33,8 @@ struct Optics {
   float texture_scale_m = 0;  // … over this length
 };
 
+// The reflectance that was measured comes back head-on, however rough: A only scales the albedo of the facets, which
+// nobody measured (§2.3). A hemispherical figure, lit at 10°, is 1 + 0.0374 B/A times that.
 Optics opticsOf(const PhysicalMaterial& material, double wavelength_nm);
 
 // A surface to which nothing is assigned: Lambert, with the luminance of its colour (Rec. 709 weights on linear sRGB)
@@ -41,7 +43,7 @@ Optics opticsOf(const Colour& colour);
 
 // ρ_eq(θ) = π f_r cos θ; the lobe is a separate, rare term.
 inline float diffuseEquivalent(const Optics& optics, float cosine) {
-  return optics.diffuse * (optics.oren_a * cosine + optics.oren_b * (1 - cosine * cosine));
+  return optics.diffuse * (cosine + optics.roughness * (1 - cosine * cosine));
 }
 float glossEquivalent(const Optics& optics, float cosine);
 // A retroreflector keeps its gain within 30° of entrance (physics.md §4.9, where 20 to 30° is the range); beyond it is

@@ -28,7 +28,7 @@ STANDPOINT_INLINE void fill(float* values, float value) {
 STANDPOINT_INLINE void reflectMatt(SignalLanes& lanes) {
   for (int k = 0; k < kSignalLanes; ++k) {
     const float cosine = lanes.cosine[k] > 1e-4F ? lanes.cosine[k] : 1e-4F;
-    lanes.equivalent[k] = lanes.diffuse[k] * (lanes.oren_a[k] * cosine + lanes.oren_b[k] * (1 - cosine * cosine));
+    lanes.equivalent[k] = lanes.diffuse[k] * (cosine + lanes.roughness[k] * (1 - cosine * cosine));
   }
 }
 
@@ -40,8 +40,7 @@ STANDPOINT_INLINE void reflect(SignalLanes& lanes) {
     const float tail = (1 - square) / square * lanes.steepness[k];  // tan²θ / m²
     const float kept = tail < 40 ? tail : 40;
     const float lobe = lanes.glint[k] * portable::exp2(-1.4426950408889634F * kept) / (square * square * cosine);
-    lanes.equivalent[k] =
-        lanes.diffuse[k] * (lanes.oren_a[k] * cosine + lanes.oren_b[k] * (1 - square)) + (tail < 40 ? lobe : 0);
+    lanes.equivalent[k] = lanes.diffuse[k] * (cosine + lanes.roughness[k] * (1 - square)) + (tail < 40 ? lobe : 0);
   }
 }
 

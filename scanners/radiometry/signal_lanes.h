@@ -13,12 +13,12 @@ constexpr int kSignalLanes = 16;
 
 // Received power and range noise of sixteen returns at once; the same laws as in radiometry.h, in float.
 struct SignalLanes {
-  float range_m[kSignalLanes];                                              // in
-  float cosine[kSignalLanes];                                               // in: of the incidence
-  float diffuse[kSignalLanes], oren_a[kSignalLanes], oren_b[kSignalLanes];  // in: as in Optics
-  float glint[kSignalLanes], steepness[kSignalLanes];                       // in: F0 / 4m² and 1 / m²
-  float gain[kSignalLanes];                                                 // in: two ways, of what lies between
-  float variation[kSignalLanes];                                            // in: of the material at this place
+  float range_m[kSignalLanes];                           // in
+  float cosine[kSignalLanes];                            // in: of the incidence
+  float diffuse[kSignalLanes], roughness[kSignalLanes];  // in: as in Optics
+  float glint[kSignalLanes], steepness[kSignalLanes];    // in: F0 / 4m² and 1 / m²
+  float gain[kSignalLanes];                              // in: two ways, of what lies between
+  float variation[kSignalLanes];                         // in: of the material at this place
   float known_x[kSignalLanes];      // in: the power of an echo of several surfaces; below 0 where there is but one
   float background[kSignalLanes];   // in: variance that daylight adds to the dark receiver's, in its units
   float fluctuation[kSignalLanes];  // in: standard normal

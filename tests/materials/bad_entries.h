@@ -61,6 +61,8 @@ inline const std::vector<BadEntry>& badEntries() {
                "\"roughness_rad\": 0.2, \"variation\": 35, \"source\": {\"variation\": \"unsourced\", ",
                "stone.json /materials/1/variation", "35"},
       BadEntry{"emptyGaps", "\"label\"", "\"gaps\": [], \"label\"", "stone.json /materials/1/gaps", "list of texts"},
+      BadEntry{"measuredAsWhat", "\"roughness_rad\": 0.2,", "\"measured_as\": \"total\", \"roughness_rad\": 0.2,",
+               "stone.json /materials/1/measured_as", "total"},
       BadEntry{"noFigureAndNoGap", "\"reflectance\": [[532, 0.3], [905, 0.4]],", "",
                "stone.json /materials/1/reflectance", "gaps"},
       BadEntry{"wetAndMeasured", "\"label\"", "\"wet_of\": \"rock\", \"label\"", "stone.json /materials/1/wet_of",

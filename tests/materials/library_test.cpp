@@ -156,6 +156,16 @@ TEST(WetStates, FollowTheModelFromTheirDryMaterial) {
   EXPECT_EQ(findMaterial("concrete_wet")->wet_of, "concrete_construction");
 }
 
+// Hemispherical or bidirectional, as its source says.
+TEST(Library, SaysHowAReflectanceWasMeasuredAsItsSourceDoes) {
+  for (const auto& material : shippedLibrary()) {
+    if (isGap(material) || !material.wet_of.empty()) continue;
+    const auto source = sourceOf(material, "reflectance");
+    if (source.find("left out") != std::string::npos) continue;
+    EXPECT_EQ(material.hemispherical, source.find("hemispherical") != std::string::npos) << material.id;
+  }
+}
+
 // What the table says, less the specular part that a glossy finish's total holds.
 void expectFiguresOf(const PhysicalMaterial& material, const std::map<double, Row>& rows, double taken_off) {
   ASSERT_EQ(material.reflectance.size(), rows.size());

@@ -104,7 +104,7 @@ TEST(RangeNoiseByPower, IsTheSameInTheLanesOfAScan) {
     SignalLanes lanes{};
     for (int k = 0; k < kSignalLanes; ++k) {
       lanes.range_m[k] = 2 * std::pow(1.3F, static_cast<float>(k));
-      lanes.diffuse[k] = 0.05F + 0.05F * static_cast<float>(k), lanes.oren_a[k] = 1, lanes.cosine[k] = 1;
+      lanes.diffuse[k] = 0.05F + 0.05F * static_cast<float>(k), lanes.cosine[k] = 1;
       lanes.gain[k] = 1, lanes.variation[k] = 1, lanes.known_x[k] = -1;
     }
     receive(lanes, receiverOf(instrument, Effects(), 0));
