@@ -33,6 +33,16 @@ double specularAtNormal(const PhysicalMaterial& material, double wavelength_nm) 
   return atWavelength(table, wavelength_nm);
 }
 
+ComplexIndex indexAt(const PhysicalMaterial& material, double wavelength_nm) {
+  if (material.complex_index.empty()) return {wavelength_nm, material.index_of_refraction, 0};
+  Spectrum n, k;
+  for (const auto& row : material.complex_index) {
+    n.emplace_back(row.wavelength_nm, row.n);
+    k.emplace_back(row.wavelength_nm, row.k);
+  }
+  return {wavelength_nm, atWavelength(n, wavelength_nm), atWavelength(k, wavelength_nm)};
+}
+
 double buildUpThickness(const PhysicalMaterial& material) {
   return material.panes * material.thickness_m + (material.panes - 1) * material.gap_m;
 }

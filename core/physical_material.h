@@ -42,6 +42,7 @@ struct PhysicalMaterial {
   double gloss_slope = 0;      // Beckmann slope m of the specular lobe; 0 = no lobe
   double index_of_refraction = 0;           // n of the coat or body; 0 = no specular part, or a metal
   std::vector<ComplexIndex> complex_index;  // of a metal, wavelengths ascending
+  Spectrum group_index;                     // of a pane: c over the speed of a pulse in it; empty = n stands in
   double thickness_m = 0;                   // of one pane; 0 = opaque
   Spectrum transmittance;                   // of one pane at normal incidence
   int panes = 1;                            // equal panes, one behind the other …
@@ -49,9 +50,10 @@ struct PhysicalMaterial {
   double variation = 0;                     // coefficient of variation of the reflectance within the class; 0 = a gap
   double texture_scale_m = 0;               // correlation length on one surface; 0 = a gap
   double retro_gain = 0;                    // of a retroreflector over a white Lambert surface seen head-on; 0 = none
-  std::string wet_of;                       // the dry material whose figures were wetted
-  std::vector<std::string> gaps;            // what is known to be missing, in words
-  std::vector<Citation> sources;            // one for each figure
+  std::string wet_of;                       // the dry material whose figures were wetted …
+  double water_film_m = 0;        // … with so much water on it; what it absorbs is taken off the reflectance
+  std::vector<std::string> gaps;  // what is known to be missing, in words
+  std::vector<Citation> sources;  // one for each figure
   bool operator==(const PhysicalMaterial&) const = default;
 };
 
@@ -60,6 +62,9 @@ double atWavelength(const Spectrum& table, double wavelength_nm);
 
 // F0: what the specular lobe sends back at normal incidence, 0..1.
 double specularAtNormal(const PhysicalMaterial& material, double wavelength_nm);
+
+// Of the coat or body; n and k of a metal are linear between its wavelengths. n is 0 where there is no specular part.
+ComplexIndex indexAt(const PhysicalMaterial& material, double wavelength_nm);
 
 // Of the whole build-up from the first face to the last.
 double buildUpThickness(const PhysicalMaterial& material);

@@ -2,6 +2,7 @@
 #include "materials/library_entry.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include <nlohmann/json.hpp>
@@ -28,13 +29,14 @@ constexpr Figure kFigures[] = {
     {"variation", &PhysicalMaterial::variation, 0, 3},
     {"texture_scale_m", &PhysicalMaterial::texture_scale_m, 1e-4, 100},
     {"retro_gain", &PhysicalMaterial::retro_gain, 1, 1e5},
+    {"water_film_m", &PhysicalMaterial::water_film_m, 1e-6, 0.01},
 };
 
 // What a source may be given for, and has to be where the entry has it.
 constexpr const char* kSourced[] = {
-    "wet_of",        "reflectance",     "roughness_rad", "gloss_slope", "index_of_refraction",
-    "complex_index", "thickness_m",     "transmittance", "panes",       "gap_m",
-    "variation",     "texture_scale_m", "retro_gain"};
+    "wet_of",        "reflectance", "roughness_rad",   "gloss_slope",   "index_of_refraction",
+    "complex_index", "group_index", "thickness_m",     "transmittance", "panes",
+    "gap_m",         "variation",   "texture_scale_m", "retro_gain",    "water_film_m"};
 
 // Rows of numbers within these ranges, each wavelength above the one before; `shape` is one row in words.
 using Row = std::vector<double>;
@@ -147,6 +149,9 @@ Result<void> checkParts(const PhysicalMaterial& material, const JsonPlace& at) {
     return (at / "gloss_slope").unusable("requires index_of_refraction or complex_index");
   if (material.panes > 1 && material.gap_m == 0) return (at / "panes").unusable("requires gap_m");
   if (material.gap_m > 0 && material.panes == 1) return (at / "gap_m").unusable("requires panes");
+  if (material.water_film_m > 0 && material.wet_of.empty()) return (at / "water_film_m").unusable("requires wet_of");
+  if (!material.group_index.empty() && !transmits(material))
+    return (at / "group_index").unusable("requires transmittance");
   const bool pane = material.thickness_m > 0 || transmits(material);
   if (!pane && material.panes > 1) return (at / "panes").unusable("requires thickness_m");
   if (!pane) return {};
@@ -172,6 +177,8 @@ void readFigures(JsonFields& f, PhysicalMaterial& material) {
   }
   material.transmittance = readSpectrum(f, "transmittance");
   material.complex_index = readComplexIndex(f);
+  for (const auto& row : readRows(f, "group_index", "[wavelength_nm, n_g]", {{200, 20000}, {1, 10}}))
+    material.group_index.emplace_back(row[0], row[1]);
   for (const auto& figure : kFigures) {
     double& value = material.*figure.field;
     value = f.numberOr(figure.key, value, figure.minimum, figure.maximum);
@@ -192,11 +199,18 @@ void readBasis(JsonFields& f, PhysicalMaterial& material) {
 }
 
 // Reflectance of a wetted diffuse surface: light enters through the film's face (0.02 is sent back) and leaves it
-// again, of which 0.47 is thrown back each time (physics.md §4.8).
-Spectrum wetted(const Spectrum& dry) {
-  constexpr double kFace = 0.02, kInside = 0.47;
+// again, of which 0.47 is thrown back each time (physics.md §4.8). The film absorbs e^(-2.4 α d) there and back, α of
+// water by Segelstein 1981.
+Spectrum wetted(const Spectrum& dry, double film_m) {
+  constexpr double kFace = 0.02, kInside = 0.47, kWay = 2.4;
+  static const Spectrum kLnAbsorption_per_m = {{532, std::log(0.04)}, {660, std::log(0.37)},  {830, std::log(3.1)},
+                                               {905, std::log(7.1)},  {1064, std::log(15.0)}, {1550, std::log(1086.0)}};
   Spectrum wet = dry;
-  for (auto& [wavelength, fraction] : wet) fraction = (1 - kFace) * (1 - kInside) * fraction / (1 - kInside * fraction);
+  for (auto& [wavelength, fraction] : wet) {
+    const double film = std::exp(-kWay * film_m * std::exp(atWavelength(kLnAbsorption_per_m, wavelength)));
+    fraction = (1 - kFace) * (1 - kInside) * fraction / (1 - kInside * fraction) * film;
+    fraction = std::round(1e9 * fraction) / 1e9;  // the last bits of exp differ between processors
+  }
   return wet;
 }
 
@@ -206,7 +220,7 @@ Result<void> wet(PhysicalMaterial& material, const PhysicalMaterial* dry, const 
   if (dry == nullptr) return (at / "wet_of").unusable("'" + material.wet_of + "' is not in the library");
   if (isGap(*dry) || !dry->wet_of.empty() || transmits(*dry))
     return (at / "wet_of").unusable("'" + material.wet_of + "' is not a dry opaque material with data");
-  material.reflectance = wetted(dry->reflectance);
+  material.reflectance = wetted(dry->reflectance, material.water_film_m);
   material.hemispherical = dry->hemispherical;
   return checkEnergy(material, at);
 }

@@ -24,6 +24,7 @@ json physicalToJson(const PhysicalMaterial& m) {
           {"gloss_slope", m.gloss_slope},
           {"index_of_refraction", m.index_of_refraction},
           {"complex_index", index},
+          {"group_index", m.group_index},
           {"thickness_m", m.thickness_m},
           {"transmittance", m.transmittance},
           {"panes", m.panes},
@@ -32,6 +33,7 @@ json physicalToJson(const PhysicalMaterial& m) {
           {"texture_scale_m", m.texture_scale_m},
           {"retro_gain", m.retro_gain},
           {"wet_of", m.wet_of},
+          {"water_film_m", m.water_film_m},
           {"gaps", m.gaps},
           {"sources", sources}};
 }
@@ -56,12 +58,14 @@ PhysicalMaterial physicalFrom(const json& j) {
   m.transmittance = j.at("transmittance").get<Spectrum>();
   for (const auto& row : j.value("complex_index", json::array()))
     m.complex_index.push_back({row.at(0), row.at(1), row.at(2)});
+  m.group_index = j.value("group_index", Spectrum());
   m.panes = j.value("panes", 1);
   m.gap_m = j.value("gap_m", 0.0);
   m.variation = j.value("variation", 0.0);
   m.texture_scale_m = j.value("texture_scale_m", 0.0);
   m.retro_gain = j.value("retro_gain", 0.0);
   m.wet_of = j.value("wet_of", "");
+  m.water_film_m = j.value("water_film_m", 0.0);
   m.gaps = j.value("gaps", std::vector<std::string>());
   for (const auto& c : j.value("sources", json::array()))
     m.sources.push_back({c.at("figure"), c.at("text"), c.at("licence")});

@@ -21,7 +21,7 @@ void BeamPaths::follow(const Eigen::Vector3d& origin, const Eigen::Vector3d& dir
   follow({.origin = origin, .direction = direction_unit, .gain = fraction}, first, ends);
 }
 
-void BeamPaths::follow(const Ray& ray, NearestHit hit, std::vector<PathEnd>& ends) {
+void BeamPaths::follow(Ray ray, NearestHit hit, std::vector<PathEnd>& ends) {
   PanePassage passage;
   const double farthest = plan_.farthest_m - ray.travelled_m;
   for (int face = 0; face < kMostPanes && hit.facet != kNoFacet; ++face) {
@@ -40,7 +40,7 @@ void BeamPaths::follow(const Ray& ray, NearestHit hit, std::vector<PathEnd>& end
       if (plan_.mirrors(*met.optics))
         reflect(ray, met, range, cosine, ray.gain * passage.gain(), ray.excess_m + passage.excess_m(), ends);
       if (!passes) return;
-      passage.enter(*met.optics, cosine, met.facet, front, range);
+      ray.origin += passage.enter(*met.optics, ray.direction, met.facet, front, range);
     }
     hit = plan_.scene.nearest(ray.origin, ray.direction, hit.range_m + kBehindFace_m, farthest);
   }

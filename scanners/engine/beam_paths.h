@@ -39,7 +39,7 @@ class BeamPaths {
     std::uint8_t flags = 0;
     int mirrors = 0;
   };
-  void follow(const Ray& ray, NearestHit hit, std::vector<PathEnd>& ends);
+  void follow(Ray ray, NearestHit hit, std::vector<PathEnd>& ends);  // a pane shifts it aside
   void addEnd(const Ray& ray, const PanePassage& passage, const MetFacet& met, double range_m,
               std::vector<PathEnd>& ends) const;
   void reflect(const Ray& ray, const MetFacet& met, double range_m, double cosine, double gain, double excess_m,

@@ -100,7 +100,8 @@ Expectation::WayThere Expectation::walk(const Eigen::Vector3d& station, const Ei
     if (passage.isOtherFace(facet, front, range))
       passage.leave();
     else
-      passage.enter(optics, cosine, facet, front, range);
+      passage.enter(optics, direction, facet, front,
+                    range);  // aimed at the place: what it is shifted by does not count
     from = hit.range_m + kBehindFace_m;
   }
   return way;

@@ -45,13 +45,16 @@ Optics opticsOf(const PhysicalMaterial& material, double wavelength_nm) {
   if (const double specular = specularAtNormal(material, wavelength_nm); slope > 0 && specular > 0) {
     optics.smooth = slope <= kSmoothestSlope;
     optics.glossy = !optics.smooth && slope <= kRoughestMirror;
-    optics.mirror_f0 = static_cast<float>(specular);
+    const auto index = indexAt(material, wavelength_nm);
+    optics.mirror_n = index.n, optics.mirror_k = index.k;
     optics.lobe_slope = static_cast<float>(std::max(slope, kSharpestSlope));
     optics.steepness = 1 / (optics.lobe_slope * optics.lobe_slope);
     optics.glint = static_cast<float>(specular) / (4 * optics.lobe_slope * optics.lobe_slope);
   }
   if (optics.transparent) {
     optics.index = material.index_of_refraction;
+    optics.group_index =
+        material.group_index.empty() ? optics.index : atWavelength(material.group_index, wavelength_nm);
     optics.thickness_m = material.thickness_m;
     optics.panes = material.panes;
     optics.inner_transmittance = innerTransmittance(optics.index, atWavelength(material.transmittance, wavelength_nm));
@@ -69,10 +72,20 @@ Optics opticsOf(const Colour& colour) {
   return optics;
 }
 
+double fresnel(double n, double k, double cosine) {
+  const double cosine2 = cosine * cosine, sine2 = 1 - cosine2;
+  const double even = n * n - k * k - sine2;
+  const double both = std::sqrt(even * even + 4 * n * n * k * k);  // a² + b² of (a + ib)² = (n + ik)² - sin²θ
+  const double real = std::sqrt(std::max(0.0, (both + even) / 2));
+  const double across = (both - 2 * real * cosine + cosine2) / (both + 2 * real * cosine + cosine2);
+  const double along = across * (cosine2 * both - 2 * real * cosine * sine2 + sine2 * sine2) /
+                       (cosine2 * both + 2 * real * cosine * sine2 + sine2 * sine2);
+  return (across + along) / 2;
+}
+
 double mirrorReflectance(const Optics& optics, double cosine) {
   if (optics.transparent) return stack(slab(optics.index, optics.inner_transmittance, cosine), optics.panes).reflected;
-  const double f0 = optics.mirror_f0, away = 1 - cosine;
-  return f0 + (1 - f0) * away * away * away * away * away;
+  return fresnel(optics.mirror_n, optics.mirror_k, cosine);
 }
 
 double roughMirrorFraction(double lobe_slope, double beam_radius_m, double to_mirror_m, double from_mirror_m) {

@@ -22,15 +22,16 @@ struct Optics {
   float steepness = 0;   // 1 / m²
   bool transparent = false;
   double index = 1;                // n of a pane
+  double group_index = 1;          // by which light is late in it
   double inner_transmittance = 1;  // of one way through its body at normal incidence
   double thickness_m = 0;          // of one pane
   int panes = 1;
-  bool smooth = false;        // shows mirror images
-  bool glossy = false;        // shows them dimly: its lobe is sharp, but wider than the beam
-  float mirror_f0 = 0;        // of an opaque smooth surface at normal incidence
-  float retro_gain = 0;       // over a white surface, within kRetroEntrance; 0 = none
-  float variation = 0;        // coefficient of variation of the reflectance on one surface …
-  float texture_scale_m = 0;  // … over this length
+  bool smooth = false;                // shows mirror images
+  bool glossy = false;                // shows them dimly: its lobe is sharp, but wider than the beam
+  double mirror_n = 1, mirror_k = 0;  // n + ik of an opaque smooth surface
+  float retro_gain = 0;               // over a white surface, within kRetroEntrance; 0 = none
+  float variation = 0;                // coefficient of variation of the reflectance on one surface …
+  float texture_scale_m = 0;          // … over this length
 };
 
 // The reflectance that was measured comes back head-on, however rough: A only scales the albedo of the facets, which
@@ -57,8 +58,9 @@ inline float lambertEquivalent(const Optics& optics, float cosine) {
   return optics.glint > 0 ? diffuse + glossEquivalent(optics, cosine) : diffuse;
 }
 
-// What a smooth surface mirrors of unpolarised light: a pane by its slabs, an opaque body by Schlick's approximation
-// (1994) of Fresnel's law from its F0.
+// What a face of n + ik reflects of unpolarised light, by Fresnel's law (Born and Wolf, Principles of Optics, §14.2).
+double fresnel(double n, double k, double cosine);
+// What a smooth surface mirrors of unpolarised light: a pane by its slabs, an opaque body by its face.
 double mirrorReflectance(const Optics& optics, double cosine);
 
 // η_opt(R) of a measured curve below its bound: 2 to the power of c0 + c1 R + c2 R² + c3 R³ + 2 log2 R.

@@ -44,7 +44,7 @@ std::uint64_t mix(std::uint64_t hash, const Spectrum& spectrum) {
 }
 
 std::uint64_t mix(std::uint64_t hash, const PhysicalMaterial& m) {
-  hash = mix(mix(mix(hash, m.id), m.reflectance), m.transmittance);
+  hash = mix(mix(mix(mix(hash, m.id), m.reflectance), m.transmittance), m.group_index);
   for (const auto& c : m.complex_index) hash = mix(hash, fmt::format("{} {} {}", c.wavelength_nm, c.n, c.k));
   return mix(hash, fmt::format("{} {} {} {} {} {} {} {} {} {}", m.hemispherical, m.roughness_rad, m.gloss_slope,
                                m.index_of_refraction, m.thickness_m, m.panes, m.gap_m, m.variation, m.texture_scale_m,

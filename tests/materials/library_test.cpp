@@ -156,6 +156,26 @@ TEST(WetStates, FollowTheModelFromTheirDryMaterial) {
   EXPECT_EQ(findMaterial("concrete_wet")->wet_of, "concrete_construction");
 }
 
+// e^(-2.4 α d): a film of 0.5 mm takes 73 % at 1550 nm (α = 1086 1/m) and less than 1 % at 905 nm (7.1 1/m).
+TEST(WetStates, AreDarkenedByTheirFilmWhereWaterAbsorbs) {
+  const TemporaryFolder folder;
+  folder.write("a.json", R"({"materials": [
+    {"id": "dry", "label": "Dry", "reflectance": [[905, 0.3], [1550, 0.3]], "measured_as": "hemispherical",
+      "source": {"reflectance": "unsourced"}},
+    {"id": "moist", "label": "Wet", "wet_of": "dry", "water_film_m": 0.0005,
+      "source": {"wet_of": "unsourced", "water_film_m": "unsourced"}},
+    {"id": "without", "label": "Wet", "wet_of": "dry", "source": {"wet_of": "unsourced"}}]})");
+  const auto library = readMaterialLibrary(folder.path());
+  ASSERT_TRUE(library.has_value()) << describe(library.error());
+  const auto &moist = library->at(1), &without = library->at(2);
+  EXPECT_TRUE(moist.hemispherical);
+  EXPECT_NEAR(atWavelength(moist.reflectance, 1550) / atWavelength(without.reflectance, 1550),
+              std::exp(-2.4 * 1086 * 0.0005), 1e-6);
+  EXPECT_NEAR(atWavelength(moist.reflectance, 905) / atWavelength(without.reflectance, 905),
+              std::exp(-2.4 * 7.1 * 0.0005), 1e-6);
+  EXPECT_GT(findMaterial("asphalt_wet")->water_film_m, 0);
+}
+
 // Hemispherical or bidirectional, as its source says.
 TEST(Library, SaysHowAReflectanceWasMeasuredAsItsSourceDoes) {
   for (const auto& material : shippedLibrary()) {
@@ -247,6 +267,16 @@ TEST(Panes, OfClearFloatTransmitWhatTheirOpticalConstantsSay) {
           << pane->id << " " << wavelength;
     }
   EXPECT_NEAR(slab(1.5152, 3.77e-6, 0.004, 905).reflectance, 0.067, 2e-3);
+}
+
+// n - λ dn/dλ of Rubin's formula for clear soda-lime glass, λ in µm, by a difference.
+TEST(Panes, OfGlassDelayAPulseByTheirGroupIndex) {
+  const auto n = [](double um) { return 1.5130 - 0.003169 * um * um + 0.003962 / (um * um); };
+  for (const auto& [wavelength, group_index] : findMaterial("glass_float_clear_4mm")->group_index) {
+    const double um = wavelength / 1000, slope = (n(um + 1e-4) - n(um - 1e-4)) / 2e-4;
+    EXPECT_NEAR(group_index, n(um) - um * slope, 1e-4) << wavelength;
+  }
+  EXPECT_EQ(findMaterial("glass_double_clear_4mm")->group_index.size(), 7U);
 }
 
 TEST(Panes, StandApartInABuildUp) {
