@@ -62,7 +62,7 @@ std::map<std::string, double> readSurvey(const Exercise& exercise, const Device&
   const auto assignment = scanAssignment(document, quiet);
   if (!assignment) return {};
   const ScanWorld world = scanWorld(document.environment(), document.job->targets, *assignment);
-  const auto scene = RayScene::build(world.environment, quiet);
+  const auto scene = RayScene::build(world.environment, quiet, world.balls);
   if (!scene) return {};
   PlanRequest request;
   request.instrument = device.type().instrument;

@@ -280,7 +280,7 @@ Result<Answered<AssessAnswer>> runAssess(const Document& document, const AssessO
   TRY_ASSIGN(auto model, RayScene::build(document.environment(), progress));
   auto scene = model;
   if (!document.job->targets.empty()) {
-    TRY_ASSIGN(scene, RayScene::build(world.environment, progress));
+    TRY_ASSIGN(scene, RayScene::build(world.environment, progress, world.balls));
   }
   TRY_ASSIGN(auto quality,
              assessSurvey(*document.job, scene, *model, std::make_shared<const MaterialAssignment>(world.assignment),

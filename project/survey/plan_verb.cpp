@@ -254,7 +254,7 @@ Result<Answered<PlanAnswer>> runPlan(const Document& document, const PlanOptions
     return failure(
         ErrorKind::unusable,
         "the scene contains no products to plan for; import a model, or include products again with `treat`");
-  TRY_ASSIGN(auto scene, RayScene::build(world.environment, progress));
+  TRY_ASSIGN(auto scene, RayScene::build(world.environment, progress, world.balls));
   TRY_ASSIGN(auto plan, planSurvey(*document.job, scene, std::make_shared<const MaterialAssignment>(world.assignment),
                                    request, progress));
   TRY_ASSIGN(auto proposal, proposalFor(document, *scene, plan, request, progress));

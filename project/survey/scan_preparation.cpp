@@ -34,7 +34,7 @@ Result<std::shared_ptr<const ScanPreparation>> prepareScan(const Document& docum
   if (of_model && &of_model->environment() == made->world.environment.get()) {
     made->scene = std::move(of_model);
   } else {
-    TRY_ASSIGN(auto scene, RayScene::build(made->world.environment, progress));
+    TRY_ASSIGN(auto scene, RayScene::build(made->world.environment, progress, made->world.balls));
     made->scene = std::move(scene);
   }
   made->fingerprint = fingerprintOf(made->world);

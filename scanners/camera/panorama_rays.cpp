@@ -106,8 +106,8 @@ void PanoramaRays::shade(const NearestHit* hits, Beams& beams) const {
       continue;
     }
     if (hits[k].facet != beams.facet_number) beams.facet = scene_.facet(beams.facet_number = hits[k].facet);
-    const Facet& met = beams.facet;
     const Eigen::Vector3d from = origin_ + beams.way_m[k] * direction;
+    const Facet met = beams.facet.metBy(from, direction);
     RayHit hit;
     hit.range_m = rangeOnPlane(met, from, direction, hits[k].range_m);
     hit.position = from + hit.range_m * direction;

@@ -26,10 +26,16 @@ void BeamPaths::follow(Ray ray, NearestHit hit, std::vector<PathEnd>& ends) {
   const double farthest = plan_.farthest_m - ray.travelled_m;
   for (int face = 0; face < kMostPanes && hit.facet != kNoFacet; ++face) {
     const MetFacet& seen = facets_.of(hit.facet);
-    const double range = rangeOnPlane(seen.facet, ray.origin, ray.direction, hit.range_m);
+    if (seen.plain && seen.facet.ball == nullptr) {
+      const double range = rangeOnPlane(seen.facet, ray.origin, ray.direction, hit.range_m);
+      if (range <= farthest) addEnd(ray, passage, seen, range, ends);
+      return;
+    }
+    MetFacet met = seen;  // a copy: a mirror's image asks for others
+    met.facet = seen.facet.metBy(ray.origin, ray.direction);
+    const double range = rangeOnPlane(met.facet, ray.origin, ray.direction, hit.range_m);
     if (range > farthest) return;
-    if (seen.plain) return addEnd(ray, passage, seen, range, ends);
-    const MetFacet met = seen;  // a copy: a mirror's image asks for others
+    if (met.plain) return addEnd(ray, passage, met, range, ends);
     const bool front = met.facet.normal.dot(ray.direction) < 0;
     const bool passes = plan_.passes(*met.optics);
     if (passes && passage.isOtherFace(met.facet, front, range)) {

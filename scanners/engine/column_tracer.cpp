@@ -114,13 +114,22 @@ ColumnTracer::Surfaces ColumnTracer::setSurfaces(std::uint32_t first_row) {
   const std::uint64_t* facets = current_->facets(first_row);
   std::uint64_t other = 0;
   for (int k = 0; k < kPacket; ++k) other |= facets[k] ^ held_[k];
-  if (other == 0) return held_surfaces_;
+  if (other == 0 && !held_ball_) return held_surfaces_;
+  held_ball_ = false;
   Surfaces surfaces;
   for (int from = 0, to = 1; from < kPacket; from = to++) {
     while (to < kPacket && facets[to] == facets[from]) ++to;
     if (facets[from] == kNoFacet) continue;
     const MetFacet& met = facets_.of(facets[from]);
-    planes_.set(from, to, met.facet);
+    if (met.facet.ball == nullptr) {
+      planes_.set(from, to, met.facet);
+    } else {
+      held_ball_ = true;
+      for (int k = from; k < to; ++k) {
+        const RayLine line = current_->axis(first_row + static_cast<std::uint32_t>(k));
+        planes_.set(k, k + 1, met.facet.metBy(line.origin, line.direction));
+      }
+    }
     returns_.setSurface(plan_, from, to, met);
     (met.plain ? surfaces.plain : surfaces.other) |=
         (1U << static_cast<unsigned>(to)) - (1U << static_cast<unsigned>(from));

@@ -76,6 +76,7 @@ class ColumnTracer {
   ReturnLanes returns_;          // a row each
   std::uint64_t held_[kPacket];  // facets whose surfaces and planes the lanes have
   Surfaces held_surfaces_;
+  bool held_ball_ = false;  // one of them: its plane is another for each beam
   std::vector<Special> specials_;
   std::vector<PathEnd> ends_;  // of all of them
   std::vector<float> powers_;  // that comes back from the ends

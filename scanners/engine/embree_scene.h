@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -10,6 +11,7 @@
 #include <Eigen/Core>
 
 #include "core/environment.h"
+#include "scanners/engine/balls.h"
 #include "scanners/engine/embree.h"
 #include "scanners/engine/ray_engine.h"
 
@@ -18,11 +20,22 @@ namespace standpoint {
 constexpr std::uint64_t kNoFacet = ~std::uint64_t{0};
 
 // A triangle where it stands: the plane n·p = offset in double, so that a range does not suffer from the float BVH.
-// The number of a facet is placement << 32 | triangle; a placement is an instance that beams can meet.
+// The number of a facet is placement << 32 | triangle; a placement is an instance that beams can meet. A ball is one
+// facet, without a plane of its own: `metBy` gives the one that touches it where a ray meets it.
 struct Facet {
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // unit, of either side; zero for a degenerate triangle
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // unit, of either side; zero for a degenerate triangle and a ball
   double offset = 0;
   std::uint32_t product = 0, surface = 0, instance = 0, triangle = 0;
+  const PlacedBall* ball = nullptr;  // null: a triangle
+
+  Facet metBy(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit) const {
+    if (ball == nullptr) return *this;
+    Facet touching = *this;
+    const Eigen::Vector3d place = origin + rangeOnBall(*ball, origin, direction_unit) * direction_unit;
+    touching.normal = (place - ball->centre).normalized();
+    touching.offset = touching.normal.dot(place);
+    return touching;
+  }
 };
 
 struct NearestHit {
@@ -54,7 +67,8 @@ class EmbreeScene final : public RayScene {
   EmbreeScene& operator=(const EmbreeScene&) = delete;
   ~EmbreeScene() override;
 
-  Result<void> commit(std::shared_ptr<const Environment> environment, Progress& progress);
+  Result<void> commit(std::shared_ptr<const Environment> environment, const std::vector<RoundInstance>& balls,
+                      Progress& progress);
   std::optional<RayHit> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
                                   double max_range_m) const override;
   const Environment& environment() const override { return *environment_; }
@@ -72,12 +86,14 @@ class EmbreeScene final : public RayScene {
  private:
   void attachPlaced(std::uint32_t placement);
   void attachInstanced(std::uint32_t placement);
+  void attachBall(std::uint32_t placement, double radius_m);
   RTCScene meshScene(std::uint32_t mesh);
   RTCGeometry triangles(const Mesh& mesh, const Eigen::Affine3d& world_from_mesh);
 
   std::shared_ptr<const Environment> environment_;
-  std::vector<std::uint32_t> placements_;  // indices into Environment::instances
-  std::vector<RTCScene> mesh_scenes_;      // by mesh; null unless instanced
+  std::vector<std::uint32_t> placements_;      // indices into Environment::instances
+  std::vector<RTCScene> mesh_scenes_;          // by mesh; null unless instanced
+  std::map<std::uint32_t, PlacedBall> balls_;  // by placement
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;
 };

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -26,12 +27,20 @@ struct RayHit {
   std::uint32_t product = 0, surface = 0, instance = 0, triangle = 0;
 };
 
+// An instance that rays meet as the sphere about its mesh's origin that its triangles stand for in pictures: a target
+// of its true size.
+struct RoundInstance {
+  std::uint32_t instance = 0;  // of Environment::instances; its frame is turned and shifted, never scaled
+  double radius_m = 0;
+};
+
 // An Environment as rays see it (Embree 3, ROBUST, instanced meshes). Immutable after build; intersect is thread-safe.
 // The editor picks with it, too. Products that are not in the scene are left out.
 class RayScene {
  public:
   static Result<std::shared_ptr<const RayScene>> build(std::shared_ptr<const Environment> environment,
-                                                       Progress& progress);
+                                                       Progress& progress,
+                                                       const std::vector<RoundInstance>& balls = {});
   virtual ~RayScene() = default;
   virtual std::optional<RayHit> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
                                           double max_range_m) const = 0;

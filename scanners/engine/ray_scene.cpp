@@ -39,7 +39,8 @@ EmbreeScene::~EmbreeScene() {
   if (device_ != nullptr) rtcReleaseDevice(device_);
 }
 
-Result<void> EmbreeScene::commit(std::shared_ptr<const Environment> environment, Progress& progress) {
+Result<void> EmbreeScene::commit(std::shared_ptr<const Environment> environment,
+                                 const std::vector<RoundInstance>& balls, Progress& progress) {
   environment_ = std::move(environment);
   if (auto wrong = validate(*environment_); !wrong.empty()) return failure(ErrorKind::unusable, wrong, "environment");
   device_ = rtcNewDevice(nullptr);
@@ -62,7 +63,11 @@ Result<void> EmbreeScene::commit(std::shared_ptr<const Environment> environment,
   one_thread.execute([&] {
     for (std::uint32_t k = 0; k < placements_.size() && !progress.cancelled(); ++k) {
       const auto mesh = environment_->instances[placements_[k]].mesh;
-      if (uses[mesh] == 1 || environment_->meshes[mesh]->triangles.size() <= kSmallMesh)
+      const auto ball = std::find_if(balls.begin(), balls.end(),
+                                     [&](const RoundInstance& b) { return b.instance == placements_[k]; });
+      if (ball != balls.end())
+        attachBall(k, ball->radius_m);
+      else if (uses[mesh] == 1 || environment_->meshes[mesh]->triangles.size() <= kSmallMesh)
         attachPlaced(k);
       else
         attachInstanced(k);
@@ -95,6 +100,14 @@ RTCGeometry EmbreeScene::triangles(const Mesh& mesh, const Eigen::Affine3d& worl
 void EmbreeScene::attachPlaced(std::uint32_t placement) {
   const Instance& instance = environment_->instances[placements_[placement]];
   RTCGeometry geometry = triangles(*environment_->meshes[instance.mesh], instance.world_from_mesh);
+  rtcAttachGeometryByID(scene_, geometry, placement);
+  rtcReleaseGeometry(geometry);
+}
+
+void EmbreeScene::attachBall(std::uint32_t placement, double radius_m) {
+  const Instance& instance = environment_->instances[placements_[placement]];
+  const auto& ball = balls_[placement] = {instance.world_from_mesh.translation(), radius_m};
+  RTCGeometry geometry = ballGeometry(device_, ball);
   rtcAttachGeometryByID(scene_, geometry, placement);
   rtcReleaseGeometry(geometry);
 }
@@ -187,6 +200,14 @@ Facet EmbreeScene::facet(std::uint64_t number) const {
   facet.triangle = static_cast<std::uint32_t>(number);
   const Instance& instance = environment_->instances[facet.instance];
   const Mesh& mesh = *environment_->meshes[instance.mesh];
+  facet.product = instance.product;
+  facet.surface = mesh.surface_of_triangle[facet.triangle];
+  if (const auto ball = balls_.find(static_cast<std::uint32_t>(number >> 32U)); ball != balls_.end()) {
+    facet.normal = Eigen::Vector3d::Zero();
+    facet.offset = static_cast<double>(number >> 32U);  // tells it from other balls
+    facet.ball = &ball->second;
+    return facet;
+  }
   const Triangle& triangle = mesh.triangles[facet.triangle];
   const auto corner = [&](int k) -> Eigen::Vector3d {
     return instance.world_from_mesh * mesh.positions[triangle[k]].cast<double>();
@@ -196,8 +217,6 @@ Facet EmbreeScene::facet(std::uint64_t number) const {
   const double length = normal.norm();
   facet.normal = length > 0 ? Eigen::Vector3d(normal / length) : Eigen::Vector3d::Zero();
   facet.offset = facet.normal.dot(a);
-  facet.product = instance.product;
-  facet.surface = mesh.surface_of_triangle[facet.triangle];
   return facet;
 }
 
@@ -205,7 +224,7 @@ std::optional<RayHit> EmbreeScene::intersect(const Eigen::Vector3d& origin, cons
                                              double max_range_m) const {
   const NearestHit hit = nearest(origin, direction_unit, 0, max_range_m);
   if (hit.facet == kNoFacet) return std::nullopt;
-  const Facet met = facet(hit.facet);
+  const Facet met = facet(hit.facet).metBy(origin, direction_unit);
   RayHit result;
   result.range_m = rangeOnPlane(met, origin, direction_unit, hit.range_m);
   result.position = origin + result.range_m * direction_unit;
@@ -218,10 +237,10 @@ std::optional<RayHit> EmbreeScene::intersect(const Eigen::Vector3d& origin, cons
 }
 
 Result<std::shared_ptr<const RayScene>> RayScene::build(std::shared_ptr<const Environment> environment,
-                                                        Progress& progress) {
+                                                        Progress& progress, const std::vector<RoundInstance>& balls) {
   if (!environment) return failure(ErrorKind::internal, "there is no environment", "ray scene");
   auto scene = std::make_shared<EmbreeScene>();
-  TRY(scene->commit(std::move(environment), progress));
+  TRY(scene->commit(std::move(environment), balls, progress));
   return scene;
 }
 

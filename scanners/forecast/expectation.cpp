@@ -82,7 +82,7 @@ Expectation::WayThere Expectation::walk(const Eigen::Vector3d& station, const Ei
   for (int face = 0; face < kMostPanes; ++face) {
     const NearestHit hit = scene.nearest(station, direction, from, law_.settings().max_range_m);
     if (hit.facet == kNoFacet) break;
-    const Facet facet = scene.facet(hit.facet);
+    const Facet facet = scene.facet(hit.facet).metBy(station, direction);
     const double range = rangeOnPlane(facet, station, direction, hit.range_m);
     if (!reached && range > range_m - tolerance(range_m)) {
       reached = true;

@@ -43,7 +43,7 @@ MetSurface meetSurface(const Expectation& expectation, const Eigen::Vector3d& st
   for (int face = 0; face < kMostPanes; ++face) {
     const NearestHit hit = scene.nearest(station, direction, from, std::numeric_limits<double>::infinity());
     if (hit.facet == kNoFacet) break;
-    const Facet facet = scene.facet(hit.facet);
+    const Facet facet = scene.facet(hit.facet).metBy(station, direction);
     const double range = rangeOnPlane(facet, station, direction, hit.range_m);
     const double cosine = std::abs(facet.normal.dot(direction));
     const Eigen::Vector3d met_side = facet.normal.dot(direction) < 0 ? facet.normal : Eigen::Vector3d(-facet.normal);

@@ -63,7 +63,7 @@ SurfaceSample sampleOf(const Environment& environment, std::uint32_t instance, s
 bool reachesLight(const EmbreeScene& scene, const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
   const NearestHit hit = scene.nearest(from, direction, 0, 1e4);
   if (hit.facet == kNoFacet) return true;
-  const Facet facet = scene.facet(hit.facet);
+  const Facet facet = scene.facet(hit.facet).metBy(from, direction);
   const bool mirrored = scene.environment().instances[facet.instance].world_from_mesh.linear().determinant() < 0;
   return (facet.normal.dot(direction) < 0) != mirrored;
 }
@@ -82,7 +82,7 @@ bool belongsToEarlier(const EmbreeScene& scene, const SurfaceSample& sample, con
     const double range = way.norm();
     const NearestHit hit = scene.nearest(sample.place.position - way, way / range, 0, 1.2 * range);
     if (hit.facet == kNoFacet) continue;
-    const Facet facet = scene.facet(hit.facet);
+    const Facet facet = scene.facet(hit.facet).metBy(sample.place.position - way, way / range);
     const double off = std::abs(facet.normal.dot(sample.place.position) - facet.offset);
     if (facet.product < sample.product && off < kOffSurface_m && std::abs(facet.normal.dot(normal)) > 0.999)
       return true;

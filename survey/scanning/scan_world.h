@@ -7,6 +7,7 @@
 #include "core/environment.h"
 #include "core/physical_material.h"
 #include "core/survey.h"
+#include "scanners/engine/ray_engine.h"
 
 namespace standpoint {
 
@@ -15,6 +16,7 @@ namespace standpoint {
 struct ScanWorld {
   std::shared_ptr<const Environment> environment;
   MaterialAssignment assignment;
+  std::vector<RoundInstance> balls;  // the targets that are spheres: rays meet the sphere, not its triangles
 };
 ScanWorld scanWorld(const std::shared_ptr<const Environment>& model, const std::vector<Target>& targets,
                     const MaterialAssignment& assignment);

@@ -96,9 +96,16 @@ std::uint32_t SceneBuilder::sphere(const Eigen::Vector3d& centre, double radius,
   return add(std::move(mesh));
 }
 
+std::uint32_t SceneBuilder::ball(const Eigen::Vector3d& centre, double radius) {
+  balls_.push_back({static_cast<std::uint32_t>(environment_->instances.size()), radius});
+  const auto product = sphere({0, 0, 0}, radius, 2);
+  environment_->instances.back().world_from_mesh = Eigen::Affine3d(Eigen::Translation3d(centre));
+  return product;
+}
+
 std::shared_ptr<const RayScene> SceneBuilder::build() const {
   Progress progress;
-  auto scene = RayScene::build(environment_, progress);
+  auto scene = RayScene::build(environment_, progress, balls_);
   if (!scene) throw std::runtime_error(describe(scene.error()));
   return *scene;
 }

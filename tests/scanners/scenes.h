@@ -22,6 +22,8 @@ class SceneBuilder {
   // The six faces of a box, normals outwards or (room) inwards.
   std::uint32_t box(const Eigen::Vector3d& low, const Eigen::Vector3d& high, bool room, std::uint32_t surface = 0);
   std::uint32_t sphere(const Eigen::Vector3d& centre, double radius, int rings, std::uint32_t surface = 0);
+  // What rays meet as a sphere; its triangles are an octahedron's.
+  std::uint32_t ball(const Eigen::Vector3d& centre, double radius);
   // Another placement of the mesh of a product.
   std::uint32_t again(std::uint32_t product, const Eigen::Affine3d& world_from_mesh);
   void hide(std::uint32_t product) { environment_->products[product].tangible = false; }
@@ -30,6 +32,7 @@ class SceneBuilder {
 
  private:
   std::uint32_t add(Mesh mesh);
+  std::vector<RoundInstance> balls_;
   std::shared_ptr<Environment> environment_ = std::make_shared<Environment>();
 };
 
