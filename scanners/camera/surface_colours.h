@@ -7,6 +7,7 @@
 
 #include "core/report.h"
 #include "scanners/engine/ray_engine.h"
+#include "scanners/pictures/picture.h"
 
 namespace standpoint {
 
@@ -23,11 +24,6 @@ class SurfaceColours {
   Look at(const RayHit& hit) const;  // thread-safe
 
  private:
-  struct Picture {
-    int width = 0, height = 0;
-    std::vector<std::uint8_t> rgba;
-    Eigen::Array4f at(const Eigen::Vector2f& uv) const;  // bilinear, repeated; linear colour
-  };
   const Environment& environment_;
   std::vector<Eigen::Array3f> plain_;  // linear, of each surface
   std::vector<Picture> pictures_;

@@ -61,7 +61,9 @@ void BeamPaths::addEnd(const Ray& ray, const PanePassage& passage, const MetFace
   end.gain = static_cast<float>(ray.gain * passage.gain());
   end.cosine = static_cast<float>(std::min(1.0, std::abs(met.facet.normal.dot(ray.direction))));
   end.flags = static_cast<std::uint8_t>(ray.flags | (passage.gain() < 1 ? point_flag::kThroughPane : 0));
-  end.place = (ray.origin + range_m * ray.direction).cast<float>();
+  const Eigen::Vector3d place = ray.origin + range_m * ray.direction;
+  end.place = place.cast<float>();
+  if (met.painted) end.paint = plan_.paint->factor(met.facet, place);
   end.optics = met.optics;
   if (plan_.daylight)
     end.normal = (met.facet.normal * (met.facet.normal.dot(ray.direction) < 0 ? 1 : -1)).cast<float>();

@@ -23,7 +23,8 @@ void setLane(SignalLanes& lanes, std::size_t k, const PathEnd& end) {
   lanes.cosine[k] = end.cosine;
   lanes.gain[k] = end.gain;
   lanes.known_x[k] = end.known_x;
-  lanes.diffuse[k] = end.optics->diffuse, lanes.roughness[k] = end.optics->roughness;
+  lanes.diffuse[k] = std::min(1.0F, end.optics->diffuse * end.paint);
+  lanes.roughness[k] = end.optics->roughness;
   lanes.glint[k] = end.optics->glint, lanes.steepness[k] = end.optics->steepness;
   if (retroEquivalent(*end.optics, end.cosine) == 0) return;
   // A retroreflector's gain is no figure of the lanes: as the Lambert surface that sends as much back.

@@ -39,8 +39,10 @@ void FacetCache::lookUp(std::uint64_t number, MetFacet& entry) const {
   const bool assigned = material >= 0;
   entry.material = assigned ? static_cast<std::uint32_t>(material) : plan_.unassignedLabel();
   entry.optics = &plan_.optics[assigned ? entry.material : entry.material + entry.facet.surface];
+  entry.painted = assigned && plan_.paint && plan_.paint->paints(entry.facet);
   // A retroreflector's gain is no figure of the lanes (signal_lanes.h).
-  entry.plain = !plan_.passes(*entry.optics) && !plan_.mirrors(*entry.optics) && entry.optics->retro_gain == 0;
+  entry.plain =
+      !entry.painted && !plan_.passes(*entry.optics) && !plan_.mirrors(*entry.optics) && entry.optics->retro_gain == 0;
   entry.plane = planeNumber(entry.facet);
 }
 

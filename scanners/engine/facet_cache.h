@@ -17,7 +17,8 @@ struct MetFacet {
   Facet facet;
   const Optics* optics = nullptr;
   std::uint32_t material = 0;      // label
-  bool plain = true;               // light that meets it goes nowhere but back
+  bool plain = true;               // light that meets it goes nowhere but back, and as much of it everywhere
+  bool painted = false;            // an image scales its reflectance
   std::uint32_t plane = kNoPlane;  // the same for facets of one plane, as a floor's are; of others it differs
 
   // Is what a ray beside it meets the same surface to a beam? A facet in the same plane is, or one that bends away

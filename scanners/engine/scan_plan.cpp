@@ -105,6 +105,10 @@ ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignme
     halo.emplace(*this);
     if (halo->empty()) halo.reset();
   }
+  if (effects.has(Effect::textures) && !scene.environment().images.empty()) {
+    paint.emplace(scene.environment());
+    if (paint->empty()) paint.reset();
+  }
   for (const auto& material : assignment.materials) {
     optics.push_back(opticsOf(material, instrument.wavelength_nm));
     varies |= effects.has(Effect::variation) && optics.back().variation > 0;

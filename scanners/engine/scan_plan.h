@@ -14,6 +14,7 @@
 #include "scanners/engine/embree_scene.h"
 #include "scanners/engine/ray_engine.h"
 #include "scanners/engine/reflector_halo.h"
+#include "scanners/engine/surface_paint.h"
 #include "scanners/noise/correlated_noise.h"
 #include "scanners/noise/systematic_errors.h"
 #include "scanners/radiometry/radiometry.h"
@@ -55,6 +56,7 @@ struct ScanPlan {
   float saturation = 0;       // x from which the receiver saturates
   double white_fraction = 0;  // of σ, of the noise that is each pulse's own
   std::optional<ColumnNoise> column_noise;
+  std::optional<SurfacePaint> paint;  // none: no surface with a material is painted
   std::optional<Scatterers> scatterers;
   std::optional<Daylight> daylight;
   std::optional<ReflectorHalo> halo;                       // only where there is a retroreflector

@@ -6,8 +6,8 @@
 
 namespace standpoint {
 
-const std::array<EffectName, 23>& effectNames() {
-  static constexpr std::array<EffectName, 23> kNames = {{
+const std::array<EffectName, 24>& effectNames() {
+  static constexpr std::array<EffectName, 24> kNames = {{
       {Effect::range_noise, "range-noise", "white range noise"},
       {Effect::angle_noise, "angle-noise", "angular jitter"},
       {Effect::bias, "bias", "systematic range and angle errors"},
@@ -31,6 +31,7 @@ const std::array<EffectName, 23>& effectNames() {
       {Effect::sun, "sun", "daylight in the receiver"},
       {Effect::interference, "interference", "interference from another instrument"},
       {Effect::rough_mirrors, "rough-mirrors", "mirror images in wet or glossy rough surfaces"},
+      {Effect::textures, "textures", "images on surfaces: posters, prints, joints"},
   }};
   return kNames;
 }

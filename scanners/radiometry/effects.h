@@ -36,6 +36,7 @@ enum class Effect : std::uint32_t {
   sun = 1U << 20U,              // daylight in the receiver
   interference = 1U << 21U,     // returns of another instrument's light
   rough_mirrors = 1U << 22U,    // mirror images in what is not quite smooth: wet ground, varnish
+  textures = 1U << 23U,         // images on surfaces scale the reflectance of their materials
 };
 
 class Effects {
@@ -50,7 +51,7 @@ class Effects {
 
  private:
   explicit constexpr Effects(std::uint32_t bits) : bits_(bits) {}
-  std::uint32_t bits_ = (1U << 23U) - 1;
+  std::uint32_t bits_ = (1U << 24U) - 1;
 };
 
 struct EffectName {
@@ -58,7 +59,7 @@ struct EffectName {
   std::string_view name;         // "range-noise"
   std::string_view description;  // what is left out without it
 };
-const std::array<EffectName, 23>& effectNames();
+const std::array<EffectName, 24>& effectNames();
 
 std::string effectList();  // the names, separated by commas
 // Everything but the listed ones: "striping,footprint". An unknown name is an error that lists the known ones.
