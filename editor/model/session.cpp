@@ -470,7 +470,7 @@ void Session::fail(const VerbTask& task, const Error& error) {
                         task.verb().name,
                         false,
                         cancelled,
-                        cancelled ? tr("Cancelled") : describe(error),
+                        cancelled ? tr("Cancelled") : trError(error),
                         timeOfDay(),
                         task.seconds(),
                         {}});

@@ -13,6 +13,7 @@
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/sentences.h"
 #include "project/model/model_verbs.h"
 #include "survey/geodesy.h"
 
@@ -71,7 +72,7 @@ void drawDerived(const Model& model, GeoreferenceState& state, const Georeferenc
   if (!state.derived) {
     ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
     ImGui::SameLine();
-    ui::wrapped(describe(state.derived.error()));
+    ui::wrapped(trError(state.derived.error()));
     return;
   }
   if (!ui::beginProperties("derived", 0.42F)) return;

@@ -14,6 +14,7 @@
 #include "editor/widgets/job_progress.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/sentences.h"
 
 namespace standpoint {
 
@@ -91,7 +92,7 @@ void drawPlace(const Model& model, Actions& actions) {
   }
   if (!preview.error().message.empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, tone::kBad);
-    ui::wrapped(std::string(ICON_WARNING "  ") + preview.error().message);
+    ui::wrapped(std::string(ICON_WARNING "  ") + trSentence(preview.error().message));
     ImGui::PopStyleColor();
   }
   actions.setOverrides(chosen, changed);
@@ -198,7 +199,7 @@ void drawFailure(const Model& model) {
   ui::gap(model, 6);
   ImGui::TextColored(colour(tone::kBad), "%s  %s", ICON_WARNING, tr("Cannot read the file").c_str());
   ui::gap(model, 2);
-  ui::wrapped(error.message);
+  ui::wrapped(trSentence(error.message));
   if (!error.source.empty()) ui::dimWrapped(trf("in {}", error.source));
 }
 

@@ -20,6 +20,7 @@
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/sentences.h"
 #include "pointclouds/formats.h"
 #include "project/survey/scan_request.h"
 
@@ -231,10 +232,10 @@ void drawForm(const Model& model, ScanState& state, ScanChoice& asked, Actions& 
   }
   const auto settings = resolveSettings(*instrument, asked.settings);
   if (!settings) {
-    ui::primaryButton(ICON_PLAY "  Scan###run-scan", describe(settings.error()), {-FLT_MIN, model.px(28)});
+    ui::primaryButton(ICON_PLAY "  Scan###run-scan", trError(settings.error()), {-FLT_MIN, model.px(28)});
     ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
     ImGui::SameLine();
-    ui::wrapped(describe(settings.error()));
+    ui::wrapped(trError(settings.error()));
     return;
   }
   drawScanConditions(model, state, asked, *instrument, *settings);

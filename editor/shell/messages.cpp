@@ -58,7 +58,7 @@ std::filesystem::path drawOneError(Editor& editor, const ShownError& shown, std:
   ui::wrapped(tr(shown.title));
   if (editor.fonts.bold != nullptr) ImGui::PopFont();
   ui::gap(editor, 2);
-  ui::wrapped(shown.error.message);
+  ui::wrapped(trSentence(shown.error.message));
   if (!shown.error.source.empty()) ui::dimWrapped(trf("in {}", shown.error.source));
   ui::gap(editor, 2);
   ui::wrapped(remedy(shown.error));
@@ -94,7 +94,7 @@ void drawErrors(Editor& editor) {
   ImGui::SameLine();
   if (ui::button("Copy text")) {
     std::string text;
-    for (const auto& shown : errors) text += (text.empty() ? "" : "\n\n") + shown.title + "\n" + describe(shown.error);
+    for (const auto& shown : errors) text += (text.empty() ? "" : "\n\n") + shown.title + "\n" + trError(shown.error);
     ImGui::SetClipboardText(text.c_str());
   }
   if (closed) errors.clear();

@@ -10,6 +10,7 @@
 #include "editor/shell/editor.h"
 #include "editor/shell/import_preview.h"
 #include "editor/shell/shell.h"
+#include "editor/words/sentences.h"
 
 namespace standpoint {
 
@@ -26,7 +27,7 @@ std::string PanelActions::refused(const std::string& title) {
   auto& errors = editor_.session.errors();
   const auto found = std::find_if(errors.begin(), errors.end(), [&](const auto& e) { return e.title == title; });
   if (found == errors.end()) return {};
-  std::string why = found->error.message;
+  std::string why = trSentence(found->error.message);
   errors.erase(found);
   return why;
 }

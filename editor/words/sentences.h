@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "core/result.h"
 
 namespace standpoint {
 
 // Sentences that the rooms below the editor compose in English, with {} for what differs: what a verb has done ("Added
-// station S1"), why a place is refused ("18 cm from wall"), what is wrong with a number. Each is a text of the
-// catalogues.
-std::span<const std::string_view> sentences();
+// station S1"), why a place is refused ("18 cm from wall"), what is wrong with an option. They are the texts of the
+// catalogues with the context "sentence", and stand nowhere else.
+const std::vector<std::string>& sentences();
 
-// Such a sentence in the language that is spoken; what differs stays as it is. Others stay English: errors, findings
-// and reports of verbs.
+// Such a sentence in the language that is spoken; what stands in a place is translated where it is a text or a sentence
+// itself. Others stay English.
 std::string trSentence(std::string_view english);
+
+// describe(error), with its message so.
+std::string trError(const Error& error);
 
 }  // namespace standpoint

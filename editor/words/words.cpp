@@ -6,8 +6,12 @@
 #include <atomic>
 #include <boost/locale/gnu_gettext.hpp>
 #include <cctype>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <locale>
 #include <memory>
@@ -115,7 +119,9 @@ std::optional<std::string> translated(std::string_view text) {
   if (const auto interpreter = listening.load()) return (*interpreter)(text);
   const auto* catalogue = current.load();
   if (catalogue == nullptr || catalogue->messages == nullptr) return std::nullopt;
-  const char* found = catalogue->messages->get(0, nullptr, std::string(text).c_str());
+  const std::string id(text);
+  const char* found = catalogue->messages->get(0, nullptr, id.c_str());
+  if (found == nullptr) found = catalogue->messages->get(0, "sentence", id.c_str());
   return found == nullptr ? std::nullopt : std::optional<std::string>(found);
 }
 
@@ -160,6 +166,27 @@ void speak(std::string_view code) {
 std::string_view spoken() {
   const auto* catalogue = current.load();
   return catalogue == nullptr ? kLanguages.front().code : catalogue->language->code;
+}
+
+std::vector<std::string> catalogueOfContext(const std::filesystem::path& file, std::string_view context) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const auto number = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    if (at + sizeof value <= bytes.size()) std::memcpy(&value, bytes.data() + at, sizeof value);
+    return std::size_t{value};
+  };
+  // The header of a .mo file: magic, revision, how many texts, where their table begins; a row is length and place.
+  std::vector<std::string> texts;
+  const auto prefix = std::string(context) + '\4';
+  const auto table = number(12);
+  for (std::size_t i = 0; i < number(8) && table + 8 * i + 8 <= bytes.size(); ++i) {
+    const auto length = number(table + 8 * i), begin = number(table + 8 * i + 4);
+    if (begin > bytes.size() || length > bytes.size() - begin) continue;
+    const auto id = std::string_view(bytes).substr(begin, length);
+    if (id.starts_with(prefix)) texts.emplace_back(id.substr(prefix.size()));
+  }
+  return texts;
 }
 
 void speakThrough(Interpreter interpreter) {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -33,6 +35,9 @@ std::string_view spoken();  // its code
 // Asked instead of the catalogues, by tests that listen; null: the catalogues again.
 using Interpreter = std::function<std::optional<std::string>(std::string_view english)>;
 void speakThrough(Interpreter interpreter);
+
+// The English texts of a catalogue (.mo) that have this context; none where the file cannot be read.
+std::vector<std::string> catalogueOfContext(const std::filesystem::path& file, std::string_view context);
 
 // The text in the language that is spoken. Icons and spaces around it and an id of Dear ImGui ("##…") are not part of
 // what is looked up, and stay.

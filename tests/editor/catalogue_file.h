@@ -10,6 +10,7 @@
 namespace standpoint {
 
 // The texts of a .po file by their English ones, as far as our own files go: msgid, msgid_plural, msgstr over lines.
+// Those with a context are among them.
 struct CatalogueText {
   std::string plural;              // English; empty: one form
   std::vector<std::string> forms;  // translated
@@ -45,6 +46,7 @@ inline std::map<std::string, CatalogueText> textsOf(const std::string& file) {
   };
   for (std::string line; std::getline(in, line);) {
     const auto from = line.find('"'), to = line.rfind('"');
+    if (line.starts_with("msgctxt ")) keep(), begun = nullptr;
     if (line.starts_with("msgid ")) keep(), begun = &english;
     if (line.starts_with("msgid_plural ")) begun = &text.plural;
     if (line.starts_with("msgstr")) begun = &text.forms.emplace_back();
