@@ -90,8 +90,8 @@ BENCHMARK(scanToE57)->UseRealTime()->Unit(benchmark::kMillisecond)->MinTime(3);
 constexpr int kColumns = 2000;
 
 // A fence 10 m around the station, 10 cm before a wall. Every second column's axis meets a picket, 1.6 mm from its
-// edge, and those between meet the wall 1.6 mm beside it: the edge is in every beam of 8 mm, so each has its nineteen
-// rays.
+// edge, and those between meet the wall 1.6 mm beside it: the edge is in every beam of 8 mm, so each has its whole
+// footprint.
 std::shared_ptr<const Environment> fence() {
   auto e = std::make_shared<Environment>();
   e->surfaces.resize(1);
@@ -128,7 +128,7 @@ class Nowhere final : public PointSink {
   std::uint64_t mixed = 0;
 };
 
-void nineteenRaysInEveryBeam(benchmark::State& state) {
+void wholeFootprintInEveryBeam(benchmark::State& state) {
   Progress progress;
   const auto scene = *RayScene::build(fence(), progress);
   const Instrument instrument = rtc360();
@@ -151,7 +151,7 @@ void nineteenRaysInEveryBeam(benchmark::State& state) {
   }
   state.counters["pulses"] = benchmark::Counter(static_cast<double>(pulses), benchmark::Counter::kIsRate);
 }
-BENCHMARK(nineteenRaysInEveryBeam)
+BENCHMARK(wholeFootprintInEveryBeam)
     ->Arg(1)
     ->Arg(2)
     ->MeasureProcessCPUTime()

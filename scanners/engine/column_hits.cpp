@@ -39,48 +39,46 @@ STANDPOINT_CLONES void roundDirections(const AxisLanes& lanes, RayPacket& rays) 
 }  // namespace
 
 ColumnHits::ColumnHits(const ScanPlan& plan)
-    : plan_(&plan),
-      traced_((plan.settings.rows + kPacket - 1) / kPacket),
+    : plan_(plan),
       facets_(plan.settings.rows + kPacket, kNoFacet),
-      ranges_(plan.settings.rows + kPacket, static_cast<float>(plan.farthest_m)) {
-  if (plan.reach() > 0) planes_.assign(plan.settings.rows + kPacket + 2 * kMostReach, kNoPlane);
-}
+      ranges_(plan.settings.rows + kPacket, static_cast<float>(plan.farthest_m)) {}
 
 // Clockwise seen from above.
 void ColumnHits::begin(std::uint32_t column) {
   column_ = column;
-  const double azimuth = plan_->azimuth_rad(column);
+  const double azimuth = plan_.azimuth_rad(column);
   ahead_ = {std::cos(azimuth), -std::sin(azimuth), 0};
   lateral_ = {-std::sin(azimuth), -std::cos(azimuth), 0};
-  const Pose pose = at(plan_->trajectory, 0);
+  const Pose pose = at(plan_.trajectory, 0);
   still_ = {pose.translation, pose.rotation * ahead_, pose.rotation * lateral_,
             pose.rotation * Eigen::Vector3d::UnitZ()};
-  std::fill(traced_.begin(), traced_.end(), char{0});
-  if (plan_->moves()) return;
+  if (plan_.moves()) return;
   std::fill_n(lanes_.origin_x, kPacket, still_.origin.x());
   std::fill_n(lanes_.origin_y, kPacket, still_.origin.y());
   std::fill_n(lanes_.origin_z, kPacket, still_.origin.z());
   roundOrigins(lanes_, rays_);
 }
 
-void ColumnHits::trace(std::uint32_t first_row, FacetCache& facets) {
-  const int count = static_cast<int>(std::min<std::uint32_t>(kPacket, plan_->settings.rows - first_row));
+void ColumnHits::trace(std::uint32_t column) {
+  begin(column);
+  for (std::uint32_t first = 0; first < plan_.settings.rows; first += kPacket) traceRows(first);
+}
+
+void ColumnHits::traceRows(std::uint32_t first_row) {
+  const int count = static_cast<int>(std::min<std::uint32_t>(kPacket, plan_.settings.rows - first_row));
   axes(first_row);
-  if (plan_->moves()) roundOrigins(lanes_, rays_);
+  if (plan_.moves()) roundOrigins(lanes_, rays_);
   roundDirections(lanes_, rays_);
-  plan_->scene.intersect(rays_, count, static_cast<float>(plan_->farthest_m), facets_.data() + first_row,
-                         ranges_.data() + first_row);
-  if (!planes_.empty()) findPlanes(first_row, facets);
-  traced_[first_row / kPacket] = 1;
+  plan_.scene.intersect(rays_, count, static_cast<float>(plan_.farthest_m), facets_.data() + first_row,
+                        ranges_.data() + first_row);
 }
 
 const AxisLanes& ColumnHits::axes(std::uint32_t first_row) {
-  if (!plan_->moves()) {
-    turn(plan_->cosine.data() + first_row, plan_->sine.data() + first_row, still_.ahead.data(), still_.up.data(),
-         lanes_);
+  if (!plan_.moves()) {
+    turn(plan_.cosine.data() + first_row, plan_.sine.data() + first_row, still_.ahead.data(), still_.up.data(), lanes_);
     return lanes_;
   }
-  for (std::uint32_t k = 0; k < std::min<std::uint32_t>(kPacket, plan_->settings.rows - first_row); ++k) {
+  for (std::uint32_t k = 0; k < std::min<std::uint32_t>(kPacket, plan_.settings.rows - first_row); ++k) {
     const RayLine line = axis(first_row + k);
     lanes_.origin_x[k] = line.origin.x(), lanes_.direction_x[k] = line.direction.x();
     lanes_.origin_y[k] = line.origin.y(), lanes_.direction_y[k] = line.direction.y();
@@ -89,37 +87,23 @@ const AxisLanes& ColumnHits::axes(std::uint32_t first_row) {
   return lanes_;
 }
 
-void ColumnHits::findPlanes(std::uint32_t first_row, FacetCache& facets) {
-  const std::uint64_t* met = facets_.data() + first_row;
-  std::uint32_t* planes = planes_.data() + first_row + kMostReach;
-  const std::uint32_t count = std::min<std::uint32_t>(kPacket, plan_->settings.rows - first_row);
-  for (std::uint32_t from = 0, to = 1; from < count; from = to++) {
-    while (to < count && met[to] == met[from]) ++to;
-    if (met[from] != last_facet_) {
-      last_facet_ = met[from];
-      last_plane_ = last_facet_ == kNoFacet ? kNoPlane : facets.of(last_facet_).plane;
-    }
-    std::fill(planes + from, planes + to, last_plane_);
-  }
-}
-
 ColumnHits::Axes ColumnHits::axesAt(std::uint32_t row) const {
-  if (!plan_->moves()) return still_;
-  const Pose pose = at(plan_->trajectory, plan_->clock.time_s(column_, plan_->elevation_rad(row)));
+  if (!plan_.moves()) return still_;
+  const Pose pose = at(plan_.trajectory, plan_.clock.time_s(column_, plan_.elevation_rad(row)));
   return {pose.translation, pose.rotation * ahead_, pose.rotation * lateral_, pose.rotation * Eigen::Vector3d::UnitZ()};
 }
 
 RayLine ColumnHits::axis(std::uint32_t row) const {
   const auto of = [&](const Axes& axes) -> RayLine {
-    return {axes.origin, plan_->cosine[row] * axes.ahead + plan_->sine[row] * axes.up};
+    return {axes.origin, plan_.cosine[row] * axes.ahead + plan_.sine[row] * axes.up};
   };
-  return plan_->moves() ? of(axesAt(row)) : of(still_);
+  return plan_.moves() ? of(axesAt(row)) : of(still_);
 }
 
 Beam ColumnHits::beam(std::uint32_t row) const {
   const Axes axes = axesAt(row);
-  return {axes.origin, plan_->cosine[row] * axes.ahead + plan_->sine[row] * axes.up, axes.across,
-          plan_->cosine[row] * axes.up - plan_->sine[row] * axes.ahead};
+  return {axes.origin, plan_.cosine[row] * axes.ahead + plan_.sine[row] * axes.up, axes.across,
+          plan_.cosine[row] * axes.up - plan_.sine[row] * axes.ahead};
 }
 
 }  // namespace standpoint

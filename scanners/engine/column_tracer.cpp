@@ -15,7 +15,6 @@ namespace {
 // Noise of the second and further returns of a pulse: a channel each.
 constexpr std::uint32_t kFurtherReturns = 16;
 constexpr std::uint32_t kInterferenceChannel = 8;
-constexpr std::uint32_t kRowsPerStretch = 8 * kPacket;
 constexpr std::uint64_t kOverwritten = kNoFacet - 1;  // instead of the number of a facet
 
 void setLane(SignalLanes& lanes, std::size_t k, const PathEnd& end) {
@@ -38,12 +37,12 @@ std::array<std::uint32_t, 4> interferenceDraw(const ScanOptions& options, std::u
 
 }  // namespace
 
-ColumnTracer::ColumnTracer(const ScanPlan& plan)
+ColumnTracer::ColumnTracer(const ScanPlan& plan, const EdgeMap* edges)
     : plan_(plan),
       facets_(plan),
       paths_(plan, facets_),
-      columns_(plan, facets_),
-      edges_(plan, columns_, facets_),
+      edges_(edges),
+      column_(plan),
       wide_(plan, facets_),
       points_(plan),
       writer_(plan) {
@@ -55,29 +54,31 @@ ColumnTracer::ColumnTracer(const ScanPlan& plan)
 void ColumnTracer::trace(std::uint32_t from, std::uint32_t to, PointBlock& block) {
   writer_.begin(block);
   for (std::uint32_t c = from; c < to; ++c) {
-    columns_.moveTo(c);
-    current_ = &columns_.current();
+    column_.trace(c);
     traceColumn();
   }
   writer_.end();
 }
 
 void ColumnTracer::traceColumn() {
-  points_.begin(current_->column(), current_->ahead(), current_->lateral());
-  writer_.beginColumn(current_->column());
+  points_.begin(column_.column(), column_.ahead(), column_.lateral());
+  writer_.beginColumn(column_.column());
+  if (edges_ != nullptr)
+    edges_->mark(column_, facets_, wide_rows_);
+  else
+    wide_rows_.assign(plan_.settings.rows / kPacket + 1, plan_.everyBeamWide() ? 0xFFFFU : 0);
   for (std::uint32_t first = 0; first < plan_.settings.rows; first += kPacket) traceRows(first);
 }
 
 void ColumnTracer::traceRows(std::uint32_t first_row) {
-  columns_.current(first_row);
   returns_.begin(plan_, first_row);
   const Surfaces met = setSurfaces(first_row);
-  const std::uint32_t edges = plan_.reach() > 0 ? traceEdges(first_row) : 0;
+  const std::uint32_t edges = traceEdges(first_row);
   std::uint32_t present = 0;
   if (met.plain != 0) {
-    const AxisLanes& axes = current_->axes(first_row);
+    const AxisLanes& axes = column_.axes(first_row);
     const bool folds = plan_.unambiguous_m > 0;
-    present = meetPlanes(planes_, axes, current_->ranges_m(first_row), plan_.nearest_reported_m,
+    present = meetPlanes(planes_, axes, column_.ranges_m(first_row), plan_.nearest_reported_m,
                          folds ? plan_.farthest_m : plan_.farthest_reported_m, returns_);
     if (folds) present = reported(present);
     if (plan_.daylight) setNormals(axes, present & met.plain);
@@ -87,12 +88,13 @@ void ColumnTracer::traceRows(std::uint32_t first_row) {
   const std::uint32_t special = met.other | edges | stray;
   present &= met.plain & ~special;
   specials_.clear(), ends_.clear(), further_.clear();
+  std::size_t next_wide = 0;
   for (std::uint32_t left = special; left != 0; left &= left - 1) {
     const Special pulse{std::countr_zero(left), ends_.size()};
     specials_.push_back(pulse);
     const bool edge = (edges & left & -left) != 0;
     const std::uint32_t row = first_row + static_cast<std::uint32_t>(pulse.lane);
-    gatherEnds(row, edge ? &wide_[next_wide_++] : nullptr);
+    gatherEnds(row, edge ? &wide_[next_wide++] : nullptr);
     if ((stray & left & -left) != 0) gatherStray(row, pulse.from);
   }
   findPowers();
@@ -112,7 +114,7 @@ void ColumnTracer::traceRows(std::uint32_t first_row) {
 
 // Neighbouring rows mostly meet the same facet, and so do the next sixteen.
 ColumnTracer::Surfaces ColumnTracer::setSurfaces(std::uint32_t first_row) {
-  const std::uint64_t* facets = current_->facets(first_row);
+  const std::uint64_t* facets = column_.facets(first_row);
   std::uint64_t other = 0;
   for (int k = 0; k < kPacket; ++k) other |= facets[k] ^ held_[k];
   if (other == 0 && !held_ball_) return held_surfaces_;
@@ -139,37 +141,57 @@ ColumnTracer::Surfaces ColumnTracer::setSurfaces(std::uint32_t first_row) {
   return held_surfaces_ = surfaces;
 }
 
-// Of the sixteen rows from `first_row` on those whose beams meet several surfaces. They are the next ones in `wide_`.
+// Of the sixteen rows from `first_row` on those whose beams meet several surfaces. They are in `wide_`, in order.
 std::uint32_t ColumnTracer::traceEdges(std::uint32_t first_row) {
-  if (first_row % kRowsPerStretch == 0) traceStretch(first_row);
-  std::uint32_t edges = 0;
-  for (std::size_t i = next_wide_; i < wide_.size() && wide_[i].row < first_row + kPacket; ++i)
-    edges |= 1U << (wide_[i].row - first_row);
-  return edges;
-}
-
-// Many rows at once, for their beams' rays fill packets better.
-void ColumnTracer::traceStretch(std::uint32_t first_row) {
+  std::uint32_t marked = wide_rows_[first_row / kPacket];
+  if (marked == 0) return 0;
+  const std::uint32_t rows = plan_.settings.rows - first_row;
+  if (rows < kPacket) marked &= (1U << rows) - 1;
   wide_.clear();
-  next_wide_ = 0;
-  const std::uint32_t end = std::min(first_row + kRowsPerStretch, plan_.settings.rows);
-  for (std::uint32_t packet = first_row; packet < end; packet += kPacket)
-    for (std::uint32_t left = edges_.find(packet); left != 0; left &= left - 1) {
-      const std::uint32_t row = packet + static_cast<std::uint32_t>(std::countr_zero(left));
-      wide_.add(row, current_->hit(row), current_->beam(row));
-    }
+  for (std::uint32_t left = marked; left != 0; left &= left - 1) {
+    const std::uint32_t row = first_row + static_cast<std::uint32_t>(std::countr_zero(left));
+    wide_.add(column_.column(), row, column_.hit(row), column_.beam(row));
+  }
   wide_.trace();
+  std::uint32_t edges = 0;
+  for (std::size_t i = 0; i < wide_.size(); ++i) edges |= 1U << (wide_[i].row - first_row);
+  return edges;
 }
 
 // Where the light of one pulse ends; `wide` is its beam where that meets several surfaces.
 void ColumnTracer::gatherEnds(std::uint32_t row, const WideBeam* wide) {
-  const NearestHit hit = current_->hit(row);
-  const RayLine axis = current_->axis(row);
-  if (hit.facet != kNoFacet) paths_.follow(axis.origin, axis.direction, hit, wide != nullptr ? kAxisWeight : 1, ends_);
-  const auto& sub_rays = subRays();
-  for (std::size_t k = 0; wide != nullptr && k < kSubRays; ++k)
-    if (wide->hits[k].facet != kNoFacet)
-      paths_.follow(wide->lines[k].origin, wide->lines[k].direction, wide->hits[k], sub_rays[k].weight, ends_);
+  if (wide != nullptr) return gatherWide(*wide);
+  const NearestHit hit = column_.hit(row);
+  const RayLine axis = column_.axis(row);
+  if (hit.facet != kNoFacet) paths_.follow(axis.origin, axis.direction, hit, 1, ends_);
+}
+
+// Rays that meet one facet are one end, where their mean by power meets it: a triangle holds the mean of its places.
+// Behind panes and by way of mirrors they may meet different ones, and are followed one by one.
+void ColumnTracer::gatherWide(const WideBeam& wide) {
+  struct OnFacet {
+    NearestHit hit;
+    double across = 0, upward = 0, range_m = 0, weight = 0;  // sums by weight
+  };
+  OnFacet met[kReferenceSubRays];
+  int count = 0;
+  for (int k = 0; k < wide_.raysEach(); ++k) {
+    const NearestHit& hit = wide.hits[k];
+    if (hit.facet == kNoFacet) continue;
+    const SubRay& ray = wide.rays[k];
+    int at = 0;
+    while (at < count && met[at].hit.facet != hit.facet) ++at;
+    if (at == count || !facets_.of(hit.facet).plain) met[at = count++] = {.hit = hit};
+    const auto weight = static_cast<double>(ray.weight);
+    met[at].across += weight * ray.across, met[at].upward += weight * ray.upward;
+    met[at].range_m += weight * static_cast<double>(hit.range_m), met[at].weight += weight;
+  }
+  for (int i = 0; i < count; ++i) {
+    const OnFacet& on = met[i];
+    const RayLine line = lineOf(wide.beam, on.across / on.weight, on.upward / on.weight, plan_.instrument);
+    const NearestHit mean{on.hit.facet, static_cast<float>(on.range_m / on.weight)};
+    paths_.follow(line.origin, line.direction, mean, static_cast<float>(on.weight), ends_);
+  }
 }
 
 // Rows of which something may come back that is not on the beam's own way.
@@ -178,7 +200,7 @@ std::uint32_t ColumnTracer::straying(std::uint32_t first_row, std::uint32_t rows
   std::uint32_t lanes = 0;
   if (!plan_.halo && plan_.interference <= 0) return lanes;
   for (std::uint32_t k = 0; k < rows; ++k) {
-    const bool wings = plan_.halo && plan_.halo->reaches(current_->column(), first_row + k);
+    const bool wings = plan_.halo && plan_.halo->reaches(column_.column(), first_row + k);
     if (wings || (plan_.interference > 0 && struck(first_row + k))) lanes |= 1U << k;
   }
   return lanes;
@@ -186,23 +208,23 @@ std::uint32_t ColumnTracer::straying(std::uint32_t first_row, std::uint32_t rows
 
 // Does another instrument's light come in while this pulse is listened for?
 bool ColumnTracer::struck(std::uint32_t row) const {
-  return uniform(interferenceDraw(plan_.options, current_->column(), row)[0]) < plan_.interference;
+  return uniform(interferenceDraw(plan_.options, column_.column(), row)[0]) < plan_.interference;
 }
 
 // `from`: where the ends of its pulse begin.
 void ColumnTracer::gatherStray(std::uint32_t row, std::size_t from) {
-  const RayLine axis = current_->axis(row);
-  if (plan_.halo && plan_.halo->reaches(current_->column(), row)) gatherWings(current_->beam(row));
+  const RayLine axis = column_.axis(row);
+  if (plan_.halo && plan_.halo->reaches(column_.column(), row)) gatherWings(column_.beam(row));
   if (plan_.scatterers) {  // the air's return, from before the nearest surface
     double nearest = plan_.settings.max_range_m;
     for (std::size_t i = from; i < ends_.size(); ++i) nearest = std::min(nearest, ends_[i].path_m);
-    if (const auto found = plan_.scatterers->strongest(current_->column(), row, nearest, plan_.drop_threshold))
+    if (const auto found = plan_.scatterers->strongest(column_.column(), row, nearest, plan_.drop_threshold))
       addSurfaceless(axis, found->range_m, found->x, point_flag::kWeather);
   }
   if (plan_.interference <= 0 || !struck(row)) return;
   // At any time of the listening window, as strong as it may be: the power of a source at an unknown distance is above
   // the threshold by a factor f with the chance 1/f.
-  const auto draw = interferenceDraw(plan_.options, current_->column(), row);
+  const auto draw = interferenceDraw(plan_.options, column_.column(), row);
   const double nearest = plan_.instrument.min_range_m;
   addSurfaceless(axis, nearest + uniform(draw[1]) * (plan_.settings.max_range_m - nearest),
                  detectionThreshold(plan_.settings, 0) / std::max(1e-3, uniform(draw[2])), point_flag::kNoise);
@@ -213,7 +235,7 @@ void ColumnTracer::gatherWings(const Beam& beam) {
   const std::size_t before = ends_.size();
   const auto fraction = static_cast<float>(plan_.instrument.saturation.pedestal);
   for (const SubRay& ray : wingRays()) {
-    const RayLine line = lineOf(beam, ray, plan_.instrument);
+    const RayLine line = lineOf(beam, ray.across, ray.upward, plan_.instrument);
     const NearestHit hit = plan_.scene.nearest(line.origin, line.direction, 0, plan_.farthest_m);
     if (hit.facet != kNoFacet && facets_.of(hit.facet).optics->retro_gain > 0)
       paths_.follow(line.origin, line.direction, hit, fraction * ray.weight, ends_);
@@ -271,7 +293,7 @@ void ColumnTracer::light(ReturnLanes& r, int count) {
   plan_.scene.intersect(rays, count, std::numeric_limits<float>::infinity(), shade, ranges);
   const Eigen::Quaterniond rotation = at(plan_.trajectory, 0).rotation;
   for (int k = 0; k < count; ++k) {
-    Eigen::Vector3d direction = r.cosine[k] * current_->ahead();
+    Eigen::Vector3d direction = r.cosine[k] * column_.ahead();
     direction.z() = r.sine[k];
     r.signal.background[k] = day.ofDirection(rotation * direction);
     if (shade[k] != kNoFacet && !plan_.passes(*facets_.of(shade[k]).optics)) continue;

@@ -5,7 +5,7 @@
 
 #include "core/points.h"
 #include "scanners/engine/beam_paths.h"
-#include "scanners/engine/edge_finder.h"
+#include "scanners/engine/edge_map.h"
 #include "scanners/engine/plane_lanes.h"
 #include "scanners/engine/point_lanes.h"
 #include "scanners/engine/point_writer.h"
@@ -16,14 +16,13 @@ namespace standpoint {
 // Traces columns of a plan into a block, in place of what it holds, from ray to point. One per thread; it only
 // remembers facets, so what it yields depends on the arguments alone, and a column's points on the column alone.
 //
-// A pulse whose axis and whose neighbours' axes meet one surface is that surface's return; most are, and they are dealt
-// with sixteen at a time. Where a neighbour meets another one (edge_finder.h), the beam's other rays are traced
-// (wide_beams.h), and where the surface is a pane or a mirror the light is followed (beam_paths.h); the receiver makes
-// echoes of what comes back (waveform.h). What is thinner than the distance of two pulses and lies between them is not
-// met.
+// A pulse whose beam meets one surface is that surface's return; most do, and they are dealt with sixteen at a time.
+// Where an edge of the scene is in the beam (edge_map.h), its rays are traced (wide_beams.h), and where the surface is
+// a pane or a mirror the light is followed (beam_paths.h); the receiver makes echoes of what comes back (waveform.h).
 class ColumnTracer {
  public:
-  explicit ColumnTracer(const ScanPlan& plan);
+  // `edges`: null where no beam is wide, or each is.
+  ColumnTracer(const ScanPlan& plan, const EdgeMap* edges);
   void trace(std::uint32_t from, std::uint32_t to, PointBlock& block);
 
  private:
@@ -50,8 +49,8 @@ class ColumnTracer {
   void traceRows(std::uint32_t first_row);
   Surfaces setSurfaces(std::uint32_t first_row);
   std::uint32_t traceEdges(std::uint32_t first_row);
-  void traceStretch(std::uint32_t first_row);
   void gatherEnds(std::uint32_t row, const WideBeam* wide);
+  void gatherWide(const WideBeam& wide);
   std::uint32_t straying(std::uint32_t first_row, std::uint32_t rows) const;
   bool struck(std::uint32_t row) const;
   void gatherStray(std::uint32_t row, std::size_t from);
@@ -67,11 +66,10 @@ class ColumnTracer {
   const ScanPlan& plan_;
   FacetCache facets_;
   BeamPaths paths_;
-  ColumnWindow columns_;
-  EdgeFinder edges_;
-  WideBeams wide_;  // of a stretch of rows
-  std::size_t next_wide_ = 0;
-  ColumnHits* current_ = nullptr;
+  const EdgeMap* edges_;
+  ColumnHits column_;
+  std::vector<std::uint32_t> wide_rows_;  // bits of sixteen rows each
+  WideBeams wide_;                        // of sixteen rows
   PlaneLanes planes_;
   ReturnLanes returns_;          // a row each
   std::uint64_t held_[kPacket];  // facets whose surfaces and planes the lanes have

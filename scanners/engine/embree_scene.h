@@ -14,6 +14,7 @@
 #include "scanners/engine/balls.h"
 #include "scanners/engine/embree.h"
 #include "scanners/engine/ray_engine.h"
+#include "scanners/engine/scene_edges.h"
 
 namespace standpoint {
 
@@ -81,17 +82,22 @@ class EmbreeScene final : public RayScene {
                      double max_range_m) const;
   Facet facet(std::uint64_t number) const;
   std::size_t placementCount() const { return placements_.size(); }
+  // Of a mesh that is placed.
+  const std::vector<MeshEdge>& edges(std::uint32_t mesh) const { return edges_[mesh]; }
   const Instance& placed(std::size_t placement) const { return environment_->instances[placements_[placement]]; }
 
  private:
   void attachPlaced(std::uint32_t placement);
   void attachInstanced(std::uint32_t placement);
   void attachBall(std::uint32_t placement, double radius_m);
+  void buildTree(const std::vector<std::uint32_t>& uses, Progress& progress);
+  void findEdges(const std::vector<std::uint32_t>& uses, Progress& progress);
   RTCScene meshScene(std::uint32_t mesh);
   RTCGeometry triangles(const Mesh& mesh, const Eigen::Affine3d& world_from_mesh);
 
   std::shared_ptr<const Environment> environment_;
   std::vector<std::uint32_t> placements_;      // indices into Environment::instances
+  std::vector<std::vector<MeshEdge>> edges_;   // by mesh
   std::vector<RTCScene> mesh_scenes_;          // by mesh; null unless instanced
   std::map<std::uint32_t, PlacedBall> balls_;  // by placement
   RTCDevice device_ = nullptr;

@@ -1,29 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scanners/engine/facet_cache.h"
 
-#include <bit>
 #include <cmath>
 
 namespace standpoint {
-
-namespace {
-
-// Planes that are the same to 3 arcsec and 0.1 mm, as coplanar facets are but for the rounding of their corners. Near
-// the limits of the steps they can be told apart all the same. Two others have the same number once in four thousand
-// million.
-std::uint32_t planeNumber(const Facet& facet) {
-  std::uint64_t hash = 0;
-  const auto add = [&hash](double steps) {
-    hash = (hash ^ std::bit_cast<std::uint64_t>(std::nearbyint(steps) + 0.0)) *
-           0x9E3779B97F4A7C15ULL;  // one zero, not two
-    hash ^= hash >> 32U;
-  };
-  for (int k = 0; k < 3; ++k) add(0x1p16 * facet.normal[k]);
-  add(0x1p13 * facet.offset);
-  return static_cast<std::uint32_t>(hash) | 1U;
-}
-
-}  // namespace
 
 FacetCache::FacetCache(const ScanPlan& plan) : plan_(plan), entries_(std::size_t{1} << kBits) {}
 
@@ -43,7 +23,6 @@ void FacetCache::lookUp(std::uint64_t number, MetFacet& entry) const {
   // A retroreflector's gain is no figure of the lanes (signal_lanes.h).
   entry.plain =
       !entry.painted && !plan_.passes(*entry.optics) && !plan_.mirrors(*entry.optics) && entry.optics->retro_gain == 0;
-  entry.plane = planeNumber(entry.facet);
 }
 
 }  // namespace standpoint

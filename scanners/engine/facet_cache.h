@@ -9,17 +9,14 @@
 
 namespace standpoint {
 
-constexpr std::uint32_t kNoPlane = 0;
-
 // A facet with what the scan needs to know of its material.
 struct MetFacet {
   std::uint64_t number = kNoFacet;
   Facet facet;
   const Optics* optics = nullptr;
-  std::uint32_t material = 0;      // label
-  bool plain = true;               // light that meets it goes nowhere but back, and as much of it everywhere
-  bool painted = false;            // an image scales its reflectance
-  std::uint32_t plane = kNoPlane;  // the same for facets of one plane, as a floor's are; of others it differs
+  std::uint32_t material = 0;  // label
+  bool plain = true;           // light that meets it goes nowhere but back, and as much of it everywhere
+  bool painted = false;        // an image scales its reflectance
 
   // Is what a ray beside it meets the same surface to a beam? A facet in the same plane is, or one that bends away
   // gently.

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
 #include "scanners/engine/embree_scene.h"
@@ -57,6 +59,12 @@ Result<void> EmbreeScene::commit(std::shared_ptr<const Environment> environment,
     placements_.push_back(i);
     ++uses[instance.mesh];
   }
+  tbb::parallel_invoke([&] { buildTree(uses, progress); }, [&] { findEdges(uses, progress); });
+  if (auto go_on = progress.check(); !go_on) return go_on;
+  return checkDevice(device_);
+}
+
+void EmbreeScene::buildTree(const std::vector<std::uint32_t>& uses, Progress& progress) {
   // One thread builds: with more, the order of triangles in a leaf, and so which of two coincident faces is met, would
   // depend on timing. A million triangles take about half a second.
   tbb::task_arena one_thread(1);
@@ -76,8 +84,13 @@ Result<void> EmbreeScene::commit(std::shared_ptr<const Environment> environment,
     rtcCommitScene(scene_);
     rtcSetSceneProgressMonitorFunction(scene_, nullptr, nullptr);
   });
-  if (auto go_on = progress.check(); !go_on) return go_on;
-  return checkDevice(device_);
+}
+
+void EmbreeScene::findEdges(const std::vector<std::uint32_t>& uses, Progress& progress) {
+  edges_.resize(uses.size());
+  tbb::parallel_for(std::size_t{0}, uses.size(), [&](std::size_t mesh) {
+    if (uses[mesh] > 0 && !progress.cancelled()) edges_[mesh] = outlineEdges(*environment_->meshes[mesh]);
+  });
 }
 
 RTCGeometry EmbreeScene::triangles(const Mesh& mesh, const Eigen::Affine3d& world_from_mesh) {

@@ -26,7 +26,8 @@ std::array<SubRay, kWingRays> wingPattern() {
       portable::sinCosTurn((static_cast<float>(k) + 0.5F * static_cast<float>(ring % 2)) / kOnRing, sine, cosine);
       const double middle = kWings / kRings * (ring + 0.5);
       // The area of a ring grows with its radius: 1 + 3 + 5 + 7 parts.
-      ray = {cosine, sine, middle, static_cast<float>(2 * ring + 1) / (kRings * kRings * kOnRing)};
+      ray = {middle * static_cast<double>(cosine), middle * static_cast<double>(sine),
+             static_cast<float>(2 * ring + 1) / (kRings * kRings * kOnRing)};
     }
   return rays;
 }

@@ -10,6 +10,7 @@
 #include <tbb/task_arena.h>
 
 #include "scanners/engine/column_tracer.h"
+#include "scanners/engine/edge_map.h"
 #include "scanners/engine/ray_engine.h"
 #include "scanners/engine/scan_plan.h"
 
@@ -17,8 +18,6 @@ namespace standpoint {
 
 namespace {
 
-// Each block traces columns on either side of it, too, to know its neighbours: as many as a beam can reach.
-constexpr std::uint32_t kColumnsPerReach = 16;
 constexpr std::uint32_t kPulsesPerBlock = 1U << 17U;
 constexpr std::uint32_t kFirstColumns = 4;  // of the first block: whoever watches shall see points soon
 
@@ -43,13 +42,14 @@ class Pipeline {
       : plan_(plan),
         sink_(sink),
         progress_(progress),
-        columns_per_block_(std::max({1U, kPulsesPerBlock / plan.settings.rows, kColumnsPerReach * plan.reach()})),
-        tracers_([&plan] { return ColumnTracer(plan); }),
+        columns_per_block_(std::max(1U, kPulsesPerBlock / plan.settings.rows)),
+        tracers_([this] { return ColumnTracer(plan_, edges_ ? &*edges_ : nullptr); }),
         next_column_(std::min(plan.options.first_column, plan.endColumn())) {}
 
   Result<ScanCount> run(int threads) {
     tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
     arena.execute([&] {
+      if (plan_.wideBeams() && !plan_.everyBeamWide()) edges_.emplace(plan_);
       // A block for each thread, one that is written and one that waits for its turn: a block of the finest grid has 90
       // MB.
       const auto tokens = static_cast<std::size_t>(arena.max_concurrency() + 2);
@@ -109,6 +109,7 @@ class Pipeline {
   PointSink& sink_;
   Progress& progress_;
   const std::uint32_t columns_per_block_;
+  std::optional<EdgeMap> edges_;  // before any tracer
   tbb::enumerable_thread_specific<ColumnTracer> tracers_;
   tbb::concurrent_queue<std::shared_ptr<PointBlock>> spare_;
   std::uint32_t next_column_;

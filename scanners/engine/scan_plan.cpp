@@ -39,14 +39,6 @@ double ScanPlan::elevation_rad(std::uint32_t row) const {
          (row + 0.5) * (settings.elevation_to_rad - settings.elevation_from_rad) / settings.rows;
 }
 
-// At the shortest range a beam is wide beside the steps between pulses.
-std::uint32_t ScanPlan::mostReach() const {
-  const double nearest = std::max(0.3, instrument.min_range_m);
-  const double radius = kOuterFraction * beamRadius(instrument, nearest) / nearest;
-  return static_cast<std::uint32_t>(
-      std::clamp(std::ceil(radius / std::min(rowStep_rad(), columnStep_rad())), 1.0, static_cast<double>(kMostReach)));
-}
-
 ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignment_, const Instrument& instrument_,
                    const ScanSettings& settings_, const Trajectory& trajectory_, const ScanOptions& options_)
     : scene(scene_),
@@ -87,7 +79,6 @@ ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignme
   if (effects.has(Effect::amplitude_noise))
     receiver.fluctuation =
         fluctuationOf(instrument, detectionThreshold(settings, 0) * instrument.detection_softness, settings.passes);
-  if (effects.has(Effect::footprint)) reach_ = mostReach();
   drop_threshold = detectionThreshold(settings, 0);
   std::vector<double> elevations;
   for (std::uint32_t row = 0; row < settings.rows; ++row) elevations.push_back(elevation_rad(row));

@@ -92,16 +92,13 @@ struct ScanPlan {
   }
   double rowStep_rad() const { return (settings.elevation_to_rad - settings.elevation_from_rad) / settings.rows; }
   double columnStep_rad() const { return (settings.azimuth_to_rad - settings.azimuth_from_rad) / settings.columns; }
-  // Pulses aside that a beam can reach, at most: 0 where beams have no width.
-  std::uint32_t reach() const { return reach_; }
+  // Whether beams have a width, and whether that of each is looked at: of a scanner that moves.
+  bool wideBeams() const { return options.effects.has(Effect::footprint); }
+  bool everyBeamWide() const { return wideBeams() && moves(); }
   // Of the part of the grid that is asked for.
   std::uint32_t endColumn() const { return std::min(options.end_column, settings.columns); }
   std::uint32_t nothingLabel() const { return static_cast<std::uint32_t>(scene.environment().products.size()); }
   std::uint32_t unassignedLabel() const { return static_cast<std::uint32_t>(assignment.materials.size()); }
-
- private:
-  std::uint32_t mostReach() const;
-  std::uint32_t reach_ = 0;
 };
 
 }  // namespace standpoint

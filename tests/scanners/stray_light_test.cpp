@@ -155,13 +155,13 @@ TEST(Halo, StandsAroundAReflectorAsFarAsTheWingsOfTheBeam) {
     return most;
   };
   EXPECT_GT(plain.size(), 100U);
-  EXPECT_LT(farthest(plain), 1.2 * radius);
+  EXPECT_LT(farthest(plain), (kBeamEdge + 0.1) * radius);
   EXPECT_GT(haloed.size(), 2 * plain.size());
   EXPECT_NEAR(farthest(haloed) / radius, 7, 0.5);  // the outermost ring of rays
   std::size_t outside = 0;
   for (std::size_t i = 0; i < haloed.size(); ++i) {
     ASSERT_NEAR(haloed.x_m[i], 20, 0.01);
-    const bool beside = std::max(std::abs(haloed.y_m[i]), std::abs(haloed.z_m[i])) > 0.02 + 1.2 * radius;
+    const bool beside = std::max(std::abs(haloed.y_m[i]), std::abs(haloed.z_m[i])) > 0.02 + (kBeamEdge + 0.1) * radius;
     EXPECT_TRUE(!beside || (haloed.truth.flags[i] & point_flag::kMirrored) != 0);
     outside += beside ? 1 : 0;
   }

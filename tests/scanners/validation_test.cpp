@@ -57,21 +57,43 @@ TEST(NearRange, V5_FollowsTheMeasuredAmplitudesOfTheVz400i) {
     EXPECT_NEAR(amplitude(range_m) - far, expected_db, 0.05) << range_m;
 }
 
-// F = ½ erfc(√2 x/w): what of a Gaussian beam lies beyond a straight edge, over all directions of the edge.
+// F = ½ erfc(√2 x/w): what of a Gaussian beam lies beyond a straight edge at a distance x from its axis (§4.2), in the
+// mean over pulses; a single pulse strays from it by what its few rays can tell.
 TEST(Footprint, V9_SharesItsPowerAtAnEdgeAsAGaussianBeam) {
-  for (const double place : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
-    double beyond = 0;
-    constexpr int kDirections = 720;
-    for (int d = 0; d < kDirections; ++d) {
-      const double angle = (d + 0.5) * 2 * std::numbers::pi / kDirections;
-      double fraction = place < 0 ? static_cast<double>(kAxisWeight) : 0;
-      if (place == 0) fraction = static_cast<double>(kAxisWeight) / 2;
-      for (const auto& ray : subRays())
-        if (ray.fraction * (std::cos(angle) * ray.cosine + std::sin(angle) * ray.sine) > place)
-          fraction += static_cast<double>(ray.weight);
-      beyond += fraction / kDirections;
+  for (const auto& [count, single] : {std::pair{kSubRays, 0.057}, std::pair{kReferenceSubRays, 0.02}}) {
+    constexpr std::uint32_t kDrawn = 4000;
+    for (int step = 0; step < 20; ++step) {
+      const double place = -1.425 + 0.15 * step;
+      double sum = 0, square = 0;
+      for (std::uint32_t pulse = 0; pulse < kDrawn; ++pulse) {
+        SubRay rays[kReferenceSubRays];
+        drawFootprint(philox({7, 1}, 3, pulse, 9), count, rays);
+        double beyond = 0;
+        for (int k = 0; k < count; ++k)
+          if (rays[k].across > place) beyond += static_cast<double>(rays[k].weight);
+        sum += beyond, square += beyond * beyond;
+      }
+      const double mean = sum / kDrawn, expected = 0.5 * std::erfc(std::numbers::sqrt2 * place);
+      EXPECT_NEAR(mean, expected, 0.006) << count << " rays, " << place;
+      EXPECT_LT(std::sqrt(square / kDrawn - mean * mean), single) << count << " rays, " << place;
     }
-    EXPECT_NEAR(beyond, 0.5 * std::erfc(std::numbers::sqrt2 * place), 0.045) << place;
+  }
+}
+
+// All of a pulse's light is in its rays, none is farther out than the beam's edge, and no two pulses are alike.
+TEST(Footprint, OfEachPulseHasAllItsPowerAndItsOwnPattern) {
+  SubRay before[kSubRays] = {};
+  for (std::uint32_t pulse = 0; pulse < 100; ++pulse) {
+    SubRay rays[kSubRays];
+    drawFootprint(philox({7, 1}, 3, pulse, 9), kSubRays, rays);
+    double power = 0;
+    for (int k = 0; k < kSubRays; ++k) {
+      power += static_cast<double>(rays[k].weight);
+      EXPECT_LE(std::hypot(rays[k].across, rays[k].upward), kBeamEdge + 1e-6);
+      EXPECT_NE(rays[k].across, before[k].across);
+    }
+    EXPECT_NEAR(power, 1, 1e-6);
+    std::copy_n(rays, kSubRays, before);
   }
 }
 
