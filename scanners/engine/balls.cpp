@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scanners/engine/face_meeting.h"
+
 namespace standpoint {
 
 namespace {
@@ -40,11 +42,16 @@ void intersectBall(const RTCIntersectFunctionNArguments* args) {
     const double length = along.norm();
     const auto [middle, half2] = through(ball, origin, along / length);
     if (!(half2 >= 0)) continue;
-    const double half = std::sqrt(half2), nearest = RTCRayN_tnear(rays, n, k), farthest = RTCRayN_tfar(rays, n, k);
+    const double half = std::sqrt(half2), nearest = RTCRayN_tnear(rays, n, k);
     double range = (middle - half) / length;
     if (range < nearest) range = (middle + half) / length;
-    if (!(range >= nearest && range <= farthest)) continue;
-    RTCRayN_tfar(rays, n, k) = static_cast<float>(range);
+    if (!(range >= nearest)) continue;
+    // Of what is met in the same cell the first of the scene, as of triangles (face_meeting.h).
+    const float cell = endOfTieCell(range), farthest = RTCRayN_tfar(rays, n, k);
+    const unsigned instance = RTCHitN_instID(hits, n, k, 0);
+    const unsigned held = instance == RTC_INVALID_GEOMETRY_ID ? RTCHitN_geomID(hits, n, k) : instance;
+    if (cell > farthest || (cell == farthest && args->geomID >= held)) continue;
+    RTCRayN_tfar(rays, n, k) = cell;
     const Eigen::Vector3d normal = origin + range * along - ball.centre;
     RTCHitN_Ng_x(hits, n, k) = static_cast<float>(normal.x());
     RTCHitN_Ng_y(hits, n, k) = static_cast<float>(normal.y());

@@ -145,7 +145,7 @@ void CoincidentFacets::choose(const RayPacket& rays, int count, NearestHit* hits
     const Eigen::Vector3f direction(rays.direction_x[k], rays.direction_y[k], rays.direction_z[k]);
     const float cosine = std::abs(choice.met[k]->normal.dot(direction));
     // Two planes a twentieth of a millimetre apart are one; along a ray that grazes them it is more.
-    const float window_m = 5e-5F / std::max(cosine, 0.02F) + 4e-6F * hits[k].range_m;
+    const float window_m = 7e-5F + 5e-5F / std::max(cosine, 0.02F) + 4e-6F * hits[k].range_m;
     window.ray.tnear[k] = std::max(0.0F, hits[k].range_m - window_m);
     window.ray.tfar[k] = hits[k].range_m + window_m;
     window.ray.time[k] = 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scanners/math/portable_math.h"
 #include "scanners/math/target_clones.h"
 
 namespace standpoint {
@@ -46,9 +47,10 @@ ColumnHits::ColumnHits(const ScanPlan& plan)
 // Clockwise seen from above.
 void ColumnHits::begin(std::uint32_t column) {
   column_ = column;
-  const double azimuth = plan_.azimuth_rad(column);
-  ahead_ = {std::cos(azimuth), -std::sin(azimuth), 0};
-  lateral_ = {-std::sin(azimuth), -std::cos(azimuth), 0};
+  double sine = 0, cosine = 0;
+  portable::sinCos(plan_.azimuth_rad(column), sine, cosine);
+  ahead_ = {cosine, -sine, 0};
+  lateral_ = {-sine, -cosine, 0};
   const Pose pose = at(plan_.trajectory, 0);
   still_ = {pose.translation, pose.rotation * ahead_, pose.rotation * lateral_,
             pose.rotation * Eigen::Vector3d::UnitZ()};
@@ -57,6 +59,7 @@ void ColumnHits::begin(std::uint32_t column) {
   std::fill_n(lanes_.origin_y, kPacket, still_.origin.y());
   std::fill_n(lanes_.origin_z, kPacket, still_.origin.z());
   roundOrigins(lanes_, rays_);
+  rays_.one_origin = true;
 }
 
 void ColumnHits::trace(std::uint32_t column) {

@@ -181,7 +181,9 @@ void ColumnTracer::gatherWide(const WideBeam& wide) {
     const SubRay& ray = wide.rays[k];
     int at = 0;
     while (at < count && met[at].hit.facet != hit.facet) ++at;
-    if (at == count || !facets_.of(hit.facet).plain) met[at = count++] = {.hit = hit};
+    const MetFacet& facet = facets_.of(hit.facet);
+    // A ball bends away within the beam: the mean of its rays would be off by what it is deep there.
+    if (at == count || !facet.plain || facet.facet.ball != nullptr) met[at = count++] = {.hit = hit};
     const auto weight = static_cast<double>(ray.weight);
     met[at].across += weight * ray.across, met[at].upward += weight * ray.upward;
     met[at].range_m += weight * static_cast<double>(hit.range_m), met[at].weight += weight;

@@ -3,9 +3,11 @@
 
 #include <cmath>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -13,6 +15,7 @@
 #include "core/environment.h"
 #include "scanners/engine/balls.h"
 #include "scanners/engine/embree.h"
+#include "scanners/engine/face_meeting.h"
 #include "scanners/engine/ray_engine.h"
 #include "scanners/engine/scene_edges.h"
 
@@ -39,6 +42,7 @@ struct Facet {
   }
 };
 
+// The range is rounded up to the next 61 µm (face_meeting.h); the facet's plane says where exactly.
 struct NearestHit {
   std::uint64_t facet = kNoFacet;
   float range_m = 0;
@@ -50,6 +54,7 @@ constexpr int kPacket = 16;
 struct alignas(64) RayPacket {
   float origin_x[kPacket], origin_y[kPacket], origin_z[kPacket];
   float direction_x[kPacket], direction_y[kPacket], direction_z[kPacket];
+  bool one_origin = false;  // of all lanes, the others included
 
   void set(int lane, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
     origin_x[lane] = static_cast<float>(origin.x());
@@ -69,7 +74,7 @@ class EmbreeScene final : public RayScene {
   ~EmbreeScene() override;
 
   Result<void> commit(std::shared_ptr<const Environment> environment, const std::vector<RoundInstance>& balls,
-                      Progress& progress);
+                      const std::string& embree_settings, Progress& progress);
   std::optional<RayHit> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
                                   double max_range_m) const override;
   const Environment& environment() const override { return *environment_; }
@@ -90,14 +95,17 @@ class EmbreeScene final : public RayScene {
   void attachPlaced(std::uint32_t placement);
   void attachInstanced(std::uint32_t placement);
   void attachBall(std::uint32_t placement, double radius_m);
-  void buildTree(const std::vector<std::uint32_t>& uses, Progress& progress);
+  void buildTree(const std::vector<std::uint32_t>& uses, const std::vector<RoundInstance>& balls, Progress& progress);
   void findEdges(const std::vector<std::uint32_t>& uses, Progress& progress);
   RTCScene meshScene(std::uint32_t mesh);
-  RTCGeometry triangles(const Mesh& mesh, const Eigen::Affine3d& world_from_mesh);
+  double size() const;
 
   std::shared_ptr<const Environment> environment_;
   std::vector<std::uint32_t> placements_;      // indices into Environment::instances
   std::vector<std::vector<MeshEdge>> edges_;   // by mesh
+  double size_m_ = 0;                          // how far from the origin anything is
+  std::deque<RayFaces> faces_;                 // of Embree's geometries
+  std::vector<Eigen::Affine3d> placed_at_;     // by placement, for those that are instanced
   std::vector<RTCScene> mesh_scenes_;          // by mesh; null unless instanced
   std::map<std::uint32_t, PlacedBall> balls_;  // by placement
   RTCDevice device_ = nullptr;
@@ -108,7 +116,7 @@ class EmbreeScene final : public RayScene {
 inline double rangeOnPlane(const Facet& facet, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                            double fallback_m) {
   const double range = (facet.offset - facet.normal.dot(origin)) / facet.normal.dot(direction);
-  // Edge-on, the plane says nothing; Embree's own range is good to about 1e-6 of the distances involved.
+  // Edge-on, the plane says nothing.
   return std::abs(range - fallback_m) <= 1e-3 + 1e-4 * fallback_m ? range : fallback_m;
 }
 

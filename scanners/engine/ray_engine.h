@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -34,13 +35,16 @@ struct RoundInstance {
   double radius_m = 0;
 };
 
-// An Environment as rays see it (Embree 3, ROBUST, instanced meshes). Immutable after build; intersect is thread-safe.
-// The editor picks with it, too. Products that are not in the scene are left out.
+// An Environment as rays see it (a tree of Embree's, instanced meshes). What a ray meets is the same on every
+// processor. Immutable after build; intersect is thread-safe. The editor picks with it, too. Products that are not in
+// the scene are left out.
 class RayScene {
  public:
+  // `embree_settings` are those of rtcNewDevice ("isa=sse2"): they alter how long rays take, and no byte of a scan.
   static Result<std::shared_ptr<const RayScene>> build(std::shared_ptr<const Environment> environment,
                                                        Progress& progress,
-                                                       const std::vector<RoundInstance>& balls = {});
+                                                       const std::vector<RoundInstance>& balls = {},
+                                                       const std::string& embree_settings = {});
   virtual ~RayScene() = default;
   virtual std::optional<RayHit> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
                                           double max_range_m) const = 0;

@@ -16,6 +16,8 @@ namespace {
 // A mesh that stands in one place, or is smaller than the record of an instance, is put into the scene itself: that
 // spares each ray the change of frame.
 constexpr std::size_t kSmallMesh = 64;
+// Of the bounds of triangles, as a share of the scene's size: several times the rounding of Embree's boxes and frames.
+constexpr double kSwell = 2e-6;
 
 bool onProgress(void* progress, double fraction) {
   auto& handle = *static_cast<Progress*>(progress);
@@ -42,10 +44,11 @@ EmbreeScene::~EmbreeScene() {
 }
 
 Result<void> EmbreeScene::commit(std::shared_ptr<const Environment> environment,
-                                 const std::vector<RoundInstance>& balls, Progress& progress) {
+                                 const std::vector<RoundInstance>& balls, const std::string& embree_settings,
+                                 Progress& progress) {
   environment_ = std::move(environment);
   if (auto wrong = validate(*environment_); !wrong.empty()) return failure(ErrorKind::unusable, wrong, "environment");
-  device_ = rtcNewDevice(nullptr);
+  device_ = rtcNewDevice(embree_settings.c_str());
   if (device_ == nullptr) return failure(ErrorKind::internal, "Embree has no device on this machine", "ray scene");
   scene_ = rtcNewScene(device_);
   rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
@@ -59,12 +62,15 @@ Result<void> EmbreeScene::commit(std::shared_ptr<const Environment> environment,
     placements_.push_back(i);
     ++uses[instance.mesh];
   }
-  tbb::parallel_invoke([&] { buildTree(uses, progress); }, [&] { findEdges(uses, progress); });
+  size_m_ = size();
+  for (const std::uint32_t i : placements_) placed_at_.push_back(environment_->instances[i].world_from_mesh);
+  tbb::parallel_invoke([&] { buildTree(uses, balls, progress); }, [&] { findEdges(uses, progress); });
   if (auto go_on = progress.check(); !go_on) return go_on;
   return checkDevice(device_);
 }
 
-void EmbreeScene::buildTree(const std::vector<std::uint32_t>& uses, Progress& progress) {
+void EmbreeScene::buildTree(const std::vector<std::uint32_t>& uses, const std::vector<RoundInstance>& balls,
+                            Progress& progress) {
   // One thread builds: with more, the order of triangles in a leaf, and so which of two coincident faces is met, would
   // depend on timing. A million triangles take about half a second.
   tbb::task_arena one_thread(1);
@@ -93,26 +99,26 @@ void EmbreeScene::findEdges(const std::vector<std::uint32_t>& uses, Progress& pr
   });
 }
 
-RTCGeometry EmbreeScene::triangles(const Mesh& mesh, const Eigen::Affine3d& world_from_mesh) {
-  RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                               3 * sizeof(float), mesh.positions.size()));
-  auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle), mesh.triangles.size()));
-  if (vertices != nullptr && indices != nullptr) {
-    for (const auto& position : mesh.positions) {
-      const Eigen::Vector3f placed = (world_from_mesh * position.cast<double>()).cast<float>();
-      vertices = std::copy(placed.data(), placed.data() + 3, vertices);
-    }
-    for (const auto& triangle : mesh.triangles) indices = std::copy(triangle.begin(), triangle.end(), indices);
+double EmbreeScene::size() const {
+  std::vector<double> radius_m(environment_->meshes.size(), -1);
+  double size_m = 0;
+  for (const std::uint32_t i : placements_) {
+    const Instance& instance = environment_->instances[i];
+    double& radius = radius_m[instance.mesh];
+    if (radius < 0)
+      for (const auto& p : environment_->meshes[instance.mesh]->positions)
+        radius = std::max(radius, static_cast<double>(p.norm()));
+    size_m = std::max(
+        size_m, instance.world_from_mesh.translation().norm() + instance.world_from_mesh.linear().norm() * radius);
   }
-  rtcCommitGeometry(geometry);
-  return geometry;
+  return size_m;
 }
 
 void EmbreeScene::attachPlaced(std::uint32_t placement) {
   const Instance& instance = environment_->instances[placements_[placement]];
-  RTCGeometry geometry = triangles(*environment_->meshes[instance.mesh], instance.world_from_mesh);
+  RayFaces& faces = faces_.emplace_back(*environment_->meshes[instance.mesh], instance.world_from_mesh);
+  faces.swell = kSwell * size_m_;
+  RTCGeometry geometry = newFaces(device_, faces);
   rtcAttachGeometryByID(scene_, geometry, placement);
   rtcReleaseGeometry(geometry);
 }
@@ -127,9 +133,14 @@ void EmbreeScene::attachBall(std::uint32_t placement, double radius_m) {
 
 RTCScene EmbreeScene::meshScene(std::uint32_t mesh) {
   if (mesh_scenes_[mesh] != nullptr) return mesh_scenes_[mesh];
+  RayFaces& faces = faces_.emplace_back(*environment_->meshes[mesh], Eigen::Affine3d::Identity());
+  faces.world_from_mesh = placed_at_.data();
+  for (const std::uint32_t i : placements_)
+    if (const Instance& instance = environment_->instances[i]; instance.mesh == mesh)
+      faces.swell = std::max(faces.swell, kSwell * size_m_ * instance.world_from_mesh.linear().inverse().norm());
   RTCScene scene = rtcNewScene(device_);
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-  RTCGeometry geometry = triangles(*environment_->meshes[mesh], Eigen::Affine3d::Identity());
+  RTCGeometry geometry = newFaces(device_, faces);
   rtcAttachGeometryByID(scene, geometry, 0);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(scene);
@@ -155,10 +166,19 @@ std::uint64_t facetNumber(std::uint32_t instance_id, std::uint32_t geometry_id, 
   return placement << 32U | primitive_id;
 }
 
+// Embree takes what is nearly 0 for a small positive number, whatever its sign, and sixteen rays of unlike signs miss
+// boxes then (3.13, geometries of the user's own). It is off by less than the bounds are swollen by.
+float clearDirection(float part) { return std::abs(part) < 1e-9F ? 0.0F : part; }
+
+void clearDirections(const float* from, float* to) {
+  for (int k = 0; k < 3 * kPacket; ++k) to[k] = clearDirection(from[k]);
+}
+
 // What all packets of rays have in common; tracing leaves it as it is.
 RTCRayHit16 fromOrigins() {
   RTCRayHit16 query{};
   std::fill_n(query.ray.mask, kPacket, ~0U);
+  for (unsigned k = 0; k < kPacket; ++k) query.ray.id[k] = k;
   return query;
 }
 
@@ -168,15 +188,17 @@ void EmbreeScene::intersect(const RayPacket& rays, int count, float max_range_m,
                             float* ranges_m) const {
   alignas(64) int valid[kPacket];
   static thread_local RTCRayHit16 query = fromOrigins();
+  MeetingQuery meeting(RayQuery::Rays::coherent);
+  meeting.set(rays.origin_x, rays.direction_x, kPacket, kPacket, rays.one_origin);
   std::copy_n(rays.origin_x, 3 * kPacket, query.ray.org_x);  // x, y, z lie side by side in both
-  std::copy_n(rays.direction_x, 3 * kPacket, query.ray.dir_x);
+  clearDirections(rays.direction_x, query.ray.dir_x);
   for (int k = 0; k < kPacket; ++k) {
     valid[k] = k < count ? -1 : 0;
     query.ray.tfar[k] = max_range_m;
     query.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
   }
-  RayQuery(RayQuery::Rays::coherent).trace(valid, scene_, query);
+  meeting.query.trace(valid, scene_, query);
   for (int k = 0; k < count; ++k)
     facets[k] = facetNumber(query.hit.instID[0][k], query.hit.geomID[k], query.hit.primID[k]);
   std::copy_n(query.ray.tfar, count, ranges_m);
@@ -195,15 +217,20 @@ NearestHit EmbreeScene::nearest(const Eigen::Vector3d& origin, const Eigen::Vect
   query.ray.org_x = static_cast<float>(origin.x());
   query.ray.org_y = static_cast<float>(origin.y());
   query.ray.org_z = static_cast<float>(origin.z());
-  query.ray.dir_x = static_cast<float>(direction_unit.x());
-  query.ray.dir_y = static_cast<float>(direction_unit.y());
-  query.ray.dir_z = static_cast<float>(direction_unit.z());
+  const float direction[3] = {static_cast<float>(direction_unit.x()), static_cast<float>(direction_unit.y()),
+                              static_cast<float>(direction_unit.z())};
+  query.ray.dir_x = clearDirection(direction[0]);
+  query.ray.dir_y = clearDirection(direction[1]);
+  query.ray.dir_z = clearDirection(direction[2]);
   query.ray.tnear = static_cast<float>(min_range_m);
   query.ray.tfar = static_cast<float>(max_range_m);
   query.ray.mask = ~0U;
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  RayQuery(RayQuery::Rays::single).trace(scene_, query);
+  MeetingQuery meeting(RayQuery::Rays::single);
+  const float start[3] = {query.ray.org_x, query.ray.org_y, query.ray.org_z};
+  meeting.set(start, direction, 1, 1, true);
+  meeting.query.trace(scene_, query);
   return {facetNumber(query.hit.instID[0], query.hit.geomID, query.hit.primID), query.ray.tfar};
 }
 
@@ -250,10 +277,11 @@ std::optional<RayHit> EmbreeScene::intersect(const Eigen::Vector3d& origin, cons
 }
 
 Result<std::shared_ptr<const RayScene>> RayScene::build(std::shared_ptr<const Environment> environment,
-                                                        Progress& progress, const std::vector<RoundInstance>& balls) {
+                                                        Progress& progress, const std::vector<RoundInstance>& balls,
+                                                        const std::string& embree_settings) {
   if (!environment) return failure(ErrorKind::internal, "there is no environment", "ray scene");
   auto scene = std::make_shared<EmbreeScene>();
-  TRY(scene->commit(std::move(environment), balls, progress));
+  TRY(scene->commit(std::move(environment), balls, embree_settings, progress));
   return scene;
 }
 

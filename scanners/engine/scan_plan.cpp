@@ -8,6 +8,7 @@
 
 #include "scanners/engine/column_hits.h"
 #include "scanners/engine/footprint.h"
+#include "scanners/math/portable_math.h"
 #include "scanners/noise/pulse_noise.h"
 
 namespace standpoint {
@@ -89,8 +90,9 @@ ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignme
     scatterers.emplace(instrument, weather, drop_threshold, settings.max_range_m, key, settings.passes,
                        effects.has(Effect::near_range));
   for (std::uint32_t row = 0; row < settings.rows + kPacket; ++row) {
-    sine.push_back(std::sin(elevation_rad(row)));
-    cosine.push_back(std::cos(elevation_rad(row)));
+    double row_sine = 0, row_cosine = 0;
+    portable::sinCos(elevation_rad(row), row_sine, row_cosine);
+    sine.push_back(row_sine), cosine.push_back(row_cosine);
   }
   if (effects.has(Effect::halo)) {
     halo.emplace(*this);

@@ -72,6 +72,22 @@ inline double turnOf(double y, double x) {
   return 8 * z * sum / (2 * 3.14159265358979323846);
 }
 
+// sin and cos of an angle of a few turns, absolute error below 1e-15 within a turn.
+inline void sinCos(double radians, double& sine, double& cosine) {
+  const double quarter = std::floor(radians * 0.6366197723675814 + 0.5);  // 2 / π
+  const double x = (radians - quarter * 1.5707963267948966) - quarter * 6.123233995736766e-17;
+  const double q = x * x;
+  double s = 0, c = 0;
+  for (int n = 20; n > 0; n -= 2) {
+    c = 1 - q / (n * (n - 1)) * (n == 20 ? 1 : c);
+    s = 1 - q / (n * (n + 1)) * (n == 20 ? 1 : s);
+  }
+  s *= x;
+  const auto turned = static_cast<int>(quarter) & 3;
+  sine = turned == 0 ? s : turned == 1 ? c : turned == 2 ? -s : -c;
+  cosine = turned == 0 ? c : turned == 1 ? -s : turned == 2 ? -c : s;
+}
+
 // ln of a positive normal number, relative error below 1e-15 of max(1, |ln|).
 inline double log(double x) {
   int exponent = 0;

@@ -83,29 +83,27 @@ Document roomsWithPaneAndColumn() {
   return d;
 }
 
-// One seed gives one file: on Debian 12 and 13, on any number of threads, and after a change that is not meant to alter
-// what is measured. Who alters it writes the new sums here. Embree rounds otherwise on other processors, so there a
-// beam that strikes an edge may take the other of its faces (decision 007).
+// One seed gives one file: on Debian 12 and 13, on any processor and number of threads, and after a change that is not
+// meant to alter what is measured. Who alters it writes the new sums here.
 TEST(Scan, OfASeedHasBytesThatAreKnown) {
-  if (__builtin_cpu_supports("avx512bw") == 0) GTEST_SKIP() << "the sums are those of processors with AVX-512";
   const TemporaryFolder folder;
   const auto file = folder.path() / "scan.e57";
   const Document rooms = roomsWithPaneAndColumn();
   const std::pair<json, std::uint32_t> known[] = {
-      {{{"instrument", "faro-focus-s150"}, {"set", {"resolution=1/32", "quality=4x"}}, {"seed", 7}}, 2125393115U},
+      {{{"instrument", "faro-focus-s150"}, {"set", {"resolution=1/32", "quality=4x"}}, {"seed", 7}}, 1116080584U},
       {{{"instrument", "zf-imager-5016"},
         {"set", {"resolution=preview"}},
         {"seed", 2},
         {"weather", "visibility=2 rain=10"},
         {"truth", true}},
-       462164273U},
+       694569301U},
       {{{"instrument", "leica-blk360-g1"},
         {"set", {"resolution=low"}},
         {"seed", 3},
         {"stations", "S2"},
         {"ideal", true},
         {"as", "scaled"}},
-       2231806431U}};
+       2589361096U}};
   for (const auto& [wanted, sum] : known) {
     json options = wanted;
     options["output"] = file.string();

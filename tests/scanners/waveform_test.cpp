@@ -96,6 +96,15 @@ TEST(Receiver, OfNoLightHasNoEcho) {
   EXPECT_TRUE(echoes({.fine_wavelength_m = 1.2}, {}).empty());
 }
 
+TEST(PortableSine, IsTheSine) {
+  for (double angle = -20; angle < 20; angle += 0.0137) {
+    double sine = 0, cosine = 0;
+    portable::sinCos(angle, sine, cosine);
+    EXPECT_NEAR(sine, std::sin(angle), 4e-15) << angle;
+    EXPECT_NEAR(cosine, std::cos(angle), 4e-15) << angle;
+  }
+}
+
 TEST(PortableTurn, IsTheArcTangent) {
   for (int k = -1800; k <= 1800; ++k) {
     const double angle = k * std::numbers::pi / 1800;
