@@ -188,6 +188,13 @@ std::span<const Choice<Switch>> choices(Switch) {
   return kSwitches;
 }
 
+std::span<const Choice<ScanQuality>> choices(ScanQuality) {
+  static constexpr std::array kQualities = {Choice<ScanQuality>{"preview", ScanQuality::preview},
+                                            Choice<ScanQuality>{"default", ScanQuality::standard},
+                                            Choice<ScanQuality>{"reference", ScanQuality::reference}};
+  return kQualities;
+}
+
 const Fields<ScanVerbOptions>& scanFields() {
   using O = ScanVerbOptions;
   static const std::string effects = "effects to leave out: " + effectList();
@@ -198,6 +205,9 @@ const Fields<ScanVerbOptions>& scanFields() {
       {"seed", &O::seed, "seed of the noise", {.minimum = 0, .maximum = 9007199254740991.0}},
       {"ideal", &O::ideal, "no effects: the first surface on the axis of each pulse, exactly"},
       {"without", &O::without, effects.c_str()},
+      {"quality", &O::quality,
+       "of mixed points: preview sends one ray per pulse, default the whole beam where an edge is in it, reference 64 "
+       "rays of every pulse"},
       {"weather", &O::weather, "visibility=KM rain=MM/H snow=MM/H fog=M dust=M, separated by spaces or commas"},
       {"sun", &O::sun, "AZIMUTH,ELEVATION[,W/m2] in degrees, clockwise from the file's Y; lux too: 135,40,80000lux"},
       {"interference",
@@ -241,6 +251,7 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const ScanVerbOpti
   request.options.seed = options.seed;
   TRY_ASSIGN(const auto effects, effectsFrom(options));
   request.options.effects = effects;
+  request.options.quality = options.quality;
   request.options.weather = options.weather.value_or(request.options.weather);
   request.options.sun = options.sun;
   request.options.interference = options.interference;

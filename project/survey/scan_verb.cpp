@@ -49,6 +49,8 @@ ScanHeader headerOf(const Document& document, const ScanWorld& world, const Stat
   h.description =
       fmt::format("Simulated by Standpoint: {} {}, {}, seed {}{}", request.instrument.maker, request.instrument.model,
                   fmt::join(words, " "), request.options.seed, withoutText(request.options.effects));
+  if (request.options.quality != ScanQuality::standard)
+    h.description += request.options.quality == ScanQuality::preview ? ", preview quality" : ", reference quality";
   for (const auto& note : request.notes) h.description += "; " + note;
   h.file_from_scanner = believed;
   h.file_from_scanner.translation += g.shift_m;

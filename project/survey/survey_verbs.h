@@ -240,6 +240,8 @@ struct FieldValue<FieldFault> {
 enum class Switch { on, off };
 std::span<const Choice<Switch>> choices(Switch);
 
+std::span<const Choice<ScanQuality>> choices(ScanQuality);
+
 struct ScanVerbOptions {
   StationNames stations;
   std::string instrument;  // id
@@ -247,6 +249,7 @@ struct ScanVerbOptions {
   std::uint64_t seed = 1;
   bool ideal = false;
   std::optional<Effects> without;  // the effects that are left
+  ScanQuality quality = ScanQuality::standard;
   std::optional<Weather> weather;
   std::optional<Sun> sun;
   double interference = 0;  // 0..1

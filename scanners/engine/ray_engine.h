@@ -58,6 +58,10 @@ struct ScanChannels {
   bool truth = false;
 };
 
+// What a beam's width costs: preview looks at its axis alone; standard at the whole footprint where an edge of the
+// scene is in it; reference at 64 rays of every pulse, wherever it goes.
+enum class ScanQuality { preview, standard, reference };
+
 struct ScanOptions {
   std::uint64_t seed = 1;
   Effects effects;
@@ -68,6 +72,7 @@ struct ScanOptions {
   std::optional<Sun> sun;   // none: night, or a room without windows
   double interference = 0;  // chance that a pulse finds another instrument's light and takes it for its own
   std::uint32_t first_column = 0, end_column = ~0U;  // of the grid: a part of a scan has the points that the whole has
+  ScanQuality quality = ScanQuality::standard;
 };
 
 struct ScanCount {

@@ -92,9 +92,10 @@ struct ScanPlan {
   }
   double rowStep_rad() const { return (settings.elevation_to_rad - settings.elevation_from_rad) / settings.rows; }
   double columnStep_rad() const { return (settings.azimuth_to_rad - settings.azimuth_from_rad) / settings.columns; }
-  // Whether beams have a width, and whether that of each is looked at: of a scanner that moves.
-  bool wideBeams() const { return options.effects.has(Effect::footprint); }
-  bool everyBeamWide() const { return wideBeams() && moves(); }
+  // Whether beams have a width, and whether that of each is looked at: for reference, and of a scanner that moves.
+  bool wideBeams() const { return options.effects.has(Effect::footprint) && options.quality != ScanQuality::preview; }
+  bool forReference() const { return options.quality == ScanQuality::reference; }
+  bool everyBeamWide() const { return wideBeams() && (forReference() || moves()); }
   // Of the part of the grid that is asked for.
   std::uint32_t endColumn() const { return std::min(options.end_column, settings.columns); }
   std::uint32_t nothingLabel() const { return static_cast<std::uint32_t>(scene.environment().products.size()); }

@@ -50,6 +50,8 @@ bool WideBeams::severalSurfaces(const WideBeam& beam) {
   const NearestHit* end = beam.hits + raysEach();
   if (beam.axis.facet == kNoFacet)
     return std::any_of(beam.hits, end, [](const NearestHit& hit) { return hit.facet != kNoFacet; });
+  if (plan_.forReference())
+    return std::any_of(beam.hits, end, [&](const NearestHit& hit) { return hit.facet != beam.axis.facet; });
   const MetFacet& met = facets_.of(beam.axis.facet);
   const double tolerance = edgeTolerance(plan_.instrument, static_cast<double>(beam.axis.range_m));
   for (int k = 0; k < raysEach(); ++k)

@@ -23,11 +23,11 @@ class WideBeams {
   WideBeams(const ScanPlan& plan, FacetCache& facets) : plan_(plan), facets_(facets) {}
   void clear() { count_ = 0; }
   void add(std::uint32_t column, std::uint32_t row, const NearestHit& axis, const Beam& beam);
-  // Traces them all and keeps those that meet something else than their axis does.
+  // Traces them all and keeps those that meet something else than their axis does: for reference another facet is, too.
   void trace();
   std::size_t size() const { return count_; }
   const WideBeam& operator[](std::size_t i) const { return beams_[i]; }
-  int raysEach() const { return kSubRays; }
+  int raysEach() const { return plan_.forReference() ? kReferenceSubRays : kSubRays; }
 
  private:
   void traceRays(WideBeam& beam);

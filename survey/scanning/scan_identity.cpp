@@ -92,6 +92,7 @@ std::string guidOf(std::uint64_t world_fingerprint, const Station& station, cons
   a = mix(a, fmt::format("{} {} {} {} {}", w.visibility_km, w.rain_mm_h, w.snow_mm_h, w.fog_mor_m, w.dust_mor_m));
   if (o.sun) a = mix(a, fmt::format("sun {} {} {}", o.sun->azimuth_rad, o.sun->elevation_rad, o.sun->irradiance_W_m2));
   if (o.interference > 0) a = mix(a, fmt::format("interference {}", o.interference));
+  if (o.quality != ScanQuality::standard) a = mix(a, o.quality == ScanQuality::preview ? "preview" : "reference");
   if (request.panorama) a = mix(a, "panorama");
   if (!request.as.empty()) a = mix(a, request.as);  // a run that goes on takes no station that was written otherwise
   if (request.panorama_columns > 0) a = mix(a, std::uint64_t{request.panorama_columns});

@@ -120,6 +120,7 @@ TEST(Options, AreWrittenAsTheyAreRead) {
                               {"set", {"resolution=12mm", "double_scan=on"}},
                               {"seed", 7},
                               {"without", "striping,footprint"},
+                              {"quality", "reference"},
                               {"weather", "visibility=5 rain=2.5"},
                               {"sun", "135,40,600"},
                               {"field-fault", {"until=0.5", "noise=2"}},
@@ -141,6 +142,7 @@ TEST(Options, AreWrittenAsTheyAreRead) {
   ASSERT_TRUE(again);
   EXPECT_EQ(again->sun->irradiance_W_m2, 600);
   EXPECT_EQ(again->without, options->without);
+  EXPECT_EQ(again->quality, ScanQuality::reference);
   for (const char* rewritten : {"sun", "without"}) written[rewritten] = job[rewritten];
   EXPECT_EQ(written, job);
 }

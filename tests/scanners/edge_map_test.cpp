@@ -119,6 +119,41 @@ TEST(Edges, AreWhereverABeamMeetsSeveralSurfaces) {
   }
 }
 
+// A bar of 12 mm before the sky in a beam of 8: what comes back of its power in the mean, ½ (erf(√2 (x + a)/w) - …),
+// and how far single pulses stray from it. Of a preview all or nothing does.
+TEST(Quality, IsHowWellAPulseKnowsItsBeam) {
+  const Instrument instrument = testing::instrument("leica-rtc360");
+  const double half = 0.006, radius = beamRadius(instrument, 10);
+  SceneBuilder scene;
+  scene.quad({10, -half, -2}, {0, 2 * half, 0}, {0, 0, 4});
+  const double aside = half + 0.5 * radius;  // of the axis, from the bar's middle
+  constexpr std::uint32_t kRows = 4000;
+  const double azimuth_deg = std::atan(aside / 10) / kRadPerDeg;
+  const double expected = 0.5 * (std::erf(std::numbers::sqrt2 * (aside + half) / radius) -
+                                 std::erf(std::numbers::sqrt2 * (aside - half) / radius));
+  for (const auto& [quality, stray] :
+       {std::pair{ScanQuality::standard, 0.057}, std::pair{ScanQuality::reference, 0.02}}) {
+    ScanOptions options{1, kBeamsAlone};
+    options.channels.truth = true;
+    options.quality = quality;
+    const auto result = scanned(*scene.build(), allOf(*scene.environment(), 0.5), instrument,
+                                window(instrument, azimuth_deg, azimuth_deg + 1e-7, -1, 1, 1, kRows), options);
+    double sum = 0, square = 0;
+    for (const float db : result.points.truth.received_db) {
+      const double share = std::pow(10.0, static_cast<double>(db) / 10) * 100 / 0.5;
+      sum += share, square += share * share;
+    }
+    EXPECT_NEAR(sum / kRows, expected, 0.006);
+    EXPECT_LT(std::sqrt(square / kRows - sum * sum / kRows / kRows), stray);
+  }
+  ScanOptions preview{1, kBeamsAlone};
+  preview.quality = ScanQuality::preview;
+  EXPECT_EQ(scanned(*scene.build(), allOf(*scene.environment(), 0.5), instrument,
+                    window(instrument, azimuth_deg, azimuth_deg + 1e-7, -1, 1, 1, kRows), preview)
+                .points.size(),
+            0U);
+}
+
 TEST(Edges, BehindAWallChangeNothing) {
   const Instrument instrument = testing::instrument("leica-rtc360");
   const auto points = [&](bool furnished) {

@@ -118,7 +118,7 @@ TEST(Scan, IsTheSameUnderEveryInstructionSet) {
       const auto known = scanned(*scene.build(), assignment, instrument, settings, {3, effects});
       for (const char* isa : {"isa=sse2", "isa=sse4.2", "isa=avx", "isa=avx2", "isa=avx512"}) {
         Progress progress;
-        const auto rays = RayScene::build(scene.environment(), progress, isa);
+        const auto rays = RayScene::build(scene.environment(), progress, {}, isa);
         if (!rays) continue;  // this processor does not have it
         ++compared;
         EXPECT_TRUE(same(known.points, scanned(**rays, assignment, instrument, settings, {3, effects}).points))
