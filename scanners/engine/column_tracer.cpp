@@ -129,7 +129,7 @@ ColumnTracer::Surfaces ColumnTracer::setSurfaces(std::uint32_t first_row) {
     } else {
       held_ball_ = true;
       for (int k = from; k < to; ++k) {
-        const RayLine line = current_->axis(first_row + static_cast<std::uint32_t>(k));
+        const RayLine line = column_.axis(first_row + static_cast<std::uint32_t>(k));
         planes_.set(k, k + 1, met.facet.metBy(line.origin, line.direction));
       }
     }

@@ -42,8 +42,7 @@ class RayScene {
  public:
   // `embree_settings` are those of rtcNewDevice ("isa=sse2"): they alter how long rays take, and no byte of a scan.
   static Result<std::shared_ptr<const RayScene>> build(std::shared_ptr<const Environment> environment,
-                                                       Progress& progress,
-                                                       const std::vector<RoundInstance>& balls = {},
+                                                       Progress& progress, const std::vector<RoundInstance>& balls = {},
                                                        const std::string& embree_settings = {});
   virtual ~RayScene() = default;
   virtual std::optional<RayHit> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
