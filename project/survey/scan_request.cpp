@@ -206,8 +206,7 @@ const Fields<ScanVerbOptions>& scanFields() {
       {"ideal", &O::ideal, "no effects: the first surface on the axis of each pulse, exactly"},
       {"without", &O::without, effects.c_str()},
       {"quality", &O::quality,
-       "of mixed points: preview sends one ray per pulse, default the whole beam where an edge is in it, reference 64 "
-       "rays of every pulse"},
+       "preview: one ray per pulse; default: the whole beam at edges; reference: 64 rays for every pulse"},
       {"weather", &O::weather, "visibility=KM rain=MM/H snow=MM/H fog=M dust=M, separated by spaces or commas"},
       {"sun", &O::sun, "AZIMUTH,ELEVATION[,W/m2] in degrees, clockwise from the file's Y; lux too: 135,40,80000lux"},
       {"interference",
