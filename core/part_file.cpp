@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/part_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -100,10 +101,13 @@ PartFile::PartFile(PartFile&& other) noexcept
       target_(std::move(other.target_)),
       part_(std::move(other.part_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
-      size_(other.size_) {}
+      size_(other.size_),
+      may_be_direct_(other.may_be_direct_),
+      direct_(std::move(other.direct_)) {}
 
 PartFile::~PartFile() {
   if (descriptor_ < 0) return;
+  direct_.reset();
   ::unlink(part_.c_str());
   ::close(descriptor_);
 }
@@ -139,8 +143,33 @@ Result<void> PartFile::write(std::uint64_t at, std::span<const std::uint8_t> byt
 }
 
 Result<void> PartFile::append(std::span<const std::uint8_t> bytes) {
-  TRY(write(size_, bytes));
+  if (direct_ == nullptr && may_be_direct_ && size_ + bytes.size() > kDirectFrom + DirectStream::kBlock) {
+    // The plain way to the next whole block.
+    const auto before =
+        std::max(kDirectFrom, (size_ + DirectStream::kBlock - 1) / DirectStream::kBlock * DirectStream::kBlock) - size_;
+    if (before <= bytes.size()) {
+      TRY(write(size_, bytes.first(before)));
+      size_ += before;
+      bytes = bytes.subspan(before);
+      direct_ = DirectStream::open(descriptor_, size_);
+      may_be_direct_ = direct_ != nullptr;
+    }
+  }
+  if (direct_ == nullptr) {
+    TRY(write(size_, bytes));
+  } else if (const int number = direct_->append(bytes); number != 0) {
+    return systemFailure("cannot write", number, file_);
+  }
   size_ += bytes.size();
+  return {};
+}
+
+// All that was appended is in the file.
+Result<void> PartFile::settle() {
+  if (direct_ == nullptr) return {};
+  if (const int number = direct_->settle(); number != 0) return systemFailure("cannot write", number, file_);
+  TRY(write(direct_->written(), direct_->rest()));
+  direct_.reset();
   return {};
 }
 
@@ -148,9 +177,13 @@ Result<void> PartFile::append(std::string_view text) {
   return append(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
 }
 
-Result<void> PartFile::overwrite(std::uint64_t at, std::span<const std::uint8_t> bytes) { return write(at, bytes); }
+Result<void> PartFile::overwrite(std::uint64_t at, std::span<const std::uint8_t> bytes) {
+  TRY(settle());
+  return write(at, bytes);
+}
 
-Result<void> PartFile::read(std::uint64_t at, std::span<std::uint8_t> bytes) const {
+Result<void> PartFile::read(std::uint64_t at, std::span<std::uint8_t> bytes) {
+  TRY(settle());
   while (!bytes.empty()) {
     const ssize_t n = ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(at));
     if (n < 0 && errno == EINTR) continue;
@@ -164,6 +197,7 @@ Result<void> PartFile::read(std::uint64_t at, std::span<std::uint8_t> bytes) con
 Result<void> PartFile::commit() { return commitAs(target_.filename().string()); }
 
 Result<void> PartFile::commitAs(const std::string& name) {
+  TRY(settle());
   // What a delayed allocation or a quota refuses is known here at the latest, before the old file goes.
   if (::fsync(descriptor_) != 0) return systemFailure("cannot write", errno, file_);
   TRY(rename(part_, target_.parent_path() / name, file_));

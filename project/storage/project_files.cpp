@@ -50,7 +50,7 @@ Result<json> readJson(const fs::path& file) {
   return jsonFrom(text, file);
 }
 
-Result<std::uint64_t> hashOf(const PartFile& file) {
+Result<std::uint64_t> hashOf(PartFile& file) {
   std::string text(file.size(), '\0');
   TRY(file.read(0, std::span(reinterpret_cast<std::uint8_t*>(text.data()), text.size())));
   return contentHash(text);

@@ -2,6 +2,7 @@
 #include "core/part_file.h"
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <fstream>
 #include <iterator>
@@ -113,6 +114,57 @@ TEST_F(PartFiles, RefuseWhatIsNoRegularFile) {
     EXPECT_EQ(part.error().source, place.string());
   }
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+// In pieces of all sizes, with places written over and read back on the way.
+TEST_F(PartFiles, OfManyMegabytesAreWholeToo) {
+  std::vector<std::uint8_t> whole(PartFile::kDirectFrom + 21'000'001);
+  std::uint32_t state = 1;
+  for (auto& byte : whole) byte = static_cast<std::uint8_t>((state = state * 1664525U + 1013904223U) >> 24U);
+  auto part = PartFile::create(file);
+  ASSERT_TRUE(part);
+  std::size_t at = 0;
+  for (std::size_t piece = 1; at < whole.size(); piece = piece * 3 % 7'000'003) {
+    const std::size_t n = std::min(piece, whole.size() - at);
+    ASSERT_TRUE(part->append({whole.data() + at, n}));
+    at += n;
+    if (at <= PartFile::kDirectFrom + 100 || piece % 5 != 0) continue;
+    const std::size_t back = at - 50 - piece % 3000;
+    std::array<std::uint8_t, 40> read{};
+    ASSERT_TRUE(part->read(back, read));
+    ASSERT_TRUE(std::equal(read.begin(), read.end(), whole.begin() + static_cast<std::ptrdiff_t>(back)));
+    std::fill_n(whole.begin() + static_cast<std::ptrdiff_t>(back), 40, std::uint8_t{7});
+    ASSERT_TRUE(part->overwrite(back, {whole.data() + back, 40}));
+  }
+  EXPECT_EQ(part->size(), whole.size());
+  ASSERT_TRUE(part->commit());
+  const std::string text = textOf(file);
+  EXPECT_TRUE(std::equal(text.begin(), text.end(), whole.begin(), whole.end(),
+                         [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; }));
+}
+
+TEST_F(PartFiles, OfManyMegabytesSayThatTheDiskIsFull) {
+  put(file, "old");
+  if (const auto child = fork(); child == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit most{PartFile::kDirectFrom + 10'000'001, PartFile::kDirectFrom + 10'000'001};
+    ::setrlimit(RLIMIT_FSIZE, &most);
+    auto part = PartFile::create(file);
+    const std::vector<std::uint8_t> megabyte(1U << 20U);
+    for (int i = 0; part && i < 100; ++i)
+      if (const auto written = part->append(megabyte); !written)
+        _exit(written.error().kind == ErrorKind::file_system &&
+                      written.error().message.find("free some space") != std::string::npos
+                  ? 0
+                  : 2);
+    _exit(1);
+  } else {
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 0);
+  }
+  EXPECT_EQ(textOf(file), "old");
 }
 
 TEST_F(PartFiles, TakeALongNameAndOneInTheCurrentFolder) {
