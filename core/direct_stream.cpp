@@ -14,7 +14,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr std::size_t kBufferBytes = std::size_t{4} << 20U;
+constexpr std::size_t kBufferBytes = std::size_t{2} << 20U;
 
 }  // namespace
 
@@ -34,7 +34,7 @@ DirectStream::DirectStream(int descriptor, int direct, std::uint64_t at)
     buffer.reset(static_cast<std::uint8_t*>(std::aligned_alloc(kBlock, kBufferBytes)));
     if (buffer == nullptr) throw std::bad_alloc();
   }
-  thread_ = std::thread([this] { run(); });
+  thread_ = std::thread([this, at] { run(at); });
 }
 
 DirectStream::~DirectStream() {
@@ -59,16 +59,17 @@ int DirectStream::append(std::span<const std::uint8_t> bytes) {
   return error_;
 }
 
-// Waits until the thread is idle and gives it the first `bytes` of what is filled; the rest begins the other buffer.
+// Gives the thread the first `bytes` of what is filled, once there is another buffer, which the rest begins.
 void DirectStream::hand(std::size_t bytes) {
+  const std::size_t next = (filling_ + 1) % kBuffers;
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return handed_ == nullptr; });
-  const std::uint8_t* const full = buffers_[filling_].get();
-  filling_ = 1 - filling_;
+  changed_.wait(lock, [this] { return handed_ + 1 < kBuffers; });
   filled_ -= bytes;
-  std::memcpy(buffers_[filling_].get(), full + bytes, filled_);
-  handed_ = full, handed_bytes_ = bytes, handed_at_ = at_;
+  std::memcpy(buffers_[next].get(), buffers_[filling_].get() + bytes, filled_);
+  sizes_[filling_] = bytes;
   at_ += bytes;
+  filling_ = next;
+  ++handed_;
   lock.unlock();
   changed_.notify_all();
 }
@@ -76,23 +77,24 @@ void DirectStream::hand(std::size_t bytes) {
 int DirectStream::settle() {
   if (const std::size_t whole = filled_ / kBlock * kBlock; whole > 0) hand(whole);
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return handed_ == nullptr; });
+  changed_.wait(lock, [this] { return handed_ == 0; });
   return error_;
 }
 
 std::span<const std::uint8_t> DirectStream::rest() const { return {buffers_[filling_].get(), filled_}; }
 
-void DirectStream::run() {
+void DirectStream::run(std::uint64_t at) {
   std::unique_lock lock(mutex_);
-  while (true) {
-    changed_.wait(lock, [this] { return handed_ != nullptr || ends_; });
+  for (std::size_t next = 0;; next = (next + 1) % kBuffers) {
+    changed_.wait(lock, [this] { return handed_ > 0 || ends_; });
     if (ends_) return;
     const bool failed = error_ != 0;
     lock.unlock();
-    const int number = failed ? 0 : write(handed_, handed_bytes_, handed_at_);
+    const int number = failed ? 0 : write(buffers_[next].get(), sizes_[next], at);
+    at += sizes_[next];
     lock.lock();
     if (number != 0) error_ = number;
-    handed_ = nullptr;
+    --handed_;
     changed_.notify_all();
   }
 }

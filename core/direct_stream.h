@@ -42,18 +42,20 @@ class DirectStream {
 
   DirectStream(int descriptor, int direct, std::uint64_t at);
   void hand(std::size_t bytes);
-  void run();
+  void run(std::uint64_t at);
   int write(const std::uint8_t* bytes, std::size_t size, std::uint64_t at) const;
 
+  // Used in turn: what a scan's block holds goes in at once, and the disk takes it while the next one is traced.
+  static constexpr std::size_t kBuffers = 8;
+
   int descriptor_, direct_;
-  std::array<Buffer, 2> buffers_;
-  std::size_t filling_ = 0, filled_ = 0;  // which buffer, and how far
-  std::uint64_t at_;                      // where it begins in the file
+  std::array<Buffer, kBuffers> buffers_;
+  std::array<std::size_t, kBuffers> sizes_{};  // of those that are handed to the thread
+  std::size_t filling_ = 0, filled_ = 0;       // which buffer, and how far
+  std::uint64_t at_;                           // where it begins in the file
   std::mutex mutex_;
   std::condition_variable changed_;
-  const std::uint8_t* handed_ = nullptr;  // to the thread; null: it is idle
-  std::size_t handed_bytes_ = 0;
-  std::uint64_t handed_at_ = 0;
+  std::size_t handed_ = 0;  // to the thread: the buffers before `filling_`
   int error_ = 0;
   bool ends_ = false;
   std::thread thread_;  // last: it uses all the others
