@@ -42,7 +42,13 @@ STANDPOINT_CLONES void roundDirections(const AxisLanes& lanes, RayPacket& rays) 
 ColumnHits::ColumnHits(const ScanPlan& plan)
     : plan_(plan),
       facets_(plan.settings.rows + kPacket, kNoFacet),
-      ranges_(plan.settings.rows + kPacket, static_cast<float>(plan.farthest_m)) {}
+      ranges_(plan.settings.rows + kPacket, static_cast<float>(plan.farthest_m)) {
+  if (plan.moves()) return;
+  // As the packets have it.
+  seen_ = std::make_unique<SeenFaces>(at(plan.trajectory, 0).translation.cast<float>().cast<double>());
+  rays_.one_origin = true;
+  rays_.seen = seen_.get();
+}
 
 // Clockwise seen from above.
 void ColumnHits::begin(std::uint32_t column) {
@@ -59,7 +65,6 @@ void ColumnHits::begin(std::uint32_t column) {
   std::fill_n(lanes_.origin_y, kPacket, still_.origin.y());
   std::fill_n(lanes_.origin_z, kPacket, still_.origin.z());
   roundOrigins(lanes_, rays_);
-  rays_.one_origin = true;
 }
 
 void ColumnHits::trace(std::uint32_t column) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "scanners/engine/footprint.h"
@@ -28,6 +29,8 @@ class ColumnHits {
   // The same of the rows from one on; good until others are asked for.
   const AxisLanes& axes(std::uint32_t first_row);
   Beam beam(std::uint32_t row) const;
+  // For other rays from about where the axes begin; null of a scanner that moves.
+  SeenFaces* seen() const { return seen_.get(); }
   // Horizontal unit vectors of the scanner's frame.
   const Eigen::Vector3d& ahead() const { return ahead_; }
   const Eigen::Vector3d& lateral() const { return lateral_; }
@@ -45,6 +48,7 @@ class ColumnHits {
   Eigen::Vector3d ahead_, lateral_;  // up is the scanner's z
   Axes still_;                       // of a scanner that does not move
   AxisLanes lanes_;                  // of the rows looked at last
+  std::unique_ptr<SeenFaces> seen_;
   RayPacket rays_{};
   std::vector<std::uint64_t> facets_;
   std::vector<float> ranges_;

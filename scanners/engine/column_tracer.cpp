@@ -43,7 +43,7 @@ ColumnTracer::ColumnTracer(const ScanPlan& plan, const EdgeMap* edges)
       paths_(plan, facets_),
       edges_(edges),
       column_(plan),
-      wide_(plan, facets_),
+      wide_(plan, facets_, column_.seen()),
       points_(plan),
       writer_(plan) {
   std::fill_n(held_, kPacket, kOverwritten);
@@ -63,10 +63,7 @@ void ColumnTracer::trace(std::uint32_t from, std::uint32_t to, PointBlock& block
 void ColumnTracer::traceColumn() {
   points_.begin(column_.column(), column_.ahead(), column_.lateral());
   writer_.beginColumn(column_.column());
-  if (edges_ != nullptr)
-    edges_->mark(column_, facets_, wide_rows_);
-  else
-    wide_rows_.assign(plan_.settings.rows / kPacket + 1, plan_.everyBeamWide() ? 0xFFFFU : 0);
+  if (edges_ != nullptr) edges_->mark(column_, facets_, found_);
   for (std::uint32_t first = 0; first < plan_.settings.rows; first += kPacket) traceRows(first);
 }
 
@@ -94,6 +91,8 @@ void ColumnTracer::traceRows(std::uint32_t first_row) {
     specials_.push_back(pulse);
     const bool edge = (edges & left & -left) != 0;
     const std::uint32_t row = first_row + static_cast<std::uint32_t>(pulse.lane);
+    if (edge)
+      while (!wide_[next_wide].several) ++next_wide;
     gatherEnds(row, edge ? &wide_[next_wide++] : nullptr);
     if ((stray & left & -left) != 0) gatherStray(row, pulse.from);
   }
@@ -141,20 +140,22 @@ ColumnTracer::Surfaces ColumnTracer::setSurfaces(std::uint32_t first_row) {
   return held_surfaces_ = surfaces;
 }
 
-// Of the sixteen rows from `first_row` on those whose beams meet several surfaces. They are in `wide_`, in order.
+// Of the sixteen rows from `first_row` on those whose beams meet several surfaces. They are among `wide_`, in order.
 std::uint32_t ColumnTracer::traceEdges(std::uint32_t first_row) {
-  std::uint32_t marked = wide_rows_[first_row / kPacket];
+  const std::uint32_t rows = std::min<std::uint32_t>(kPacket, plan_.settings.rows - first_row);
+  const std::uint32_t all = plan_.everyBeamWide() ? (1U << rows) - 1 : 0;
+  const std::uint32_t marked = edges_ != nullptr ? found_.rows(first_row) : all;
   if (marked == 0) return 0;
-  const std::uint32_t rows = plan_.settings.rows - first_row;
-  if (rows < kPacket) marked &= (1U << rows) - 1;
   wide_.clear();
   for (std::uint32_t left = marked; left != 0; left &= left - 1) {
     const std::uint32_t row = first_row + static_cast<std::uint32_t>(std::countr_zero(left));
-    wide_.add(column_.column(), row, column_.hit(row), column_.beam(row));
+    wide_.add(column_.column(), row, column_.hit(row), column_.beam(row),
+              edges_ != nullptr ? &found_.of(row) : nullptr);
   }
   wide_.trace();
   std::uint32_t edges = 0;
-  for (std::size_t i = 0; i < wide_.size(); ++i) edges |= 1U << (wide_[i].row - first_row);
+  for (std::size_t i = 0; i < wide_.size(); ++i)
+    if (wide_[i].several) edges |= 1U << (wide_[i].row - first_row);
   return edges;
 }
 
@@ -175,7 +176,7 @@ void ColumnTracer::gatherWide(const WideBeam& wide) {
   };
   OnFacet met[kReferenceSubRays];
   int count = 0;
-  for (int k = 0; k < wide_.raysEach(); ++k) {
+  for (int k = 0; k < wide.ray_count; ++k) {
     const NearestHit& hit = wide.hits[k];
     if (hit.facet == kNoFacet) continue;
     const SubRay& ray = wide.rays[k];

@@ -68,8 +68,8 @@ class ColumnTracer {
   BeamPaths paths_;
   const EdgeMap* edges_;
   ColumnHits column_;
-  std::vector<std::uint32_t> wide_rows_;  // bits of sixteen rows each
-  WideBeams wide_;                        // of sixteen rows
+  ColumnEdges found_;
+  WideBeams wide_;  // of sixteen rows
   PlaneLanes planes_;
   ReturnLanes returns_;          // a row each
   std::uint64_t held_[kPacket];  // facets whose surfaces and planes the lanes have

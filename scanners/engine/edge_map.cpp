@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -37,8 +38,8 @@ class Cutter {
         turn_columns_(kTurn / plan.columnStep_rad()) {}
 
   // In the scanner's frame.
-  void add(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double reach) {
-    reach_ = reach;
+  void add(std::uint64_t edge, const Eigen::Vector3d& from, const Eigen::Vector3d& to, double reach) {
+    edge_ = edge, reach_ = reach;
     cut(placeOf(from), placeOf(to), 0);
   }
 
@@ -96,6 +97,7 @@ class Cutter {
     piece.row[0] = static_cast<float>(from.row), piece.row[1] = static_cast<float>(to.row);
     piece.nearness[0] = static_cast<float>(1 / from.range_m), piece.nearness[1] = static_cast<float>(1 / to.range_m);
     piece.radius_rows = static_cast<float>(rows);
+    piece.edge = edge_;
     piece.rows_per_column = static_cast<float>(narrowing * column_step_ / row_step_);
     const double columns = piece.rows_per_column > 0 ? rows / (narrowing * column_step_ / row_step_) : turn_columns_;
     if (columns > turn_columns_ / 4) {
@@ -124,6 +126,7 @@ class Cutter {
   std::vector<EdgeMap::Piece>& pieces_;
   double row_step_, column_step_, turn_columns_;
   double reach_ = kBeamEdge;
+  std::uint64_t edge_ = 0;
 };
 
 // How much the range changes along the plane of edge and `beside` for each metre across the edge: the plane's slope to
@@ -175,12 +178,14 @@ EdgeMap::EdgeMap(const ScanPlan& plan) : plan_(plan) {
         return scanner_from_mesh * mesh.positions[k].cast<double>();
       };
       const auto& edges = plan.scene.edges(instance.mesh);
+      const bool round = plan.scene.isBall(parts[p].placement);
       for (std::uint32_t i = parts[p].from; i < parts[p].to; ++i) {
         const MeshEdge& edge = edges[i];
         const Eigen::Vector3d from = corner(edge.from), to = corner(edge.to);
         const double reach =
             edge.right == kNoCorner ? kBeamEdge : reachOf(plan, from, to, corner(edge.left), corner(edge.right));
-        if (reach > 0) cutter.add(from, to, reach);
+        const std::uint64_t number = std::uint64_t{parts[p].placement} << 32U | i;
+        if (reach > 0) cutter.add(round ? BeamEdges::kRound : number, from, to, reach);
       }
     }
   });
@@ -231,19 +236,54 @@ void EdgeMap::sort(std::vector<std::vector<Piece>> found) {
   }
 }
 
-void EdgeMap::mark(const ColumnHits& hits, FacetCache& facets, std::vector<std::uint32_t>& rows) const {
-  rows.assign((plan_.settings.rows + kPacket - 1) / kPacket, 0);
+void ColumnEdges::begin(std::uint32_t rows) {
+  rows_.assign((rows + kPacket - 1) / kPacket, 0);
+  touched_ = rows_;
+  edges_.resize(rows);
+}
+
+BeamEdges& ColumnEdges::at(std::uint32_t row) {
+  const std::uint32_t bit = 1U << row % kPacket;
+  BeamEdges& edges = edges_[row];
+  if ((touched_[row / kPacket] & bit) == 0) {
+    touched_[row / kPacket] |= bit;
+    edges.count = 0, edges.several = false, edges.hidden_m = std::numeric_limits<float>::infinity();
+  }
+  return edges;
+}
+
+void ColumnEdges::add(std::uint32_t row, std::uint64_t edge) {
+  rows_[row / kPacket] |= 1U << row % kPacket;
+  BeamEdges& in = at(row);
+  std::uint64_t* const end = in.edge + in.count;
+  std::uint64_t* const place = std::lower_bound(in.edge, end, edge);
+  if (place != end && *place == edge) return;
+  if (in.count == BeamEdges::kMost || edge == BeamEdges::kRound) {
+    in.several = true;
+    return;
+  }
+  std::move_backward(place, end, end + 1);
+  *place = edge;
+  ++in.count;
+}
+
+void ColumnEdges::addHidden(std::uint32_t row, float range_m) {
+  BeamEdges& in = at(row);
+  in.hidden_m = std::min(in.hidden_m, range_m);
+}
+
+void EdgeMap::mark(const ColumnHits& hits, FacetCache& facets, ColumnEdges& found) const {
+  found.begin(plan_.settings.rows);
   const std::uint32_t column = hits.column();
   for (std::uint32_t level = 0; level < first_.size(); ++level) {
     const std::uint32_t cell = column >> level;
     const auto& cells = first_[level];
     for (std::size_t i = cells[cell > 0 ? cell - 1 : 0]; i < cells[cell + 1]; ++i)
-      markPiece(pieces_[i], hits, facets, rows);
+      markPiece(pieces_[i], hits, facets, found);
   }
 }
 
-void EdgeMap::markPiece(const Piece& piece, const ColumnHits& hits, FacetCache& facets,
-                        std::vector<std::uint32_t>& rows) const {
+void EdgeMap::markPiece(const Piece& piece, const ColumnHits& hits, FacetCache& facets, ColumnEdges& found) const {
   const auto column = static_cast<float>(hits.column());
   const float radius = piece.radius_rows, scale = piece.rows_per_column;
   const float x0 = (piece.column[0] - column) * scale, x1 = (piece.column[1] - column) * scale;
@@ -264,12 +304,12 @@ void EdgeMap::markPiece(const Piece& piece, const ColumnHits& hits, FacetCache& 
     const float along = std::clamp((y * up - x0 * across) * inverse, 0.0F, 1.0F);
     const float dx = x0 + along * across, dy = y - along * up;
     if (dx * dx + dy * dy > radius * radius) continue;
-    const std::uint32_t bit = 1U << row % kPacket;
-    if ((rows[row / kPacket] & bit) != 0) continue;
     const float range = 1 / (piece.nearness[0] + along * nearer);
     if (range <= hits.ranges_m(row)[0] + kBehind_m ||
         visible(range, scale > 0 ? dx / scale : 0, -dy, row, hits, facets))
-      rows[row / kPacket] |= bit;
+      found.add(row, piece.edge);
+    else
+      found.addHidden(row, range);
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <deque>
@@ -54,7 +55,8 @@ constexpr int kPacket = 16;
 struct alignas(64) RayPacket {
   float origin_x[kPacket], origin_y[kPacket], origin_z[kPacket];
   float direction_x[kPacket], direction_y[kPacket], direction_z[kPacket];
-  bool one_origin = false;  // of all lanes, the others included
+  bool one_origin = false;    // of all lanes, the others included: that of `seen`, if any
+  SeenFaces* seen = nullptr;  // from a place near all origins
 
   void set(int lane, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
     origin_x[lane] = static_cast<float>(origin.x());
@@ -87,6 +89,9 @@ class EmbreeScene final : public RayScene {
                      double max_range_m) const;
   Facet facet(std::uint64_t number) const;
   std::size_t placementCount() const { return placements_.size(); }
+  bool isBall(std::uint32_t placement) const { return balls_.contains(placement); }
+  // Of placement << 32 | index in `edges`: its ends, in the local frame.
+  std::array<Eigen::Vector3d, 2> edgeEnds(std::uint64_t edge) const;
   // Of a mesh that is placed.
   const std::vector<MeshEdge>& edges(std::uint32_t mesh) const { return edges_[mesh]; }
   const Instance& placed(std::size_t placement) const { return environment_->instances[placements_[placement]]; }

@@ -17,7 +17,6 @@ namespace {
 constexpr double kFarthestMet_m = 1e5;
 
 struct Face {
-  Eigen::Vector3d a, b, c;
   std::uint32_t instance, geometry, triangle;  // of Embree
   std::uint32_t placement;                     // the instance, or else the geometry
 };
@@ -32,29 +31,7 @@ struct Kept {
   unsigned* instance;
 };
 
-// A triangle as rays from about one place see it: what they span with each edge (Plücker) is the product of a direction
-// and of a moment with these figures. Both triangles of an edge have the same ones with opposite signs, to the last
-// bit.
-struct Seen {
-  double moment[3][3], along[3][3];  // of the edges b–c, c–a, a–b
-  double normal[3], volume;
-
-  Seen(const Face& face, const MeetingQuery& q) {
-    const Eigen::Vector3d origin(q.origin_x, q.origin_y, q.origin_z);
-    const Eigen::Vector3d a = face.a - origin, b = face.b - origin, c = face.c - origin;
-    set(0, b, c), set(1, c, a), set(2, a, b);
-    for (int axis = 0; axis < 3; ++axis) normal[axis] = moment[0][axis] + moment[1][axis] + moment[2][axis];
-    volume = a.x() * moment[0][0] + a.y() * moment[0][1] + a.z() * moment[0][2];
-  }
-  void set(int edge, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-    moment[edge][0] = from.y() * to.z() - from.z() * to.y();
-    moment[edge][1] = from.z() * to.x() - from.x() * to.z();
-    moment[edge][2] = from.x() * to.y() - from.y() * to.x();
-    for (int axis = 0; axis < 3; ++axis) along[edge][axis] = from[axis] - to[axis];
-  }
-};
-
-STANDPOINT_INLINE double spanned(const Seen& seen, int edge, const MeetingQuery& q, int k, bool off) {
+STANDPOINT_INLINE double spanned(const SeenFace& seen, int edge, const MeetingQuery& q, int k, bool off) {
   const double turned = q.direction_x[k] * seen.moment[edge][0] + q.direction_y[k] * seen.moment[edge][1] +
                         q.direction_z[k] * seen.moment[edge][2];
   if (!off) return turned;
@@ -63,14 +40,14 @@ STANDPOINT_INLINE double spanned(const Seen& seen, int edge, const MeetingQuery&
 }
 
 // Whether a ray meets the triangle, and the divisor of its range.
-STANDPOINT_INLINE bool meets(const Seen& seen, const MeetingQuery& q, int k, bool off, double& divisor) {
+STANDPOINT_INLINE bool meets(const SeenFace& seen, const MeetingQuery& q, int k, bool off, double& divisor) {
   const double u = spanned(seen, 0, q, k, off), v = spanned(seen, 1, q, k, off), w = spanned(seen, 2, q, k, off);
   divisor = q.direction_x[k] * seen.normal[0] + q.direction_y[k] * seen.normal[1] + q.direction_z[k] * seen.normal[2];
   const bool positive = (u >= 0) & (v >= 0) & (w >= 0), negative = (u <= 0) & (v <= 0) & (w <= 0);
   return (positive | negative) & (divisor != 0);
 }
 
-STANDPOINT_INLINE double rangeOf(const Seen& seen, const MeetingQuery& q, int k, bool off, double divisor) {
+STANDPOINT_INLINE double rangeOf(const SeenFace& seen, const MeetingQuery& q, int k, bool off, double divisor) {
   if (!off) return seen.volume / divisor;
   return (seen.volume - (q.off_x[k] * seen.normal[0] + q.off_y[k] * seen.normal[1] + q.off_z[k] * seen.normal[2])) /
          divisor;
@@ -131,7 +108,7 @@ STANDPOINT_INLINE void keepLanes(const Face& face, const double* range, const st
 }
 
 template <bool kOff>
-STANDPOINT_INLINE void meetLanes(const Face& face, const Seen& seen, const MeetingQuery& q, const Kept& kept) {
+STANDPOINT_INLINE void meetLanes(const Face& face, const SeenFace& seen, const MeetingQuery& q, const Kept& kept) {
   double divisor[kPacket], range[kPacket];
   std::int64_t in[kPacket], any = 0;
   for (int k = 0; k < kPacket; ++k) in[k] = meets(seen, q, k, kOff, divisor[k]) ? 1 : 0;
@@ -141,14 +118,14 @@ STANDPOINT_INLINE void meetLanes(const Face& face, const Seen& seen, const Meeti
   keepLanes(face, range, in, kept);
 }
 
-STANDPOINT_CLONES void meetFromOne(const Face& face, const Seen& seen, const MeetingQuery& q, const Kept& kept) {
+STANDPOINT_CLONES void meetFromOne(const Face& face, const SeenFace& seen, const MeetingQuery& q, const Kept& kept) {
   meetLanes<false>(face, seen, q, kept);
 }
-STANDPOINT_CLONES void meetFromEach(const Face& face, const Seen& seen, const MeetingQuery& q, const Kept& kept) {
+STANDPOINT_CLONES void meetFromEach(const Face& face, const SeenFace& seen, const MeetingQuery& q, const Kept& kept) {
   meetLanes<true>(face, seen, q, kept);
 }
 
-void meetFew(const Face& face, const Seen& seen, const MeetingQuery& q, const Kept& kept, const unsigned* ids,
+void meetFew(const Face& face, const SeenFace& seen, const MeetingQuery& q, const Kept& kept, const unsigned* ids,
              unsigned count) {
   for (unsigned i = 0; i < count; ++i) {
     const int k = static_cast<int>(ids[i]);
@@ -158,9 +135,11 @@ void meetFew(const Face& face, const Seen& seen, const MeetingQuery& q, const Ke
   }
 }
 
-Eigen::Vector3d placed(const Eigen::Vector3f& corner, const Eigen::Affine3d* world_from_mesh) {
-  const Eigen::Vector3d place = corner.cast<double>();
-  return world_from_mesh != nullptr ? Eigen::Vector3d(*world_from_mesh * place) : place;
+SeenFace seenFrom(const RayFaces& faces, std::uint32_t triangle, std::uint32_t instance, const Eigen::Vector3d& from) {
+  const auto& [a, b, c] = faces.corners[triangle];
+  if (faces.world_from_mesh == nullptr) return {a.cast<double>(), b.cast<double>(), c.cast<double>(), from};
+  const Eigen::Affine3d& frame = faces.world_from_mesh[instance];
+  return {frame * a.cast<double>(), frame * b.cast<double>(), frame * c.cast<double>(), from};
 }
 
 // Embree's layout of rays and hits: a figure of all rays after the other.
@@ -168,12 +147,7 @@ void meet(const RTCIntersectFunctionNArguments* a) {
   const auto& faces = *static_cast<const RayFaces*>(a->geometryUserPtr);
   const auto& query = *reinterpret_cast<const MeetingQuery*>(a->context);
   const std::uint32_t instance = a->context->instID[0];
-  const Eigen::Affine3d* frame = faces.world_from_mesh != nullptr ? faces.world_from_mesh + instance : nullptr;
-  const auto& corners = faces.corners[a->primID];
-  const Face face{.a = placed(corners[0], frame),
-                  .b = placed(corners[1], frame),
-                  .c = placed(corners[2], frame),
-                  .instance = instance,
+  const Face face{.instance = instance,
                   .geometry = a->geomID,
                   .triangle = a->primID,
                   .placement = instance == RTC_INVALID_GEOMETRY_ID ? a->geomID : instance};
@@ -185,7 +159,10 @@ void meet(const RTCIntersectFunctionNArguments* a) {
                   &RTCHitN_primID(hit, a->N, 0),
                   &RTCHitN_geomID(hit, a->N, 0),
                   &RTCHitN_instID(hit, a->N, 0, 0)};
-  const Seen seen(face, query);
+  SeenFace own;
+  if (query.seen == nullptr)
+    own = seenFrom(faces, a->primID, instance, {query.origin_x, query.origin_y, query.origin_z});
+  const SeenFace& seen = query.seen != nullptr ? query.seen->of(faces, a->primID, instance) : own;
   if (a->N != kPacket)
     meetFew(face, seen, query, kept, &RTCRayN_id(ray, a->N, 0), a->N);
   else if (query.one_origin)
@@ -228,10 +205,34 @@ STANDPOINT_CLONES void setLanes(MeetingQuery& q, const float* origins, const flo
 
 float endOfTieCell(double range) { return cellEnd(range); }
 
-void MeetingQuery::set(const float* origins, const float* directions, int stride, int count, bool from_one) {
-  origin_x = static_cast<double>(origins[0]);
-  origin_y = static_cast<double>(origins[stride]);
-  origin_z = static_cast<double>(origins[std::ptrdiff_t{2} * stride]);
+SeenFace::SeenFace(const Eigen::Vector3d& corner_a, const Eigen::Vector3d& corner_b, const Eigen::Vector3d& corner_c,
+                   const Eigen::Vector3d& from) {
+  const Eigen::Vector3d a = corner_a - from, b = corner_b - from, c = corner_c - from;
+  const auto set = [this](int edge, const Eigen::Vector3d& begin, const Eigen::Vector3d& end) {
+    moment[edge][0] = begin.y() * end.z() - begin.z() * end.y();
+    moment[edge][1] = begin.z() * end.x() - begin.x() * end.z();
+    moment[edge][2] = begin.x() * end.y() - begin.y() * end.x();
+    for (int axis = 0; axis < 3; ++axis) along[edge][axis] = begin[axis] - end[axis];
+  };
+  set(0, b, c), set(1, c, a), set(2, a, b);
+  for (int axis = 0; axis < 3; ++axis) normal[axis] = moment[0][axis] + moment[1][axis] + moment[2][axis];
+  volume = a.x() * moment[0][0] + a.y() * moment[0][1] + a.z() * moment[0][2];
+}
+
+const SeenFace& SeenFaces::of(const RayFaces& faces, std::uint32_t triangle, std::uint32_t instance) {
+  const std::uint64_t key = reinterpret_cast<std::uintptr_t>(&faces) + (std::uint64_t{instance} << 32U | triangle);
+  Entry& entry = entries_[(key * 0x9E3779B97F4A7C15ULL) >> (64U - kBits)];
+  if (entry.faces != &faces || entry.triangle != triangle || entry.instance != instance)
+    entry = {&faces, triangle, instance, seenFrom(faces, triangle, instance, from_)};
+  return entry.seen;
+}
+
+void MeetingQuery::set(const float* origins, const float* directions, int stride, int count, bool from_one,
+                       SeenFaces* from) {
+  seen = from;
+  origin_x = from != nullptr ? from->from().x() : static_cast<double>(origins[0]);
+  origin_y = from != nullptr ? from->from().y() : static_cast<double>(origins[stride]);
+  origin_z = from != nullptr ? from->from().z() : static_cast<double>(origins[std::ptrdiff_t{2} * stride]);
   one_origin = from_one;
   setLanes(*this, origins, directions, stride, count);
 }

@@ -45,12 +45,16 @@ STANDPOINT_CLONES void place(const PointLanes::Figures& f, const double* cyclic_
   }
 }
 
-STANDPOINT_CLONES std::uint32_t detectedOf(const ReturnLanes& r, double softness, double threshold) {
+// `lit`: there is a background.
+STANDPOINT_CLONES std::uint32_t detectedOf(const ReturnLanes& r, double softness, double threshold, bool lit) {
   std::uint64_t bits[kReturnLanes];
+  double noise[kReturnLanes];
+  for (int k = 0; k < kReturnLanes; ++k) noise[k] = 1;
+  if (lit)
+    for (int k = 0; k < kReturnLanes; ++k) noise[k] = std::sqrt(1 + static_cast<double>(r.signal.background[k]));
   for (int k = 0; k < kReturnLanes; ++k) {
     const double chance = softness * static_cast<double>(r.noise.detection[k]);
-    const double noise = std::sqrt(1 + static_cast<double>(r.signal.background[k]));
-    const bool seen = static_cast<double>(r.signal.x[k]) + noise * chance >= noise * threshold;
+    const bool seen = static_cast<double>(r.signal.x[k]) + noise[k] * chance >= noise[k] * threshold;
     bits[k] = seen ? std::uint64_t{1} << static_cast<unsigned>(k) : 0;
   }
   std::uint64_t lanes = 0;
@@ -144,7 +148,7 @@ std::uint32_t PointLanes::receive(ReturnLanes& returns, int count) const {
 // P_d = ½ erfc((x_min - x) / √2 σ), drawn (§2.7). In daylight the threshold keeps its distance to the noise; without it
 // the background is nothing.
 std::uint32_t PointLanes::detected(const ReturnLanes& returns, int count) const {
-  const std::uint32_t lanes = detectedOf(returns, plan_.softness, plan_.threshold);
+  const std::uint32_t lanes = detectedOf(returns, plan_.softness, plan_.threshold, plan_.daylight.has_value());
   return count < kReturnLanes ? lanes & ((1U << static_cast<unsigned>(count)) - 1) : lanes;
 }
 

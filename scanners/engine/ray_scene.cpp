@@ -189,7 +189,7 @@ void EmbreeScene::intersect(const RayPacket& rays, int count, float max_range_m,
   alignas(64) int valid[kPacket];
   static thread_local RTCRayHit16 query = fromOrigins();
   MeetingQuery meeting(RayQuery::Rays::coherent);
-  meeting.set(rays.origin_x, rays.direction_x, kPacket, kPacket, rays.one_origin);
+  meeting.set(rays.origin_x, rays.direction_x, kPacket, kPacket, rays.one_origin, rays.seen);
   std::copy_n(rays.origin_x, 3 * kPacket, query.ray.org_x);  // x, y, z lie side by side in both
   clearDirections(rays.direction_x, query.ray.dir_x);
   for (int k = 0; k < kPacket; ++k) {
@@ -229,7 +229,7 @@ NearestHit EmbreeScene::nearest(const Eigen::Vector3d& origin, const Eigen::Vect
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   MeetingQuery meeting(RayQuery::Rays::single);
   const float start[3] = {query.ray.org_x, query.ray.org_y, query.ray.org_z};
-  meeting.set(start, direction, 1, 1, true);
+  meeting.set(start, direction, 1, 1, true, nullptr);
   meeting.query.trace(scene_, query);
   return {facetNumber(query.hit.instID[0], query.hit.geomID, query.hit.primID), query.ray.tfar};
 }
@@ -258,6 +258,14 @@ Facet EmbreeScene::facet(std::uint64_t number) const {
   facet.normal = length > 0 ? Eigen::Vector3d(normal / length) : Eigen::Vector3d::Zero();
   facet.offset = facet.normal.dot(a);
   return facet;
+}
+
+std::array<Eigen::Vector3d, 2> EmbreeScene::edgeEnds(std::uint64_t edge) const {
+  const Instance& instance = placed(edge >> 32U);
+  const MeshEdge& ends = edges_[instance.mesh][static_cast<std::uint32_t>(edge)];
+  const auto& positions = environment_->meshes[instance.mesh]->positions;
+  return {instance.world_from_mesh * positions[ends.from].cast<double>(),
+          instance.world_from_mesh * positions[ends.to].cast<double>()};
 }
 
 std::optional<RayHit> EmbreeScene::intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,

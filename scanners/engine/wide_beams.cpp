@@ -2,7 +2,6 @@
 #include "scanners/engine/wide_beams.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "core/random.h"
 
@@ -14,47 +13,84 @@ constexpr std::uint32_t kFootprintChannel = 9;
 
 }  // namespace
 
-void WideBeams::add(std::uint32_t column, std::uint32_t row, const NearestHit& axis, const Beam& beam) {
+void WideBeams::add(std::uint32_t column, std::uint32_t row, const NearestHit& axis, const Beam& beam,
+                    const BeamEdges* edges) {
   if (count_ == beams_.size()) beams_.emplace_back();
   WideBeam& wide = beams_[count_++];
+  column_ = column;
   wide.row = row;
   wide.axis = axis;
   wide.beam = beam;
+  wide.several = false;
+  wide.ray_count = 0;
+  if (edges != nullptr) {
+    const RandomKey key{plan_.options.seed, plan_.options.station_key};
+    wide.ray_count =
+        drawStrips(plan_.scene, plan_.instrument, beam, *edges, philox(key, column, row, kFootprintChannel), wide.rays);
+    wide.hidden_m = edges->hidden_m;
+  }
+  wide.strips = wide.ray_count > 0;
+  if (!wide.strips) draw(wide);
+}
+
+void WideBeams::draw(WideBeam& beam) {
   const RandomKey key{plan_.options.seed, plan_.options.station_key};
-  drawFootprint(philox(key, column, row, kFootprintChannel), raysEach(), wide.rays);
+  beam.ray_count = plan_.forReference() ? kReferenceSubRays : kSubRays;
+  drawFootprint(philox(key, column_, beam.row, kFootprintChannel), beam.ray_count, beam.rays);
 }
 
 void WideBeams::trace() {
-  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count_; ++i)
+    if (beams_[i].ray_count > 1) send(beams_[i]);
+  flush();
   for (std::size_t i = 0; i < count_; ++i) {
-    traceRays(beams_[i]);
-    if (!severalSurfaces(beams_[i])) continue;
-    if (kept != i) std::swap(beams_[kept], beams_[i]);
-    ++kept;
+    WideBeam& beam = beams_[i];
+    if (!beam.strips || beam.ray_count == 1 || !showsMore(beam)) continue;
+    beam.strips = false;
+    draw(beam);
+    send(beam);
   }
-  count_ = kept;
+  flush();
+  for (std::size_t i = 0; i < count_; ++i) beams_[i].several = beams_[i].ray_count > 1 && severalSurfaces(beams_[i]);
 }
 
-void WideBeams::traceRays(WideBeam& beam) {
-  RayPacket packet;
-  for (int from = 0; from < raysEach(); from += kPacket) {
-    for (int k = 0; k < kPacket; ++k) {
-      const RayLine line = lineOf(beam.beam, beam.rays[from + k].across, beam.rays[from + k].upward, plan_.instrument);
-      packet.set(k, line.origin, line.direction);
-    }
-    plan_.scene.intersect(packet, kPacket, static_cast<float>(plan_.farthest_m), beam.hits + from);
+void WideBeams::send(WideBeam& beam) {
+  for (int k = 0; k < beam.ray_count; ++k) {
+    const RayLine line = lineOf(beam.beam, beam.rays[k].across, beam.rays[k].upward, plan_.instrument);
+    packet_.set(sent_count_, line.origin, line.direction);
+    sent_[sent_count_++] = {&beam, k};
+    if (sent_count_ == kPacket) flush();
   }
+}
+
+void WideBeams::flush() {
+  if (sent_count_ == 0) return;
+  NearestHit hits[kPacket];
+  plan_.scene.intersect(packet_, sent_count_, static_cast<float>(plan_.farthest_m), hits);
+  for (int k = 0; k < sent_count_; ++k) sent_[k].beam->hits[sent_[k].ray] = hits[k];
+  sent_count_ = 0;
+}
+
+// May there be more beside the axis' surface than the edges that are seen say?
+bool WideBeams::showsMore(const WideBeam& beam) {
+  if (isRound(beam.axis.facet)) return true;
+  for (int k = 0; k < beam.ray_count; ++k) {
+    const auto range = static_cast<double>(beam.hits[k].range_m);
+    if (static_cast<double>(beam.hidden_m) < range + edgeTolerance(plan_.instrument, range)) return true;
+    if (isRound(beam.hits[k].facet)) return true;
+  }
+  return false;
 }
 
 bool WideBeams::severalSurfaces(const WideBeam& beam) {
-  const NearestHit* end = beam.hits + raysEach();
+  const NearestHit* end = beam.hits + beam.ray_count;
   if (beam.axis.facet == kNoFacet)
     return std::any_of(beam.hits, end, [](const NearestHit& hit) { return hit.facet != kNoFacet; });
   if (plan_.forReference())
     return std::any_of(beam.hits, end, [&](const NearestHit& hit) { return hit.facet != beam.axis.facet; });
   const MetFacet& met = facets_.of(beam.axis.facet);
   const double tolerance = edgeTolerance(plan_.instrument, static_cast<double>(beam.axis.range_m));
-  for (int k = 0; k < raysEach(); ++k)
+  for (int k = 0; k < beam.ray_count; ++k)
     if (!met.holds(lineOf(beam.beam, beam.rays[k].across, beam.rays[k].upward, plan_.instrument), beam.hits[k],
                    tolerance))
       return true;

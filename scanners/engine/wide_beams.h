@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "scanners/engine/beam_strips.h"
 #include "scanners/engine/facet_cache.h"
 #include "scanners/engine/footprint.h"
 
@@ -13,30 +14,51 @@ struct WideBeam {
   std::uint32_t row = 0;
   NearestHit axis;
   Beam beam;
+  float hidden_m = 0;  // of an edge that the axis' surface hides (edge_map.h)
+  bool strips = false;
+  bool several = false;  // surfaces that it meets
+  int ray_count = 0;
   SubRay rays[kReferenceSubRays];
   NearestHit hits[kReferenceSubRays];
 };
 
-// Beams that may meet several surfaces. Their rays are traced sixteen at a time.
+// Beams of one column that may meet several surfaces. Where edges run side by side a ray through each strip between
+// them is enough (beam_strips.h); else a pattern of rays is drawn (footprint.h). All are traced sixteen at a time.
 class WideBeams {
  public:
-  WideBeams(const ScanPlan& plan, FacetCache& facets) : plan_(plan), facets_(facets) {}
+  // `seen`: as that of a column.
+  WideBeams(const ScanPlan& plan, FacetCache& facets, SeenFaces* seen) : plan_(plan), facets_(facets) {
+    packet_.seen = seen;
+  }
   void clear() { count_ = 0; }
-  void add(std::uint32_t column, std::uint32_t row, const NearestHit& axis, const Beam& beam);
-  // Traces them all and keeps those that meet something else than their axis does: for reference another facet is, too.
+  // `edges`: null where they are not known.
+  void add(std::uint32_t column, std::uint32_t row, const NearestHit& axis, const Beam& beam, const BeamEdges* edges);
+  // Traces them all and finds those that meet something else than their axis does: for reference another facet is, too.
   void trace();
   std::size_t size() const { return count_; }
   const WideBeam& operator[](std::size_t i) const { return beams_[i]; }
-  int raysEach() const { return plan_.forReference() ? kReferenceSubRays : kSubRays; }
 
  private:
-  void traceRays(WideBeam& beam);
+  // Rays on their way.
+  struct Sent {
+    WideBeam* beam = nullptr;
+    int ray = 0;
+  };
+  void draw(WideBeam& beam);
+  void send(WideBeam& beam);
+  void flush();
+  bool showsMore(const WideBeam& beam);
+  bool isRound(std::uint64_t facet) { return facet != kNoFacet && facets_.of(facet).facet.ball != nullptr; }
   bool severalSurfaces(const WideBeam& beam);
 
   const ScanPlan& plan_;
   FacetCache& facets_;
+  std::uint32_t column_ = 0;
   std::vector<WideBeam> beams_;  // the first `count_`; the others are kept for their memory
   std::size_t count_ = 0;
+  RayPacket packet_{};
+  Sent sent_[kPacket];
+  int sent_count_ = 0;
 };
 
 }  // namespace standpoint
