@@ -17,6 +17,7 @@
 #include "core/survey.h"
 #include "materials/materials.h"
 #include "optimizer/optimizer.h"
+#include "scanners/engine/scan_quality.h"
 #include "scanners/radiometry/atmosphere.h"
 #include "scanners/radiometry/effects.h"
 #include "survey/measuring/measurement.h"
@@ -90,6 +91,7 @@ struct ScanChoice {
   bool compensator = true;
   bool panorama = false;
   std::uint32_t panorama_columns = 0;  // 0: as the instrument's camera delivers it
+  ScanQuality quality = ScanQuality::standard;
   bool operator==(const ScanChoice&) const = default;
 };
 

@@ -24,7 +24,9 @@ void chooseInstrument(ScanChoice& asked, const Instrument& instrument) {
   for (const auto& setting : instrument.settings) asked.settings.emplace_back(setting.key, setting.default_value);
 }
 
-std::string effectsSummary(Effects effects) {
+std::string effectsSummary(Effects effects, ScanQuality quality) {
+  if (quality == ScanQuality::preview) return joined(effectsSummary(effects), tr("preview quality"), ", ");
+  if (quality == ScanQuality::reference) return joined(effectsSummary(effects), tr("reference quality"), ", ");
   if (effects == Effects()) return tr("all effects");
   if (effects == Effects::none()) return "ideal";
   const auto left_out = leftOut(effects);

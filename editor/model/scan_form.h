@@ -11,8 +11,9 @@ namespace standpoint {
 // Another instrument with its own settings; what is not the instrument's stays.
 void chooseInstrument(ScanChoice& asked, const Instrument& instrument);
 
-// "all effects", "ideal", "without striping, footprint", "13 of 16 effects": what a folded list says of itself.
-std::string effectsSummary(Effects effects);
+// "all effects", "ideal", "without striping, footprint", "13 of 16 effects", and the quality where it is none of the
+// usual: what a folded list says of itself.
+std::string effectsSummary(Effects effects, ScanQuality quality = ScanQuality::standard);
 // "clear air", "rain 10 mm/h, visibility 5 km".
 std::string weatherSummary(const Weather& weather);
 // "range-noise" → "Range noise".

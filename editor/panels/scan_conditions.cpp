@@ -25,8 +25,35 @@ bool folded(const char* title, const std::string& summary, const char* id) {
   return ImGui::CollapsingHeader(fmt::format("{}   {}###{}", tr(title), summary, id).c_str());
 }
 
+void drawQuality(ScanChoice& asked) {
+  struct Item {
+    ScanQuality quality;
+    const char* label;
+    const char* help;
+  };
+  static constexpr std::array kItems = {
+      Item{ScanQuality::preview, "Preview", "One ray per pulse: fastest. No mixed points; thin objects may be missed."},
+      Item{ScanQuality::standard, "Standard", "Traces the whole beam where an edge is in it"},
+      Item{ScanQuality::reference, "Reference", "64 rays for every pulse: many times slower. For validation."}};
+  const auto chosen =
+      std::find_if(kItems.begin(), kItems.end(), [&](const Item& item) { return item.quality == asked.quality; });
+  if (!ui::beginProperties("quality", 0.36F)) return;
+  ui::propertyLabel("Quality");
+  const bool open = ImGui::BeginCombo("###scan-quality", tr(chosen->label).c_str());
+  if (!open) ui::tooltip(chosen->help);
+  if (open) {
+    for (const Item& item : kItems) {
+      if (ImGui::Selectable(tr(item.label).c_str(), item.quality == asked.quality)) asked.quality = item.quality;
+      ui::tooltip(item.help);
+    }
+    ImGui::EndCombo();
+  }
+  ui::endProperties();
+}
+
 void drawEffects(const Model& model, ScanChoice& asked) {
-  if (!folded("Effects", effectsSummary(asked.effects), "effects")) return;
+  if (!folded("Effects", effectsSummary(asked.effects, asked.quality), "effects")) return;
+  drawQuality(asked);
   bool ideal = asked.effects == Effects::none();
   if (ui::checkbox(ui::Label("Ideal (no effects)###ideal"), &ideal))
     asked.effects = ideal ? Effects::none() : Effects();

@@ -8,6 +8,7 @@
 #include "project/materials/materials_json.h"
 #include "project/model/treatments.h"
 #include "project/storage/project_files.h"
+#include "project/survey/survey_verbs.h"
 
 namespace standpoint {
 
@@ -114,6 +115,7 @@ json scanningToJson(const ScanChoice& c) {
       {"panorama", c.panorama}};
   if (std::isfinite(w.visibility_km)) part["weather"]["visibility_km"] = w.visibility_km;
   if (c.panorama_columns > 0) part["panorama_size"] = c.panorama_columns;
+  if (c.quality != ScanQuality::standard) part["quality"] = FieldValue<ScanQuality>::write(c.quality);
   return part;
 }
 
@@ -129,7 +131,9 @@ ScanChoice scanningFrom(const json& j) {
                .truth = j.at("truth"),
                .compensator = j.at("compensator"),
                .panorama = j.at("panorama"),
-               .panorama_columns = j.value("panorama_size", 0U)};
+               .panorama_columns = j.value("panorama_size", 0U),
+               .quality = ScanQuality::standard};
+  if (const auto quality = FieldValue<ScanQuality>::read(j.value("quality", json("default")))) c.quality = *quality;
   // A name that a later version knows is none of ours: all effects then.
   if (const auto effects = effectsWithout(without); !without.empty() && effects) c.effects = *effects;
   return c;

@@ -102,7 +102,8 @@ ScanChoice choiceOf(const ScanRequest& request) {
           .truth = request.options.channels.truth,
           .compensator = request.levelling.compensator,
           .panorama = request.panorama,
-          .panorama_columns = request.panorama_columns};
+          .panorama_columns = request.panorama_columns,
+          .quality = request.options.quality};
 }
 
 ScanVerbOptions optionsOf(const ScanChoice& choice) {
@@ -115,6 +116,7 @@ ScanVerbOptions optionsOf(const ScanChoice& choice) {
   if (choice.weather != Weather()) options.weather = choice.weather;
   options.truth = choice.truth;
   options.compensator = choice.compensator ? Switch::on : Switch::off;
+  options.quality = choice.quality;
   options.panorama = choice.panorama;
   if (choice.panorama && choice.panorama_columns > 0) options.panorama_columns = choice.panorama_columns;
   return options;

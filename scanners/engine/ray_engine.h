@@ -14,6 +14,7 @@
 #include "core/points.h"
 #include "core/progress.h"
 #include "core/result.h"
+#include "scanners/engine/scan_quality.h"
 #include "scanners/instruments/instrument.h"
 #include "scanners/radiometry/atmosphere.h"
 #include "scanners/radiometry/effects.h"
@@ -56,10 +57,6 @@ struct ScanChannels {
   bool returns = false;
   bool truth = false;
 };
-
-// What a beam's width costs: preview looks at its axis alone; standard at the whole footprint where an edge of the
-// scene is in it; reference at 64 rays of every pulse, wherever it goes.
-enum class ScanQuality { preview, standard, reference };
 
 struct ScanOptions {
   std::uint64_t seed = 1;

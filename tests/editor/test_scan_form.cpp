@@ -27,7 +27,8 @@ ScanChoice everythingAsked() {
           .truth = true,
           .compensator = false,
           .panorama = true,
-          .panorama_columns = 1024};
+          .panorama_columns = 1024,
+          .quality = ScanQuality::reference};
 }
 
 TEST(ScanForm, AsksTheVerbForWhatItShows) {

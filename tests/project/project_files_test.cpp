@@ -60,7 +60,8 @@ Document fullDocument() {
                  .truth = true,
                  .compensator = false,
                  .panorama = true,
-                 .panorama_columns = 2048});
+                 .panorama_columns = 2048,
+                 .quality = ScanQuality::preview});
   return run("station", d, {{"add", "S1"}, {"at", {500002.1, 5600002, 1.6}}, {"yaw-deg", 33.3}})->document;
 }
 
