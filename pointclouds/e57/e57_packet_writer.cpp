@@ -97,7 +97,7 @@ Result<void> PacketWriter::emit(PagedWriter& out) {
     for (; s.waiting_bits > 0; s.waiting >>= 8, s.waiting_bits -= std::min(s.waiting_bits, 8u))
       bytes[s.start + s.bytes++] = static_cast<std::uint8_t>(s.waiting);
     store(bytes + 6 + 2 * i, static_cast<std::uint16_t>(s.bytes));
-    std::memmove(bytes + end, bytes + s.start, s.bytes);  // only the last packet has gaps to close
+    if (end != s.start) std::memmove(bytes + end, bytes + s.start, s.bytes);  // only the last packet has gaps to close
     end += std::exchange(s.bytes, 0);
     s.waiting = 0;
   }

@@ -170,9 +170,9 @@ void ColumnTracer::gatherEnds(std::uint32_t row, const WideBeam* wide) {
 // Rays that meet one facet are one end, where their mean by power meets it: a triangle holds the mean of its places.
 // Behind panes and by way of mirrors they may meet different ones, and are followed one by one.
 void ColumnTracer::gatherWide(const WideBeam& wide) {
-  struct OnFacet {
-    NearestHit hit;
-    double across = 0, upward = 0, range_m = 0, weight = 0;  // sums by weight
+  struct OnFacet {  // not initialised: there are as many as rays
+    std::uint64_t facet;
+    double across, upward, range_m, weight;  // sums by weight
   };
   OnFacet met[kReferenceSubRays];
   int count = 0;
@@ -181,10 +181,10 @@ void ColumnTracer::gatherWide(const WideBeam& wide) {
     if (hit.facet == kNoFacet) continue;
     const SubRay& ray = wide.rays[k];
     int at = 0;
-    while (at < count && met[at].hit.facet != hit.facet) ++at;
+    while (at < count && met[at].facet != hit.facet) ++at;
     const MetFacet& facet = facets_.of(hit.facet);
     // A ball bends away within the beam: the mean of its rays would be off by what it is deep there.
-    if (at == count || !facet.plain || facet.facet.ball != nullptr) met[at = count++] = {.hit = hit};
+    if (at == count || !facet.plain || facet.facet.ball != nullptr) met[at = count++] = {hit.facet, 0, 0, 0, 0};
     const auto weight = static_cast<double>(ray.weight);
     met[at].across += weight * ray.across, met[at].upward += weight * ray.upward;
     met[at].range_m += weight * static_cast<double>(hit.range_m), met[at].weight += weight;
@@ -192,7 +192,7 @@ void ColumnTracer::gatherWide(const WideBeam& wide) {
   for (int i = 0; i < count; ++i) {
     const OnFacet& on = met[i];
     const RayLine line = lineOf(wide.beam, on.across / on.weight, on.upward / on.weight, plan_.instrument);
-    const NearestHit mean{on.hit.facet, static_cast<float>(on.range_m / on.weight)};
+    const NearestHit mean{on.facet, static_cast<float>(on.range_m / on.weight)};
     paths_.follow(line.origin, line.direction, mean, static_cast<float>(on.weight), ends_);
   }
 }

@@ -17,16 +17,14 @@ void WideBeams::add(std::uint32_t column, std::uint32_t row, const NearestHit& a
                     const BeamEdges* edges) {
   if (count_ == beams_.size()) beams_.emplace_back();
   WideBeam& wide = beams_[count_++];
-  column_ = column;
   wide.row = row;
   wide.axis = axis;
   wide.beam = beam;
   wide.several = false;
   wide.ray_count = 0;
+  wide.numbers = philox({plan_.options.seed, plan_.options.station_key}, column, row, kFootprintChannel);
   if (edges != nullptr) {
-    const RandomKey key{plan_.options.seed, plan_.options.station_key};
-    wide.ray_count =
-        drawStrips(plan_.scene, plan_.instrument, beam, *edges, philox(key, column, row, kFootprintChannel), wide.rays);
+    wide.ray_count = drawStrips(plan_.scene, plan_.instrument, beam, *edges, wide.numbers, wide.rays);
     wide.hidden_m = edges->hidden_m;
   }
   wide.strips = wide.ray_count > 0;
@@ -34,9 +32,8 @@ void WideBeams::add(std::uint32_t column, std::uint32_t row, const NearestHit& a
 }
 
 void WideBeams::draw(WideBeam& beam) {
-  const RandomKey key{plan_.options.seed, plan_.options.station_key};
   beam.ray_count = plan_.forReference() ? kReferenceSubRays : kSubRays;
-  drawFootprint(philox(key, column_, beam.row, kFootprintChannel), beam.ray_count, beam.rays);
+  drawFootprint(beam.numbers, beam.ray_count, beam.rays);
 }
 
 void WideBeams::trace() {

@@ -14,7 +14,8 @@ struct WideBeam {
   std::uint32_t row = 0;
   NearestHit axis;
   Beam beam;
-  float hidden_m = 0;  // of an edge that the axis' surface hides (edge_map.h)
+  float hidden_m = 0;                      // of an edge that the axis' surface hides (edge_map.h)
+  std::array<std::uint32_t, 4> numbers{};  // random, its own
   bool strips = false;
   bool several = false;  // surfaces that it meets
   int ray_count = 0;
@@ -53,7 +54,6 @@ class WideBeams {
 
   const ScanPlan& plan_;
   FacetCache& facets_;
-  std::uint32_t column_ = 0;
   std::vector<WideBeam> beams_;  // the first `count_`; the others are kept for their memory
   std::size_t count_ = 0;
   RayPacket packet_{};
