@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numbers>
 
 #include "scanners/math/portable_math.h"
 #include "scanners/math/target_clones.h"
@@ -17,6 +16,12 @@ namespace {
 Pose relative(const Pose& from, const Pose& to) {
   const Eigen::Quaterniond back = from.rotation.conjugate();
   return {back * to.rotation, back * (to.translation - from.translation)};
+}
+
+STANDPOINT_INLINE float risen(const PointLanes::Ramp& ramp, float octaves) {
+  const float up = octaves - ramp.from;
+  const float on = up > 0 ? up : 0;
+  return ramp.slope * (on < ramp.width ? on : ramp.width);
 }
 
 // Lateral and lift are to first order, which at 60 arcsec and 100 m is right to 4 µm.
@@ -33,11 +38,12 @@ STANDPOINT_CLONES void place(const PointLanes::Figures& f, const double* cyclic_
         f.jitter_rad * static_cast<double>(r.noise.elevation[k]) + systematic + f.lift_by_wobble_rad * wobble;
     const double noise = f.white_fraction * static_cast<double>(r.noise.range[k]) +
                          f.along_fraction * static_cast<double>(r.along[k]) + f.common;
-    const double over = static_cast<double>(portable::log2(r.signal.x[k] / f.saturation));
-    const double walk = r.signal.x[k] > f.saturation ? f.walk_m_per_octave * over : 0;
+    const float octaves = portable::log2(r.signal.x[k]);
+    const float offset = f.least_offset_m + risen(f.offset[0], octaves) + risen(f.offset[1], octaves) +
+                         risen(f.offset[2], octaves) + risen(f.offset[3], octaves);
     const double range = r.range_m[k] * f.scale + f.bias_m + f.bias_sine_m * sine + cyclic_m[k] +
                          f.noise_scale * static_cast<double>(r.signal.sigma_m[k]) * noise + f.extra_m +
-                         f.wobble_m * wobble + walk;
+                         f.wobble_m * wobble + static_cast<double>(offset);
     const double outward = cosine - lift * sine;
     r.x_m[k] = static_cast<float>(range * (outward * f.ahead_x + lateral * f.lateral_x));
     r.y_m[k] = static_cast<float>(range * (outward * f.ahead_y + lateral * f.lateral_y));
@@ -83,12 +89,28 @@ PointLanes::PointLanes(const ScanPlan& plan) : plan_(plan), start_(at(plan.traje
   figures_.lift_cosine2_rad = errors.elevation_rad[2], figures_.lift_sine2_rad = errors.elevation_rad[3];
   figures_.noise_scale = plan.noise_scale;
   figures_.white_fraction = plan.white_fraction;
-  figures_.saturation = plan.saturation;
-  figures_.walk_m_per_octave = plan.instrument.saturation.walk_m_per_decade * std::numbers::ln2 / std::numbers::ln10;
+  setOffsets();
   if (!plan.column_noise) return;
   figures_.along_fraction = static_cast<double>(plan.column_noise->along());
   figures_.lift_by_wobble_rad = plan.instrument.correlated.elevation_wobble_rad;
   figures_.wobble_m = plan.instrument.correlated.wobble_m;
+}
+
+void PointLanes::setOffsets() {
+  constexpr double kOctavesPerDb = 0.33219280948873623, kDecadesPerOctave = 0.30102999566398120;
+  constexpr std::size_t kWalk = kMostOffsets - 1;  // the ramps between n powers are n - 1
+  const Effects effects = plan_.options.effects;
+  if (effects.has(Effect::saturation))
+    figures_.offset[kWalk] = {static_cast<float>(kOctavesPerDb * plan_.instrument.saturation.level_db), 1e3F,
+                              static_cast<float>(kDecadesPerOctave * plan_.instrument.saturation.walk_m_per_decade)};
+  const RangeOffset& table = plan_.instrument.range_offset;
+  if (!effects.has(Effect::range_offset) || table.power_db.empty()) return;
+  figures_.least_offset_m = static_cast<float>(table.offset_m.front());
+  for (std::size_t i = 0; i + 1 < table.power_db.size(); ++i) {
+    const double width = kOctavesPerDb * (table.power_db[i + 1] - table.power_db[i]);
+    figures_.offset[i] = {static_cast<float>(kOctavesPerDb * table.power_db[i]), static_cast<float>(width),
+                          static_cast<float>((table.offset_m[i + 1] - table.offset_m[i]) / width)};
+  }
 }
 
 void PointLanes::begin(std::uint32_t column, const Eigen::Vector3d& ahead, const Eigen::Vector3d& lateral) {

@@ -18,6 +18,11 @@ class PointLanes {
   // `count` are the bits of the result.
   std::uint32_t receive(ReturnLanes& returns, int count) const;
 
+  // Constant, but for a rise over `width` from `from` on.
+  struct Ramp {
+    float from = 0, width = 0, slope = 0;
+  };
+
   // What all lanes of a column share.
   struct Figures {
     double ahead_x = 1, ahead_y = 0, lateral_x = 0, lateral_y = -1;
@@ -29,11 +34,12 @@ class PointLanes {
     double scale = 1, bias_m = 0, bias_sine_m = 0;
     double noise_scale = 0, white_fraction = 0, along_fraction = 0, common = 0;
     double extra_m = 0, wobble_m = 0;
-    float saturation = 0;
-    double walk_m_per_octave = 0;
+    Ramp offset[kMostOffsets];  // of the range, by log2 of the power: what the table has, and the walk above saturation
+    float least_offset_m = 0;
   };
 
  private:
+  void setOffsets();
   std::uint32_t detected(const ReturnLanes& returns, int count) const;
   bool faulted(const ReturnLanes& returns, int lane, const PointFilters& filters) const;
   std::uint32_t filtered(ReturnLanes& returns, std::uint32_t lanes) const;

@@ -72,6 +72,14 @@ struct Saturation {
   double pedestal = 0;           // share of the beam's power in its wide wings: the halo of a reflector
 };
 
+// How much longer a range is with little light than with much (§4.10), by received power: linear between the powers,
+// constant beyond them.
+struct RangeOffset {
+  std::vector<double> power_db;  // 10 lg x, rising, at most kMostOffsets; empty = there is none
+  std::vector<double> offset_m;  // one for each
+};
+constexpr std::size_t kMostOffsets = 4;
+
 // How the amplitude of a return strays (docs/explanation/scanning.md).
 struct AmplitudeNoise {
   double aperture_m = 0;  // diameter of the receiver's opening: over it speckle is averaged
@@ -149,6 +157,7 @@ struct Instrument {
   double detection_softness = 0;                       // σ of the detection threshold as a share of it, §2.7
   double intensity_low_db = 0, intensity_high_db = 0;  // 10 lg x that is stored as 0 and as 1
   int intensity_levels = 0;                            // quantisation of the stored intensity
+  RangeOffset range_offset;
   AmplitudeNoise amplitude;
   double sun_noise = 0;  // variance that 1000 W/m² on a white surface head-on add to the dark receiver's, in its units
   double unambiguous_m = 0;  // of a phase-shift instrument: longer ranges are folded by it; 0 = none is known

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -39,6 +40,7 @@ class InstrumentReader : FigureReader {
     readWaveform(root);
     readCorrelated(root);
     readSaturation(root);
+    if (root.fields.has("range_offset")) readRangeOffset(root);
     if (root.fields.has("filters")) readFilters(root);
     readSettings(root);
     root.fields.close();
@@ -156,6 +158,19 @@ class InstrumentReader : FigureReader {
     curve.amplitude_db = figures(group, "amplitude_db", {-1000, 1000}, 4);
     curve.far_db = figure(group, "far_db", {-1000, 1000});
     group.fields.close();
+  }
+
+  void readRangeOffset(Group& root) {
+    Group group = child(root, "range_offset");
+    auto& offset = instrument_.range_offset;
+    offset.power_db = figures(group, "power_db", {-200, 100}, kMostOffsets);
+    offset.offset_m = figures(group, "offset_mm", {-1000, 1000, 1e-3}, kMostOffsets);
+    group.fields.close();
+    if (offset.power_db.size() != offset.offset_m.size())
+      fail("/range_offset/offset_mm", "must have one figure for each of power_db");
+    if (std::adjacent_find(offset.power_db.begin(), offset.power_db.end(), std::greater_equal<>()) !=
+        offset.power_db.end())
+      fail("/range_offset/power_db", "must rise");
   }
 
   void readFilters(Group& root) {

@@ -6,8 +6,8 @@
 
 namespace standpoint {
 
-const std::array<EffectName, 24>& effectNames() {
-  static constexpr std::array<EffectName, 24> kNames = {{
+const std::array<EffectName, 25>& effectNames() {
+  static constexpr std::array<EffectName, 25> kNames = {{
       {Effect::range_noise, "range-noise", "white range noise"},
       {Effect::angle_noise, "angle-noise", "angular jitter"},
       {Effect::bias, "bias", "systematic range and angle errors"},
@@ -32,6 +32,7 @@ const std::array<EffectName, 24>& effectNames() {
       {Effect::interference, "interference", "interference from another instrument"},
       {Effect::rough_mirrors, "rough-mirrors", "mirror images in wet or glossy rough surfaces"},
       {Effect::textures, "textures", "images on surfaces: posters, prints, joints"},
+      {Effect::range_offset, "range-offset", "longer ranges on dark surfaces"},
   }};
   return kNames;
 }

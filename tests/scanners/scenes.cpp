@@ -189,6 +189,7 @@ MaterialAssignment allOf(const Environment& environment, double reflectance) {
 Instrument withoutBias(Instrument instrument) {
   instrument.range_bias_m = instrument.range_bias_ppm = 0;
   instrument.angle_sigma_rad = instrument.angle_jitter_rad;
+  instrument.range_offset = {};
   return instrument;
 }
 
