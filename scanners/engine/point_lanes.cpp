@@ -36,13 +36,14 @@ STANDPOINT_CLONES void place(const PointLanes::Figures& f, const double* cyclic_
                               f.lift_cosine2_rad * (1 - 2 * sine * sine) + f.lift_sine2_rad * 2 * sine * cosine;
     const double lift =
         f.jitter_rad * static_cast<double>(r.noise.elevation[k]) + systematic + f.lift_by_wobble_rad * wobble;
-    const double noise = f.white_fraction * static_cast<double>(r.noise.range[k]) +
-                         f.along_fraction * static_cast<double>(r.along[k]) + f.common;
+    const double sigma = f.noise_scale * static_cast<double>(r.signal.sigma_m[k]);
+    const double white = f.white_fraction * sigma, spread = static_cast<double>(r.signal.spread_m[k]);
+    const double noise = std::sqrt(white * white + spread * spread) * static_cast<double>(r.noise.range[k]) +
+                         sigma * (f.along_fraction * static_cast<double>(r.along[k]) + f.common);
     const float octaves = portable::log2(r.signal.x[k]);
     const float offset = f.least_offset_m + risen(f.offset[0], octaves) + risen(f.offset[1], octaves) +
                          risen(f.offset[2], octaves) + risen(f.offset[3], octaves);
-    const double range = r.range_m[k] * f.scale + f.bias_m + f.bias_sine_m * sine + cyclic_m[k] +
-                         f.noise_scale * static_cast<double>(r.signal.sigma_m[k]) * noise + f.extra_m +
+    const double range = r.range_m[k] * f.scale + f.bias_m + f.bias_sine_m * sine + cyclic_m[k] + noise + f.extra_m +
                          f.wobble_m * wobble + static_cast<double>(offset);
     const double outward = cosine - lift * sine;
     r.x_m[k] = static_cast<float>(range * (outward * f.ahead_x + lateral * f.lateral_x));

@@ -77,9 +77,8 @@ ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignme
   if (effects.has(Effect::sun) && options.sun)
     daylight.emplace(scene, instrument, *options.sun, at(trajectory, 0).translation);
   receiver = receiverOf(instrument, effects, extinction_per_m(weather, instrument.wavelength_nm));
-  if (effects.has(Effect::amplitude_noise))
-    receiver.fluctuation =
-        fluctuationOf(instrument, detectionThreshold(settings, 0) * instrument.detection_softness, settings.passes);
+  receiver.fluctuation = fluctuationOf(
+      instrument, effects, detectionThreshold(settings, 0) * instrument.detection_softness, settings.passes);
   drop_threshold = detectionThreshold(settings, 0);
   std::vector<double> elevations;
   for (std::uint32_t row = 0; row < settings.rows; ++row) elevations.push_back(elevation_rad(row));

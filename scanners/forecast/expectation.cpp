@@ -21,6 +21,7 @@ ReturnLaw::ReturnLaw(const Instrument& instrument, const ScanSettings& settings)
     : instrument_(instrument),
       settings_(settings),
       noise_(rangeNoiseParts(instrument)),
+      fluctuation_(fluctuationOf(instrument, Effects(), 0, settings.passes)),
       clear_air_per_m_(extinction_per_m(Weather{}, instrument.wavelength_nm)),
       threshold_(detectionThreshold(settings, clear_air_per_m_)),
       softness_(threshold_ * instrument.detection_softness),
@@ -37,7 +38,8 @@ ExpectedReturn ReturnLaw::of(const Optics& optics, double range_m, double cosine
   const double fraction = (10 * std::log10(expected.power) - instrument_.intensity_low_db) /
                           (instrument_.intensity_high_db - instrument_.intensity_low_db);
   expected.intensity = std::clamp(fraction, 0.0, 1.0);
-  expected.sigma_m = std::hypot(noise_scale_ * sigma_m(noise_, expected.power), instrument_.correlated.column_extra_m);
+  expected.sigma_m = std::hypot(noise_scale_ * sigma_m(noise_, expected.power), instrument_.correlated.column_extra_m,
+                                slantSpread_m(fluctuation_, range_m, cosine));
   const double margin = expected.power - threshold_;
   expected.probability = softness_ > 0 ? 0.5 * std::erfc(-margin / (std::numbers::sqrt2 * softness_))
                          : margin >= 0 ? 1

@@ -8,6 +8,7 @@
 #include "scanners/engine/ray_engine.h"
 #include "scanners/radiometry/radiometry.h"
 #include "scanners/radiometry/range_noise_law.h"
+#include "scanners/radiometry/signal_lanes.h"
 
 namespace standpoint {
 
@@ -44,6 +45,7 @@ class ReturnLaw {
   Instrument instrument_;
   ScanSettings settings_;
   RangeNoiseParts noise_;
+  Fluctuation fluctuation_;
   double clear_air_per_m_ = 0, threshold_ = 0, softness_ = 0, noise_scale_ = 1;
 };
 

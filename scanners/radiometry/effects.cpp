@@ -6,8 +6,8 @@
 
 namespace standpoint {
 
-const std::array<EffectName, 25>& effectNames() {
-  static constexpr std::array<EffectName, 25> kNames = {{
+const std::array<EffectName, 26>& effectNames() {
+  static constexpr std::array<EffectName, 26> kNames = {{
       {Effect::range_noise, "range-noise", "white range noise"},
       {Effect::angle_noise, "angle-noise", "angular jitter"},
       {Effect::bias, "bias", "systematic range and angle errors"},
@@ -33,6 +33,7 @@ const std::array<EffectName, 25>& effectNames() {
       {Effect::rough_mirrors, "rough-mirrors", "mirror images in wet or glossy rough surfaces"},
       {Effect::textures, "textures", "images on surfaces: posters, prints, joints"},
       {Effect::range_offset, "range-offset", "longer ranges on dark surfaces"},
+      {Effect::incidence_noise, "incidence-noise", "range noise of speckle on slanted surfaces"},
   }};
   return kNames;
 }

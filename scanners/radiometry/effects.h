@@ -38,6 +38,7 @@ enum class Effect : std::uint32_t {
   rough_mirrors = 1U << 22U,    // mirror images in what is not quite smooth: wet ground, varnish
   textures = 1U << 23U,         // images on surfaces scale the reflectance of their materials
   range_offset = 1U << 24U,     // a range is longer for little light than for much
+  incidence_noise = 1U << 25U,  // speckle moves the centre of a footprint on a slanted surface
 };
 
 class Effects {
@@ -52,7 +53,7 @@ class Effects {
 
  private:
   explicit constexpr Effects(std::uint32_t bits) : bits_(bits) {}
-  std::uint32_t bits_ = (1U << 25U) - 1;
+  std::uint32_t bits_ = (1U << 26U) - 1;
 };
 
 struct EffectName {
@@ -60,7 +61,7 @@ struct EffectName {
   std::string_view name;         // "range-noise"
   std::string_view description;  // what is left out without it
 };
-const std::array<EffectName, 25>& effectNames();
+const std::array<EffectName, 26>& effectNames();
 
 std::string effectList();  // the names, separated by commas
 // Everything but the listed ones: "striping,footprint". An unknown name is an error that lists the known ones.

@@ -117,6 +117,19 @@ STANDPOINT_INLINE void noise(SignalLanes& lanes, const Receiver& receiver, const
     lanes.sigma_m[k] = std::sqrt(floor + (1 + lanes.background[k]) * (shot + amplifier * inverse_x[k]) * inverse_x[k]);
 }
 
+STANDPOINT_INLINE void slant(SignalLanes& lanes, const Fluctuation& f) {
+  if (!f.slants) return fill(lanes.spread_m, 0);
+  constexpr float kLeastCosine = 0.01F;
+  const float speckle2 = f.speckle2, grains = f.grains, exit2 = f.exit2_m2, spread2 = f.spread2;
+  for (int k = 0; k < kSignalLanes; ++k) {
+    const float cosine = lanes.cosine[k] > kLeastCosine ? lanes.cosine[k] : kLeastCosine;
+    const float square = cosine * cosine, range2 = lanes.range_m[k] * lanes.range_m[k];
+    const float tangent2 = square < 1 ? (1 - square) / square : 0;
+    const float spot2 = exit2 + spread2 * range2;
+    lanes.spread_m[k] = std::sqrt(spot2 * tangent2 * (1.0F / 32) * speckle2 * range2 / (range2 + grains * spot2));
+  }
+}
+
 STANDPOINT_CLONES void receiveLanes(SignalLanes& lanes, const Receiver& receiver) {
   reflect(lanes);
   power(lanes, receiver);
@@ -125,6 +138,7 @@ STANDPOINT_CLONES void receiveLanes(SignalLanes& lanes, const Receiver& receiver
   fluctuate(lanes, receiver.fluctuation, inverse_x, measured);
   store(lanes, measured, receiver.low_db, receiver.high_db, receiver.levels);
   noise(lanes, receiver, inverse_x);
+  slant(lanes, receiver.fluctuation);
 }
 
 STANDPOINT_CLONES void powerLanes(SignalLanes& lanes, const Receiver& receiver, float* x) {
@@ -154,9 +168,10 @@ Receiver receiverOf(const Instrument& instrument, Effects effects, double extinc
   return receiver;
 }
 
-Fluctuation fluctuationOf(const Instrument& instrument, double dark, int passes) {
+Fluctuation fluctuationOf(const Instrument& instrument, Effects effects, double dark, int passes) {
   Fluctuation f;
-  f.any = true;
+  f.any = effects.has(Effect::amplitude_noise);
+  f.slants = effects.has(Effect::incidence_noise);
   const double average = 1.0 / passes, quarter_pi = std::numbers::pi / 4;
   const double grains = quarter_pi * instrument.amplitude.aperture_m / (1e-9 * instrument.wavelength_nm);
   f.jitter2 = static_cast<float>(average * instrument.amplitude.jitter * instrument.amplitude.jitter);
@@ -166,6 +181,14 @@ Fluctuation fluctuationOf(const Instrument& instrument, double dark, int passes)
   f.spread2 = static_cast<float>(instrument.divergence_rad * instrument.divergence_rad);
   f.dark = static_cast<float>(dark);
   return f;
+}
+
+double slantSpread_m(const Fluctuation& fluctuation, double range_m, double cosine) {
+  SignalLanes lanes{};
+  fill(lanes.range_m, static_cast<float>(range_m));
+  fill(lanes.cosine, static_cast<float>(cosine));
+  slant(lanes, fluctuation);
+  return static_cast<double>(lanes.spread_m[0]);
 }
 
 void receive(SignalLanes& lanes, const Receiver& receiver) { receiveLanes(lanes, receiver); }

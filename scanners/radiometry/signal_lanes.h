@@ -26,7 +26,8 @@ struct SignalLanes {
   float x[kSignalLanes];            // out
   float intensity[kSignalLanes];    // out: 10 lg of x as measured, between the instrument's limits as 0..1, in its
                                     // levels; raw: falls with range
-  float sigma_m[kSignalLanes];      // out
+  float sigma_m[kSignalLanes];      // out: of the receiver
+  float spread_m[kSignalLanes];     // out: σ of the range by speckle on a slanted surface
 };
 
 // How a measured amplitude strays, as a share of x: σ² = jitter² + ½ / (1 + K (D / R)²) + (dark / x)². The second is
@@ -34,12 +35,16 @@ struct SignalLanes {
 // receiver's opening that their contrast averages to 1/√M (Goodman 2007, Speckle Phenomena in Optics, ch. 4), and a
 // surface that is not smooth makes two independent patterns, one of each polarisation.
 struct Fluctuation {
-  bool any = false;
+  bool any = false;  // whether the amplitude strays at all
   float jitter2 = 0;
   float speckle2 = 0;               // ½, or less where passes are averaged
   float grains = 0;                 // K
   float exit2_m2 = 0, spread2 = 0;  // D² = D0² + (γR)²
   float dark = 0;                   // σ of x without any light
+  // The same grains move the centre of the footprint, and on a slanted surface the range: by first order in their
+  // contrast σ² = (D / 2)² tan² θ / 8M, of a Gaussian beam of the diameter D (1/e²), whose square has a variance of
+  // (D / 2)² / 8 across (docs/explanation/physics.md).
+  bool slants = false;
 };
 
 // What an instrument makes of them. An effect that is off has the figure that does nothing.
@@ -58,7 +63,10 @@ struct Receiver {
 Receiver receiverOf(const Instrument& instrument, Effects effects, double extinction_per_m);
 
 // `dark` is the σ of x that the receiver has without any light: that of the detection threshold.
-Fluctuation fluctuationOf(const Instrument& instrument, double dark, int passes);
+Fluctuation fluctuationOf(const Instrument& instrument, Effects effects, double dark, int passes);
+
+// σ of the range by speckle on a slanted surface, as the lanes have it.
+double slantSpread_m(const Fluctuation& fluctuation, double range_m, double cosine);
 
 void receive(SignalLanes& lanes, const Receiver& receiver);
 // Only x, and 0 instead of its least.
