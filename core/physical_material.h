@@ -49,6 +49,7 @@ struct PhysicalMaterial {
   double gap_m = 0;                         // … so far apart
   double variation = 0;                     // coefficient of variation of the reflectance within the class; 0 = a gap
   double texture_scale_m = 0;               // correlation length on one surface; 0 = a gap
+  double surface_variation = 0;             // coefficient of variation from one surface to another; 0 = by `variation`
   double retro_gain = 0;                    // of a retroreflector over a white Lambert surface seen head-on; 0 = none
   std::string wet_of;                       // the dry material whose figures were wetted …
   double water_film_m = 0;        // … with so much water on it; what it absorbs is taken off the reflectance

@@ -27,6 +27,7 @@ constexpr Figure kFigures[] = {
     {"thickness_m", &PhysicalMaterial::thickness_m, 1e-5, 1},
     {"gap_m", &PhysicalMaterial::gap_m, 1e-3, 0.1},
     {"variation", &PhysicalMaterial::variation, 0, 3},
+    {"surface_variation", &PhysicalMaterial::surface_variation, 0, 3},
     {"texture_scale_m", &PhysicalMaterial::texture_scale_m, 1e-4, 100},
     {"retro_gain", &PhysicalMaterial::retro_gain, 1, 1e5},
     {"water_film_m", &PhysicalMaterial::water_film_m, 1e-6, 0.01},
@@ -34,9 +35,10 @@ constexpr Figure kFigures[] = {
 
 // What a source may be given for, and has to be where the entry has it.
 constexpr const char* kSourced[] = {
-    "wet_of",        "reflectance", "roughness_rad",   "gloss_slope",   "index_of_refraction",
-    "complex_index", "group_index", "thickness_m",     "transmittance", "panes",
-    "gap_m",         "variation",   "texture_scale_m", "retro_gain",    "water_film_m"};
+    "wet_of",        "reflectance", "roughness_rad",     "gloss_slope",     "index_of_refraction",
+    "complex_index", "group_index", "thickness_m",       "transmittance",   "panes",
+    "gap_m",         "variation",   "surface_variation", "texture_scale_m", "retro_gain",
+    "water_film_m"};
 
 // Rows of numbers within these ranges, each wavelength above the one before; `shape` is one row in words.
 using Row = std::vector<double>;

@@ -17,6 +17,7 @@ nlohmann::json gltfPhysicalMaterial(const PhysicalMaterial& m) {
   if (m.panes > 1) json["panes"] = m.panes;
   if (m.gap_m > 0) json["gapM"] = m.gap_m;
   if (m.variation > 0) json["variation"] = m.variation;
+  if (m.surface_variation > 0) json["surfaceVariation"] = m.surface_variation;
   if (m.texture_scale_m > 0) json["textureScaleM"] = m.texture_scale_m;
   if (m.retro_gain > 0) json["retroGain"] = m.retro_gain;
   if (!m.wet_of.empty()) json["wetOf"] = m.wet_of;

@@ -30,6 +30,7 @@ json physicalToJson(const PhysicalMaterial& m) {
           {"panes", m.panes},
           {"gap_m", m.gap_m},
           {"variation", m.variation},
+          {"surface_variation", m.surface_variation},
           {"texture_scale_m", m.texture_scale_m},
           {"retro_gain", m.retro_gain},
           {"wet_of", m.wet_of},
@@ -62,6 +63,7 @@ PhysicalMaterial physicalFrom(const json& j) {
   m.panes = j.value("panes", 1);
   m.gap_m = j.value("gap_m", 0.0);
   m.variation = j.value("variation", 0.0);
+  m.surface_variation = j.value("surface_variation", 0.0);
   m.texture_scale_m = j.value("texture_scale_m", 0.0);
   m.retro_gain = j.value("retro_gain", 0.0);
   m.wet_of = j.value("wet_of", "");

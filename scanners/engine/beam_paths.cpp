@@ -63,7 +63,7 @@ void BeamPaths::addEnd(const Ray& ray, const PanePassage& passage, const MetFace
   end.flags = static_cast<std::uint8_t>(ray.flags | (passage.gain() < 1 ? point_flag::kThroughPane : 0));
   const Eigen::Vector3d place = ray.origin + range_m * ray.direction;
   end.place = place.cast<float>();
-  if (met.painted) end.paint = plan_.paint->factor(met.facet, place);
+  end.paint = met.painted ? met.factor * plan_.paint->factor(met.facet, place) : met.factor;
   end.optics = met.optics;
   if (plan_.daylight)
     end.normal = (met.facet.normal * (met.facet.normal.dot(ray.direction) < 0 ? 1 : -1)).cast<float>();

@@ -14,8 +14,8 @@ struct PathEnd {
   double excess_m = 0;  // of the optical path, in glass
   float gain = 1;       // two ways, of panes, mirrors and the share of the beam
   float cosine = 1;
-  float paint = 1;                                   // of the diffuse reflectance, by an image on the surface
-  std::uint8_t flags = 0;                            // point_flag
+  float paint = 1;         // of the diffuse reflectance: what the surface is of its material, and an image on it
+  std::uint8_t flags = 0;  // point_flag
   Eigen::Vector3f place = Eigen::Vector3f::Zero();   // local frame
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // towards the light, where there is daylight; else not set
   const Optics* optics = nullptr;

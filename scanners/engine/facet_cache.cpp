@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "scanners/noise/surface_texture.h"
+
 namespace standpoint {
 
 FacetCache::FacetCache(const ScanPlan& plan) : plan_(plan), entries_(std::size_t{1} << kBits) {}
@@ -20,6 +22,11 @@ void FacetCache::lookUp(std::uint64_t number, MetFacet& entry) const {
   entry.material = assigned ? static_cast<std::uint32_t>(material) : plan_.unassignedLabel();
   entry.optics = &plan_.optics[assigned ? entry.material : entry.material + entry.facet.surface];
   entry.painted = assigned && plan_.paint && plan_.paint->paints(entry.facet);
+  if (assigned && plan_.surfaces_differ)
+    entry.factor =
+        surfaceFactor(plan_.surfaceKey(entry.facet.product, entry.facet.surface), entry.optics->surface_spread);
+  else
+    entry.factor = 1;
   // A retroreflector's gain is no figure of the lanes (signal_lanes.h).
   entry.plain =
       !entry.painted && !plan_.passes(*entry.optics) && !plan_.mirrors(*entry.optics) && entry.optics->retro_gain == 0;

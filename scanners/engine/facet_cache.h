@@ -17,6 +17,7 @@ struct MetFacet {
   std::uint32_t material = 0;  // label
   bool plain = true;           // light that meets it goes nowhere but back, and as much of it everywhere
   bool painted = false;        // an image scales its reflectance
+  float factor = 1;            // of the diffuse reflectance: this surface's over its material's
 
   // Is what a ray beside it meets the same surface to a beam? A facet in the same plane is, or one that bends away
   // gently.

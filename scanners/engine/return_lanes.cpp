@@ -32,10 +32,10 @@ void ReturnLanes::begin(const ScanPlan& plan, std::uint32_t first_row) {
   std::fill_n(deviation_m, kReturnLanes, 0.0F);
 }
 
-void ReturnLanes::setOptics(int lane, const Optics& of) {
-  if (optics[lane] == &of) return;
-  optics[lane] = &of;
-  signal.diffuse[lane] = of.diffuse;
+void ReturnLanes::setOptics(int lane, const Optics& of, float scale) {
+  if (optics[lane] == &of && factor[lane] == scale) return;
+  optics[lane] = &of, factor[lane] = scale;
+  signal.diffuse[lane] = std::min(1.0F, of.diffuse * scale);
   signal.roughness[lane] = of.roughness;
   signal.glint[lane] = of.glint;
   signal.steepness[lane] = of.steepness;
@@ -46,7 +46,7 @@ void ReturnLanes::setOptics(int lane, const Optics& of) {
 void ReturnLanes::setSurface(const ScanPlan& plan, int from, int to, const MetFacet& met) {
   const auto& colour = plan.colours[met.facet.surface];
   for (int k = from; k < to; ++k) {
-    setOptics(k, *met.optics);
+    setOptics(k, *met.optics, met.factor);
     product[k] = met.facet.product, material[k] = met.material;
     red[k] = colour[0], green[k] = colour[1], blue[k] = colour[2];
   }
@@ -54,7 +54,7 @@ void ReturnLanes::setSurface(const ScanPlan& plan, int from, int to, const MetFa
 
 void ReturnLanes::setEcho(const ScanPlan& plan, int lane, const PathEnd& end, const Echo& echo) {
   marked = true;
-  setOptics(lane, *end.optics);
+  setOptics(lane, *end.optics, end.paint);
   range_m[lane] = echo.range_m;
   signal.range_m[lane] = static_cast<float>(end.path_m);
   signal.cosine[lane] = end.cosine;

@@ -21,7 +21,8 @@ struct alignas(64) ReturnLanes {
   double range_m[kReturnLanes] = {};                          // as the light takes it, glass included
   float place_x[kReturnLanes] = {}, place_y[kReturnLanes] = {},
         place_z[kReturnLanes] = {};                                        // on the surface, local frame
-  const Optics* optics[kReturnLanes] = {};                                 // whose figures `signal` has
+  const Optics* optics[kReturnLanes] = {};                                 // whose figures `signal` has …
+  float factor[kReturnLanes] = {};                                         // … with this factor
   float variation[kReturnLanes] = {}, texture_scale_m[kReturnLanes] = {};  // of the optics
   std::uint32_t product[kReturnLanes] = {}, material[kReturnLanes] = {};
   std::uint8_t red[kReturnLanes] = {}, green[kReturnLanes] = {}, blue[kReturnLanes] = {};
@@ -38,7 +39,8 @@ struct alignas(64) ReturnLanes {
   ReturnLanes();
   // The rows from `first_row` on, a lane each.
   void begin(const ScanPlan& plan, std::uint32_t first_row);
-  void setOptics(int lane, const Optics& of);
+  // `scale`: of the diffuse reflectance.
+  void setOptics(int lane, const Optics& of, float scale);
   // The surface that the lanes `from` to `to` meet, but for where they do.
   void setSurface(const ScanPlan& plan, int from, int to, const MetFacet& met);
   void flag(int lane, std::uint8_t bits) {

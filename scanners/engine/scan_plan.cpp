@@ -104,11 +104,26 @@ ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignme
   for (const auto& material : assignment.materials) {
     optics.push_back(opticsOf(material, instrument.wavelength_nm));
     varies |= effects.has(Effect::variation) && optics.back().variation > 0;
+    surfaces_differ |= effects.has(Effect::variation) && optics.back().surface_spread > 0;
   }
   for (const auto& surface : scene.environment().surfaces) {
     optics.push_back(opticsOf(surface.colour));
     colours.push_back({byte(surface.colour.r), byte(surface.colour.g), byte(surface.colour.b)});
   }
+  if (surfaces_differ) findSurfaceKeys();
+}
+
+// A product by its GlobalId; where a format has none by its name and its place in the list.
+void ScanPlan::findSurfaceKeys() {
+  const Environment& environment = scene.environment();
+  for (std::size_t k = 0; k < environment.products.size(); ++k) {
+    const Product& product = environment.products[k];
+    const auto key = product.global_id.empty() ? stableHash(product.name.c_str(), stableHash(product.id.c_str())) + k
+                                               : stableHash(product.global_id.c_str());
+    product_keys.push_back(key);
+  }
+  for (std::size_t k = 0; k < environment.surfaces.size(); ++k)
+    surface_keys.push_back((stableHash(environment.surfaces[k].name.c_str()) + k) * 0x9E3779B97F4A7C15ULL);
 }
 
 }  // namespace standpoint

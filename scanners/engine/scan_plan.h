@@ -64,11 +64,13 @@ struct ScanPlan {
   double unambiguous_m = 0;                                // longer ranges are folded by it; 0 = they are not
   double farthest_m = 0;                                   // that light is followed
   double nearest_reported_m = 0, farthest_reported_m = 0;  // of measured ranges
-  PointFilters flags, drops;                         // of the points that the instrument's filters find fault with
-  bool varies = false;                               // some material is not the same everywhere
-  std::vector<double> sine, cosine;                  // of each row's elevation, in full packets
-  std::vector<Optics> optics;                        // materials, then surfaces without one
-  std::vector<std::array<std::uint8_t, 3>> colours;  // sRGB of each surface: what the camera sees, unshaded
+  PointFilters flags, drops;                              // of the points that the instrument's filters find fault with
+  bool varies = false;                                    // some material is not the same everywhere
+  bool surfaces_differ = false;                           // … on all surfaces
+  std::vector<std::uint64_t> product_keys, surface_keys;  // by what the environment calls them; where they differ
+  std::vector<double> sine, cosine;                       // of each row's elevation, in full packets
+  std::vector<Optics> optics;                             // materials, then surfaces without one
+  std::vector<std::array<std::uint8_t, 3>> colours;       // sRGB of each surface: what the camera sees, unshaded
 
   ScanPlan(const EmbreeScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,
            const ScanSettings& settings, const Trajectory& trajectory, const ScanOptions& options);
@@ -92,6 +94,10 @@ struct ScanPlan {
   }
   double rowStep_rad() const { return (settings.elevation_to_rad - settings.elevation_from_rad) / settings.rows; }
   double columnStep_rad() const { return (settings.azimuth_to_rad - settings.azimuth_from_rad) / settings.columns; }
+  // By which a surface of a product differs from others of its material: whoever scans it, and whenever.
+  std::uint64_t surfaceKey(std::uint32_t product, std::uint32_t surface) const {
+    return product_keys[product] ^ surface_keys[surface];
+  }
   // Whether beams have a width, and whether that of each is looked at: for reference, and of a scanner that moves.
   bool wideBeams() const { return options.effects.has(Effect::footprint) && options.quality != ScanQuality::preview; }
   bool forReference() const { return options.quality == ScanQuality::reference; }
@@ -100,6 +106,9 @@ struct ScanPlan {
   std::uint32_t endColumn() const { return std::min(options.end_column, settings.columns); }
   std::uint32_t nothingLabel() const { return static_cast<std::uint32_t>(scene.environment().products.size()); }
   std::uint32_t unassignedLabel() const { return static_cast<std::uint32_t>(assignment.materials.size()); }
+
+ private:
+  void findSurfaceKeys();
 };
 
 }  // namespace standpoint

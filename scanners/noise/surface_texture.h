@@ -14,4 +14,8 @@ constexpr int kTextureLanes = 16;
 void variation(const float* x_m, const float* y_m, const float* z_m, const float* coefficient, const float* scale_m,
                float* factor);
 
+// How one surface differs from another of its material: exp(σ g - σ²/2), with g of zero mean and unit variance, nearly
+// normal, that belongs to the key alone.
+float surfaceFactor(std::uint64_t key, float spread);
+
 }  // namespace standpoint

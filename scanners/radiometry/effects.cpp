@@ -20,7 +20,7 @@ const std::array<EffectName, 26>& effectNames() {
       {Effect::footprint, "footprint", "beam width: mixed points"},
       {Effect::panes, "panes", "transparency of glass"},
       {Effect::mirrors, "mirrors", "mirror images"},
-      {Effect::variation, "variation", "spatial variation of a material"},
+      {Effect::variation, "variation", "variation of a material on and between surfaces"},
       {Effect::saturation, "saturation", "range errors from saturation"},
       {Effect::quantisation, "quantisation", "intensity quantisation"},
       {Effect::levelling, "levelling", "compensator error at tilted stations"},

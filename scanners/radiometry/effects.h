@@ -25,7 +25,7 @@ enum class Effect : std::uint32_t {
   footprint = 1U << 9U,      // the beam has a width: mixed points at edges
   panes = 1U << 10U,         // glass lets light pass
   mirrors = 1U << 11U,       // what is smooth shows mirror images
-  variation = 1U << 12U,     // a material is not the same everywhere
+  variation = 1U << 12U,     // a material is not the same everywhere, nor on two surfaces
   saturation = 1U << 13U,    // too much light bends the range
   quantisation = 1U << 14U,  // the intensity is stored in steps
   levelling = 1U << 15U,     // the compensator's error: the file's pose is not the true one

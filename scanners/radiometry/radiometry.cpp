@@ -24,7 +24,7 @@ constexpr double kRoughestMirror = 0.0505;
 constexpr double kHemisphere = 0.0374;
 
 // A class varies from building to building; on one surface by half of that (physics.md §2.9, an engineering figure).
-constexpr double kOnOneSurface = 0.5;
+constexpr double kOnOneSurface = 0.5;  // … and what that leaves of the variance is between surfaces
 // Of weathering, 0.3 to 1 m there: for materials of which nobody measured it, which are all so far.
 constexpr double kUsualScale_m = 0.5;
 
@@ -62,6 +62,10 @@ Optics opticsOf(const PhysicalMaterial& material, double wavelength_nm) {
   optics.retro_gain = static_cast<float>(material.retro_gain);
   optics.variation = static_cast<float>(kOnOneSurface * material.variation);
   optics.texture_scale_m = static_cast<float>(material.texture_scale_m > 0 ? material.texture_scale_m : kUsualScale_m);
+  const double apart = material.surface_variation > 0
+                           ? material.surface_variation
+                           : std::sqrt(1 - kOnOneSurface * kOnOneSurface) * material.variation;
+  optics.surface_spread = static_cast<float>(std::sqrt(portable::log(1 + apart * apart)));
   return optics;
 }
 

@@ -32,6 +32,7 @@ struct Optics {
   float retro_gain = 0;               // over a white surface, within kRetroEntrance; 0 = none
   float variation = 0;                // coefficient of variation of the reflectance on one surface …
   float texture_scale_m = 0;          // … over this length
+  float surface_spread = 0;           // σ of its logarithm from one surface to another
 };
 
 // The reflectance that was measured comes back head-on, however rough: A only scales the albedo of the facets, which

@@ -46,6 +46,8 @@ std::uint64_t mix(std::uint64_t hash, const Spectrum& spectrum) {
 std::uint64_t mix(std::uint64_t hash, const PhysicalMaterial& m) {
   hash = mix(mix(mix(mix(hash, m.id), m.reflectance), m.transmittance), m.group_index);
   for (const auto& c : m.complex_index) hash = mix(hash, fmt::format("{} {} {}", c.wavelength_nm, c.n, c.k));
+  // Of materials that have it: those without keep the identity that they had before there was one.
+  if (m.surface_variation > 0) hash = mix(hash, fmt::format("surfaces {}", m.surface_variation));
   return mix(hash, fmt::format("{} {} {} {} {} {} {} {} {} {}", m.hemispherical, m.roughness_rad, m.gloss_slope,
                                m.index_of_refraction, m.thickness_m, m.panes, m.gap_m, m.variation, m.texture_scale_m,
                                m.retro_gain));

@@ -111,6 +111,7 @@ TEST(Library, NamesASourceWithItsLicenceOrSaysUnsourcedForEveryFigure) {
     EXPECT_EQ(sourceOf(material, "transmittance").empty(), material.transmittance.empty());
     EXPECT_EQ(sourceOf(material, "panes").empty(), material.panes == 1);
     EXPECT_EQ(sourceOf(material, "variation").empty(), material.variation == 0);
+    EXPECT_EQ(sourceOf(material, "surface_variation").empty(), material.surface_variation == 0);
     for (const auto& citation : material.sources) {
       EXPECT_TRUE(!citation.licence.empty() || citation.text.starts_with("unsourced"))
           << citation.figure << ": " << citation.text;
