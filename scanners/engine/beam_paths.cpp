@@ -10,7 +10,8 @@ namespace standpoint {
 
 namespace {
 
-constexpr int kMostMirrors = 2;
+constexpr int kMostMirrors = 8;
+constexpr int kUnboundedMirrors = 2;  // beyond, an image must be detectable even where all returns are kept
 // A rough mirror shows what is near; what is nearer still cannot be told from the mirror itself.
 constexpr double kShortestImage_m = 0.05;
 
@@ -82,13 +83,14 @@ void BeamPaths::reflect(const Ray& ray, const MetFacet& met, double range_m, dou
             .flags = static_cast<std::uint8_t>(ray.flags | point_flag::kMirrored),
             .mirrors = ray.mirrors + 1};
   // The brightest return that a surface gives apart from a glint is 1: a white one, seen head-on.
-  if (image.gain < plan_.threshold * image.travelled_m * image.travelled_m) return;
+  const double least = image.mirrors > kUnboundedMirrors ? plan_.drop_threshold : plan_.threshold;
+  if (image.gain < least * image.travelled_m * image.travelled_m) return;
   double left = plan_.farthest_m - image.travelled_m;
   const double beam = beamRadius(plan_.instrument, image.travelled_m);
   if (!met.optics->smooth && plan_.threshold > 0) {
     // By roughMirrorShare: at this way beyond the mirror nothing is bright enough any more.
-    const double least = plan_.threshold * image.travelled_m * image.travelled_m * 8 / image.gain;
-    left = std::min(left, beam / (met.optics->lobe_slope * std::sqrt(least)));
+    const double dimmest = plan_.threshold * image.travelled_m * image.travelled_m * 8 / image.gain;
+    left = std::min(left, beam / (met.optics->lobe_slope * std::sqrt(dimmest)));
     if (left < kShortestImage_m) return;
   }
   if (left <= kBehindFace_m) return;

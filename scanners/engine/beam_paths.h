@@ -25,7 +25,7 @@ struct PathEnd {
 constexpr std::uint32_t kNoSurface = ~0U;  // of drops, flakes, fog and dust
 
 // Follows light through panes (physics.md §4.6) and by way of mirrors (§4.7): of every surface on its way the return is
-// an end. A mirror image is followed while it could be detected at all, over at most two mirrors.
+// an end. A mirror image is followed while it could be detected at all, over at most eight mirrors.
 class BeamPaths {
  public:
   BeamPaths(const ScanPlan& plan, FacetCache& facets) : plan_(plan), facets_(facets) {}
