@@ -66,7 +66,7 @@ void BeamPaths::addEnd(const Ray& ray, const PanePassage& passage, const MetFace
   end.place = place.cast<float>();
   end.paint = met.painted ? met.factor * plan_.paint->factor(met.facet, place) : met.factor;
   end.optics = met.optics;
-  if (plan_.daylight)
+  if (plan_.daylight || plan_.field_of_view_rad > 0)
     end.normal = (met.facet.normal * (met.facet.normal.dot(ray.direction) < 0 ? 1 : -1)).cast<float>();
   end.product = met.facet.product, end.surface = met.facet.surface, end.material = met.material;
 }

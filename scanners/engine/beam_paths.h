@@ -17,7 +17,7 @@ struct PathEnd {
   float paint = 1;         // of the diffuse reflectance: what the surface is of its material, and an image on it
   std::uint8_t flags = 0;  // point_flag
   Eigen::Vector3f place = Eigen::Vector3f::Zero();   // local frame
-  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // towards the light, where there is daylight; else not set
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // towards the light, where somebody asks: daylight, corners
   const Optics* optics = nullptr;
   std::uint32_t product = 0, surface = 0, material = 0;
   float known_x = -1;  // received power of what is no surface; else below 0

@@ -37,11 +37,13 @@ std::array<std::uint32_t, 4> interferenceDraw(const ScanOptions& options, std::u
 
 }  // namespace
 
-ColumnTracer::ColumnTracer(const ScanPlan& plan, const EdgeMap* edges)
+ColumnTracer::ColumnTracer(const ScanPlan& plan, const EdgeMap* edges, const EdgeMap* corners)
     : plan_(plan),
       facets_(plan),
       paths_(plan, facets_),
       edges_(edges),
+      corners_(corners),
+      corner_light_(plan, facets_),
       column_(plan),
       wide_(plan, facets_, column_.seen()),
       points_(plan),
@@ -64,6 +66,7 @@ void ColumnTracer::traceColumn() {
   points_.begin(column_.column(), column_.ahead(), column_.lateral());
   writer_.beginColumn(column_.column());
   if (edges_ != nullptr) edges_->mark(column_, facets_, found_);
+  if (corners_ != nullptr) corners_->mark(column_, facets_, found_corners_);
   for (std::uint32_t first = 0; first < plan_.settings.rows; first += kPacket) traceRows(first);
 }
 
@@ -82,7 +85,8 @@ void ColumnTracer::traceRows(std::uint32_t first_row) {
   }
   const std::uint32_t rows = std::min<std::uint32_t>(kPacket, plan_.settings.rows - first_row);
   const std::uint32_t stray = straying(first_row, rows);
-  const std::uint32_t special = met.other | edges | stray;
+  const std::uint32_t corners = corners_ != nullptr ? found_corners_.rows(first_row) : 0;
+  const std::uint32_t special = met.other | edges | corners | stray;
   present &= met.plain & ~special;
   specials_.clear(), ends_.clear(), further_.clear();
   std::size_t next_wide = 0;
@@ -94,6 +98,7 @@ void ColumnTracer::traceRows(std::uint32_t first_row) {
     if (edge)
       while (!wide_[next_wide].several) ++next_wide;
     gatherEnds(row, edge ? &wide_[next_wide++] : nullptr);
+    if ((corners & left & -left) != 0) corner_light_.add(column_.beam(row), column_.column(), row, ends_, pulse.from);
     if ((stray & left & -left) != 0) gatherStray(row, pulse.from);
   }
   findPowers();

@@ -5,6 +5,7 @@
 
 #include "core/points.h"
 #include "scanners/engine/beam_paths.h"
+#include "scanners/engine/corner_light.h"
 #include "scanners/engine/edge_map.h"
 #include "scanners/engine/plane_lanes.h"
 #include "scanners/engine/point_lanes.h"
@@ -21,8 +22,8 @@ namespace standpoint {
 // a pane or a mirror the light is followed (beam_paths.h); the receiver makes echoes of what comes back (waveform.h).
 class ColumnTracer {
  public:
-  // `edges`: null where no beam is wide, or each is.
-  ColumnTracer(const ScanPlan& plan, const EdgeMap* edges);
+  // `edges`: null where no beam is wide, or each is; `corners`: null where they are not lit.
+  ColumnTracer(const ScanPlan& plan, const EdgeMap* edges, const EdgeMap* corners);
   void trace(std::uint32_t from, std::uint32_t to, PointBlock& block);
 
  private:
@@ -66,9 +67,10 @@ class ColumnTracer {
   const ScanPlan& plan_;
   FacetCache facets_;
   BeamPaths paths_;
-  const EdgeMap* edges_;
+  const EdgeMap *edges_, *corners_;
+  CornerLight corner_light_;
   ColumnHits column_;
-  ColumnEdges found_;
+  ColumnEdges found_, found_corners_;
   WideBeams wide_;  // of sixteen rows
   PlaneLanes planes_;
   ReturnLanes returns_;          // a row each

@@ -12,6 +12,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "scanners/engine/corner_light.h"
 #include "scanners/math/portable_math.h"
 
 namespace standpoint {
@@ -30,8 +31,9 @@ constexpr float kSteepest = 20;         // beyond it: tan of the incidence at wh
 // Cuts the edges that one thread deals with.
 class Cutter {
  public:
-  Cutter(const ScanPlan& plan, std::vector<EdgeMap::Piece>& pieces)
+  Cutter(const ScanPlan& plan, EdgeMap::Edges edges, std::vector<EdgeMap::Piece>& pieces)
       : plan_(plan),
+        half_field_rad_(edges == EdgeMap::Edges::corners ? plan.field_of_view_rad / 2 : 0),
         pieces_(pieces),
         row_step_(plan.rowStep_rad()),
         column_step_(plan.columnStep_rad()),
@@ -87,7 +89,8 @@ class Cutter {
 
   void append(const Place& from, const Place& to) {
     const double nearest = std::min(from.range_m, to.range_m);
-    const double radius = reach_ * beamRadius(plan_.instrument, nearest) / nearest;
+    const double radius =
+        half_field_rad_ > 0 ? half_field_rad_ : reach_ * beamRadius(plan_.instrument, nearest) / nearest;
     const double rows = radius / row_step_ + kMargin_rows;
     if (std::max(from.row, to.row) < -rows || std::min(from.row, to.row) > plan_.settings.rows + rows) return;
     const double steepest = std::max(std::abs(from.elevation_rad), std::abs(to.elevation_rad)) + rows * row_step_;
@@ -123,6 +126,7 @@ class Cutter {
   }
 
   const ScanPlan& plan_;
+  double half_field_rad_;  // instead of the beam's reach; 0 = the beam's
   std::vector<EdgeMap::Piece>& pieces_;
   double row_step_, column_step_, turn_columns_;
   double reach_ = kBeamEdge;
@@ -154,7 +158,7 @@ double reachOf(const ScanPlan& plan, const Eigen::Vector3d& from, const Eigen::V
 
 }  // namespace
 
-EdgeMap::EdgeMap(const ScanPlan& plan) : plan_(plan) {
+EdgeMap::EdgeMap(const ScanPlan& plan, Edges wanted) : plan_(plan) {
   struct Part {
     std::uint32_t placement, from, to;
   };
@@ -165,11 +169,11 @@ EdgeMap::EdgeMap(const ScanPlan& plan) : plan_(plan) {
     for (std::uint32_t from = 0; from < count; from += kPart) parts.push_back({k, from, std::min(count, from + kPart)});
   }
   const Pose pose = at(plan.trajectory, 0);
-  const Eigen::Affine3d scanner_from_local =
-      Eigen::Affine3d(Eigen::Translation3d(pose.translation) * pose.rotation).inverse();
+  const Eigen::Affine3d local_from_scanner(Eigen::Translation3d(pose.translation) * pose.rotation);
+  const Eigen::Affine3d scanner_from_local = local_from_scanner.inverse();
   tbb::enumerable_thread_specific<std::vector<Piece>> found;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, parts.size(), 16), [&](const auto& range) {
-    Cutter cutter(plan, found.local());
+    Cutter cutter(plan, wanted, found.local());
     for (std::size_t p = range.begin(); p < range.end(); ++p) {
       const Instance& instance = plan.scene.placed(parts[p].placement);
       const Mesh& mesh = *plan.scene.environment().meshes[instance.mesh];
@@ -182,6 +186,13 @@ EdgeMap::EdgeMap(const ScanPlan& plan) : plan_(plan) {
       for (std::uint32_t i = parts[p].from; i < parts[p].to; ++i) {
         const MeshEdge& edge = edges[i];
         const Eigen::Vector3d from = corner(edge.from), to = corner(edge.to);
+        if (wanted == Edges::corners) {
+          const bool ends = edge.right == kNoCorner;
+          const Eigen::Vector3d left = corner(edge.left), right = ends ? left : corner(edge.right);
+          if (isConcave(plan.scene, local_from_scanner, from, to, left, ends ? nullptr : &right))
+            cutter.add(BeamEdges::kRound, from, to, kBeamEdge);
+          continue;
+        }
         const double reach =
             edge.right == kNoCorner ? kBeamEdge : reachOf(plan, from, to, corner(edge.left), corner(edge.right));
         const std::uint64_t number = std::uint64_t{parts[p].placement} << 32U | i;

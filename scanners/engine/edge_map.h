@@ -48,7 +48,8 @@ class ColumnEdges {
 // that they reach: memory follows the outlines of the model, not the grid.
 class EdgeMap {
  public:
-  explicit EdgeMap(const ScanPlan& plan);
+  enum class Edges { outlines, corners };  // corners: concave, and as wide as the receiver's field of view
+  explicit EdgeMap(const ScanPlan& plan, Edges edges = Edges::outlines);
   // The rows of a column whose beams may hold an edge that the axis' surface does not hide; `hits` has been traced
   // throughout.
   void mark(const ColumnHits& hits, FacetCache& facets, ColumnEdges& found) const;

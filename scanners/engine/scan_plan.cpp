@@ -73,6 +73,8 @@ ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignme
   nearest_reported_m = std::max(instrument.min_range_m, settings.nearest_m);
   if (settings.farthest_m > 0) farthest_reported_m = std::min(farthest_reported_m, settings.farthest_m);
   if (effects.has(Effect::filters)) flags = instrument.filters, drops = settings.drops;
+  if (effects.has(Effect::multipath) && options.quality != ScanQuality::preview && !moves())
+    field_of_view_rad = instrument.waveform.field_of_view_rad;
   if (effects.has(Effect::interference)) interference = options.interference;
   if (effects.has(Effect::sun) && options.sun)
     daylight.emplace(scene, instrument, *options.sun, at(trajectory, 0).translation);

@@ -60,6 +60,7 @@ struct ScanPlan {
   std::optional<Scatterers> scatterers;
   std::optional<Daylight> daylight;
   std::optional<ReflectorHalo> halo;                       // only where there is a retroreflector
+  double field_of_view_rad = 0;                            // by which corners are lit; 0 = they are not
   double interference = 0;                                 // chance that a pulse finds another instrument's light
   double unambiguous_m = 0;                                // longer ranges are folded by it; 0 = they are not
   double farthest_m = 0;                                   // that light is followed

@@ -47,6 +47,7 @@ struct RangeNoise {
 struct Waveform {
   double pulse_width_s = 0;      // FWHM; time of flight
   double fine_wavelength_m = 0;  // L: half of the finest tone's modulation wavelength; phase shift
+  double field_of_view_rad = 0;  // of a phase-shift receiver, full angle; 0 = it sees nothing beside the beam
   int max_returns = 1;           // that are reported of one pulse; the strongest where it is one
 };
 

@@ -207,10 +207,13 @@ class InstrumentReader : FigureReader {
   void readWaveform(Group& root) {
     Group group = child(root, "waveform");
     auto& waveform = instrument_.waveform;
-    if (instrument_.technology == "phase_shift")
+    if (instrument_.technology == "phase_shift") {
       waveform.fine_wavelength_m = figure(group, "fine_wavelength_m", {0.01, 1000});
-    else
+      if (group.fields.has("field_of_view_mrad"))
+        waveform.field_of_view_rad = figure(group, "field_of_view_mrad", {0, 100, 1e-3});
+    } else {
       waveform.pulse_width_s = figure(group, "pulse_width_ns", {0.01, 1000, 1e-9});
+    }
     waveform.max_returns = count(group, "most_returns", {1, 255});
     group.fields.close();
   }

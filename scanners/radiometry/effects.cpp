@@ -6,8 +6,8 @@
 
 namespace standpoint {
 
-const std::array<EffectName, 26>& effectNames() {
-  static constexpr std::array<EffectName, 26> kNames = {{
+const std::array<EffectName, 27>& effectNames() {
+  static constexpr std::array<EffectName, 27> kNames = {{
       {Effect::range_noise, "range-noise", "white range noise"},
       {Effect::angle_noise, "angle-noise", "angular jitter"},
       {Effect::bias, "bias", "systematic range and angle errors"},
@@ -34,6 +34,7 @@ const std::array<EffectName, 26>& effectNames() {
       {Effect::textures, "textures", "images on surfaces: posters, prints, joints"},
       {Effect::range_offset, "range-offset", "longer ranges on dark surfaces"},
       {Effect::incidence_noise, "incidence-noise", "range noise of speckle on slanted surfaces"},
+      {Effect::multipath, "multipath", "rounded corners of phase-shift instruments"},
   }};
   return kNames;
 }

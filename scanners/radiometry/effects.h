@@ -39,6 +39,7 @@ enum class Effect : std::uint32_t {
   textures = 1U << 23U,         // images on surfaces scale the reflectance of their materials
   range_offset = 1U << 24U,     // a range is longer for little light than for much
   incidence_noise = 1U << 25U,  // speckle moves the centre of a footprint on a slanted surface
+  multipath = 1U << 26U,        // light from a corner's one surface to the other and back to a phase-shift receiver
 };
 
 class Effects {
@@ -53,7 +54,7 @@ class Effects {
 
  private:
   explicit constexpr Effects(std::uint32_t bits) : bits_(bits) {}
-  std::uint32_t bits_ = (1U << 26U) - 1;
+  std::uint32_t bits_ = (1U << 27U) - 1;
 };
 
 struct EffectName {
@@ -61,7 +62,7 @@ struct EffectName {
   std::string_view name;         // "range-noise"
   std::string_view description;  // what is left out without it
 };
-const std::array<EffectName, 26>& effectNames();
+const std::array<EffectName, 27>& effectNames();
 
 std::string effectList();  // the names, separated by commas
 // Everything but the listed ones: "striping,footprint". An unknown name is an error that lists the known ones.
