@@ -15,6 +15,7 @@
 #include "project/survey/register_verb.h"
 #include "project/survey/survey_verbs.h"
 #include "project/survey/underlays.h"
+#include "project/survey/waveform_verb.h"
 #include "project/verb.h"
 #include "project/verbs/file_verbs.h"
 
@@ -75,6 +76,8 @@ const std::vector<Verb>& table() {
       carriedOver(verbOf("scan", "Scan from the stations with an instrument into point-cloud files", S::changes,
                          scanFields(), runScan),
                   scansCarriedOver),
+      verbOf("waveform", "Write what the receiver gets of one pulse, bin by bin, to a CSV file", S::reads,
+             waveformFields(), runWaveform),
       verbOf("register",
              "Solve the stations' poses from their scans, by targets or cloud to cloud, with residuals and true errors",
              S::changes, registerFields(), runRegister),

@@ -17,20 +17,6 @@ constexpr std::uint32_t kFurtherReturns = 16;
 constexpr std::uint32_t kInterferenceChannel = 8;
 constexpr std::uint64_t kOverwritten = kNoFacet - 1;  // instead of the number of a facet
 
-void setLane(SignalLanes& lanes, std::size_t k, const PathEnd& end) {
-  lanes.range_m[k] = static_cast<float>(end.path_m);
-  lanes.cosine[k] = end.cosine;
-  lanes.gain[k] = end.gain;
-  lanes.known_x[k] = end.known_x;
-  lanes.diffuse[k] = std::min(1.0F, end.optics->diffuse * end.paint);
-  lanes.roughness[k] = end.optics->roughness;
-  lanes.glint[k] = end.optics->glint, lanes.steepness[k] = end.optics->steepness;
-  if (retroEquivalent(*end.optics, end.cosine) == 0) return;
-  // A retroreflector's gain is no figure of the lanes: as the Lambert surface that sends as much back.
-  lanes.diffuse[k] = lambertEquivalent(*end.optics, end.cosine) / end.cosine;
-  lanes.roughness[k] = 0, lanes.glint[k] = 0;
-}
-
 std::array<std::uint32_t, 4> interferenceDraw(const ScanOptions& options, std::uint32_t column, std::uint32_t row) {
   return philox({options.seed, options.station_key}, column, row, kInterferenceChannel);
 }
@@ -46,11 +32,10 @@ ColumnTracer::ColumnTracer(const ScanPlan& plan, const EdgeMap* edges, const Edg
       corner_light_(plan, facets_),
       column_(plan),
       wide_(plan, facets_, column_.seen()),
+      powers_(plan.receiver),
       points_(plan),
       writer_(plan) {
   std::fill_n(held_, kPacket, kOverwritten);
-  std::fill_n(signal_.variation, kSignalLanes, 1.0F);
-  std::fill_n(signal_.range_m, kSignalLanes, 1.0F);
 }
 
 void ColumnTracer::trace(std::uint32_t from, std::uint32_t to, PointBlock& block) {
@@ -101,10 +86,11 @@ void ColumnTracer::traceRows(std::uint32_t first_row) {
     if ((corners & left & -left) != 0) corner_light_.add(column_.beam(row), column_.column(), row, ends_, pulse.from);
     if ((stray & left & -left) != 0) gatherStray(row, pulse.from);
   }
-  findPowers();
+  const std::vector<float>& powers = powers_.of(ends_);
   for (std::size_t i = 0; i < specials_.size(); ++i) {
     const std::size_t to = i + 1 < specials_.size() ? specials_[i + 1].from : ends_.size();
-    if (addEchoes(specials_[i].lane, specials_[i].from, to)) present |= 1U << static_cast<unsigned>(specials_[i].lane);
+    if (addEchoes(powers, specials_[i].lane, specials_[i].from, to))
+      present |= 1U << static_cast<unsigned>(specials_[i].lane);
   }
   if (present == 0) return;
   points_.drawRows(first_row, returns_);
@@ -309,22 +295,11 @@ void ColumnTracer::light(ReturnLanes& r, int count) {
   }
 }
 
-// What comes back of each end, sixteen at a time.
-void ColumnTracer::findPowers() {
-  const std::size_t batches = (ends_.size() + kSignalLanes - 1) / kSignalLanes;
-  powers_.resize(batches * kSignalLanes);
-  for (std::size_t batch = 0; batch < batches; ++batch) {
-    const std::size_t from = batch * kSignalLanes, to = std::min(from + kSignalLanes, ends_.size());
-    for (std::size_t i = from; i < to; ++i) setLane(signal_, i - from, ends_[i]);
-    receivePower(signal_, plan_.receiver, powers_.data() + from);
-  }
-}
-
 // The first echo of the ends takes the pulse's lane.
-bool ColumnTracer::addEchoes(int lane, std::size_t from, std::size_t to) {
+bool ColumnTracer::addEchoes(const std::vector<float>& powers, int lane, std::size_t from, std::size_t to) {
   contributions_.clear();
   for (std::size_t i = from; i < to; ++i)
-    contributions_.push_back({ends_[i].path_m + ends_[i].excess_m, powers_[i], static_cast<int>(i)});
+    contributions_.push_back({ends_[i].path_m + ends_[i].excess_m, powers[i], static_cast<int>(i)});
   receiveEchoes(plan_.instrument.waveform, contributions_, echoes_);
   std::uint32_t returns = 0;
   for (const Echo& echo : echoes_) {

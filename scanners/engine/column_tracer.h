@@ -7,6 +7,7 @@
 #include "scanners/engine/beam_paths.h"
 #include "scanners/engine/corner_light.h"
 #include "scanners/engine/edge_map.h"
+#include "scanners/engine/end_powers.h"
 #include "scanners/engine/plane_lanes.h"
 #include "scanners/engine/point_lanes.h"
 #include "scanners/engine/point_writer.h"
@@ -60,8 +61,7 @@ class ColumnTracer {
   std::uint32_t reported(std::uint32_t lanes);
   void setNormals(const AxisLanes& axes, std::uint32_t lanes);
   void light(ReturnLanes& returns, int count);
-  void findPowers();
-  bool addEchoes(int lane, std::size_t from, std::size_t to);
+  bool addEchoes(const std::vector<float>& powers, int lane, std::size_t from, std::size_t to);
   void writeSeveral(std::uint32_t detected);
 
   const ScanPlan& plan_;
@@ -79,8 +79,7 @@ class ColumnTracer {
   bool held_ball_ = false;  // one of them: its plane is another for each beam
   std::vector<Special> specials_;
   std::vector<PathEnd> ends_;  // of all of them
-  std::vector<float> powers_;  // that comes back from the ends
-  SignalLanes signal_{};
+  EndPowers powers_;
   std::vector<Contribution> contributions_;
   std::vector<Echo> echoes_;
   std::vector<Further> further_;

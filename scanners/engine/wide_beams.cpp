@@ -7,12 +7,6 @@
 
 namespace standpoint {
 
-namespace {
-
-constexpr std::uint32_t kFootprintChannel = 9;
-
-}  // namespace
-
 void WideBeams::add(std::uint32_t column, std::uint32_t row, const NearestHit& axis, const Beam& beam,
                     const BeamEdges* edges) {
   if (count_ == beams_.size()) beams_.emplace_back();
