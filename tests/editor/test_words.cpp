@@ -283,7 +283,7 @@ TEST_F(Words, HaveTheErrorsOfTheRoomsBelow) {
   std::set<std::string> missing;
   std::size_t known = 0;
   for (const char* room :
-       {"core", "emulated-ui", "importers", "optimizer", "pointclouds", "project", "scanners", "survey"})
+       {"core", "emulated-ui", "importers", "materials", "optimizer", "pointclouds", "project", "scanners", "survey"})
     for (const auto& entry : std::filesystem::recursive_directory_iterator(std::string(SOURCE_DIR "/") + room)) {
       if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
       const auto source = allOf(entry.path());
@@ -294,8 +294,26 @@ TEST_F(Words, HaveTheErrorsOfTheRoomsBelow) {
           else
             missing.insert(placeIn(entry.path(), source, i) + text);
     }
-  EXPECT_GT(known, 200u);
+  EXPECT_GT(known, 1000u);
   EXPECT_THAT(missing, IsEmpty()) << "add them to editor/words/*.po with msgctxt \"sentence\":" << oneALine(missing);
+}
+
+TEST_F(Words, TranslateWhatIsComposedOfSeveral) {
+  speak("de");
+  EXPECT_EQ(trSentence("the geometry is 12 km from the file's origin; if these are map coordinates, specify their "
+                       "coordinate reference system"),
+            "Die Geometrie ist 12 km vom Ursprung der Datei entfernt; sind es Kartenkoordinaten, ihr "
+            "Koordinatenreferenzsystem angeben");
+  EXPECT_EQ(trSentence("'EPSG' is not an EPSG code; specify it by its EPSG code"),
+            "„EPSG“ ist kein EPSG-Code; durch seinen EPSG-Code angeben")
+      << "a remedy at the end";
+  EXPECT_EQ(trSentence("'9999' is not an EPSG code"), "„9999“ ist kein EPSG-Code") << "or none";
+  EXPECT_EQ(trSentence("cannot write: No space left on device; free some space or choose another location"),
+            "Lässt sich nicht schreiben: Datenträger voll; Speicherplatz freigeben oder einen anderen Ort wählen");
+  speak("uk");
+  EXPECT_EQ(trSentence("no rule matches surface 'Fabric' of IfcChair 'A' and 3 more (2.50 m²)"),
+            "Жодне правило не підходить: Поверхня «Fabric», IfcChair 'A' і ще 3 (2.50 m²)")
+      << "a finding";
 }
 
 TEST_F(Words, AreTranslatedForEveryVerbAndOption) {
