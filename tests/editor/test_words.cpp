@@ -239,12 +239,12 @@ TEST_F(Words, AreTranslatedWhereTheSourcesHaveThem) {
 // the second (the only one where there is no second), or all.
 enum class Said { first, second, all };
 const std::map<std::string, Said> kSaid = {
-    {"failure", Said::second},     {"Error", Said::second}, {"broken", Said::second}, {"unusable", Said::second},
-    {"wrong", Said::second},       {"fault", Said::second}, {"fail", Said::second},   {"misread", Said::second},
-    {"lose", Said::second},        {"warn", Said::second},  {"note", Said::second},   {"tolerate", Said::second},
-    {"error", Said::second},       {"say", Said::second},   {"Lost", Said::second},   {"Kind", Said::second},
-    {"figure", Said::second},      {"count", Said::first},  {"unknown", Said::first}, {"worstScan", Said::first},
-    {"worstStation", Said::first}, {"Refusal", Said::all}};
+    {"failure", Said::second},  {"Error", Said::second},       {"broken", Said::second}, {"unusable", Said::second},
+    {"wrong", Said::second},    {"fault", Said::second},       {"fail", Said::second},   {"misread", Said::second},
+    {"lose", Said::second},     {"warn", Said::second},        {"note", Said::second},   {"tolerate", Said::second},
+    {"error", Said::second},    {"say", Said::second},         {"Lost", Said::second},   {"Kind", Said::second},
+    {"figure", Said::second},   {"count", Said::first},        {"stage", Said::first},   {"unknown", Said::first},
+    {"worstScan", Said::first}, {"worstStation", Said::first}, {"Refusal", Said::all}};
 
 // What is before the bracket at `at`.
 std::string nameBefore(const std::string& source, std::size_t at) {
