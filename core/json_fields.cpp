@@ -75,7 +75,7 @@ double numberAt(JsonFault& fault, const nlohmann::json& value, const std::string
 
 JsonFields::JsonFields(JsonFault& fault, const nlohmann::json& object, std::string pointer)
     : fault_(fault), object_(object.is_object() ? object : kNothing), pointer_(std::move(pointer)) {
-  if (!object.is_object()) fault_.say(pointer_, fmt::format("must be an object, in {{ }}, not {}", described(object)));
+  if (!object.is_object()) fault_.say(pointer_, fmt::format("must be an object in braces, not {}", described(object)));
 }
 
 bool JsonFields::has(std::string_view key) const { return object_.contains(key); }

@@ -198,9 +198,10 @@ Result<SurfaceFit> fitToSurface(std::span<const Vector3d> points, const Pose& st
     progress.advance(static_cast<double>(fit.iterations) / options.max_iterations);
     place(round, points, fit.to_from);
     if (touch(round, search, reach) < kFewest)
-      return failure(ErrorKind::unusable,
-                     "fewer than 100 points are near a surface: place the cloud with --pairs first, or increase the "
-                     "search distance");
+      return failure(
+          ErrorKind::unusable,
+          "fewer than 100 points are near a surface: place the cloud by pairs of points first, or increase the "
+          "search distance");
     const bool closed_in = reach <= options.min_reach_m;
     weigh(round, closed_in ? 0 : reach);
     equations = assemble(round);

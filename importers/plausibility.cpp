@@ -103,7 +103,7 @@ class Judge {
     else
       warn(
           fmt::format("the model consists of two parts {} apart, with {} and {} products (the smaller with {}): if "
-                      "these are two models, import them separately with --shift",
+                      "these are two models, import them separately, each with a shift of its own",
                       size(gap), below.size(), above.size(), names(above)));
     placed_ = std::move(below);
     ++apart_;
@@ -165,13 +165,13 @@ class Judge {
     for (const auto& [name, metres] : kUnits)
       if (const double off = std::abs(std::log(measured * metres / metres_per_unit_ / typical)); off < best_off)
         best = name, best_off = off;
-    return best ? fmt::format("; if coordinates are in {}, import with --unit {}", best, best)
+    return best ? fmt::format("; if the coordinates are in {}, import the model with this unit", best)
                 : std::string("; correct it in the model");
   }
 
   void tellLying(const std::string& finding) {
     const char* other = up_ == UpAxis::y ? "z" : "y";
-    warn(fmt::format("{}: the model may be rotated; if its {} axis points up, import with --up {}", finding, other,
+    warn(fmt::format("{}: the model may be rotated; if its {} axis points up, import it with this axis up", finding,
                      other));
   }
 
@@ -235,11 +235,12 @@ class Judge {
         (-shift).cwiseMax(all.min).cwiseMin(all.max) + shift;  // point of the bounds next to the file's origin
     if (nearest.norm() < kFar_m) return;
     std::string text = fmt::format("the geometry is {} from the file's origin", size(nearest.norm()));
-    if (shift.isZero()) return warn(text + " and not shifted, so coordinates lose precision; import with --shift auto");
+    if (shift.isZero())
+      return warn(text + " and not shifted, so coordinates lose precision; import the model with an automatic shift");
     text += fmt::format("; a global shift of {:.0f} {:.0f} {:.0f} is applied internally and reversed on export",
                         shift.x(), shift.y(), shift.z());
     if (!model_.georeference.map_from_file && model_.georeference.crs.empty())
-      text += "; if these are map coordinates, specify --crs EPSG:n";
+      text += "; if these are map coordinates, specify their coordinate reference system";
     model_.report.note("model", text);
   }
 

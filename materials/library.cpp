@@ -66,7 +66,7 @@ Result<void> readMaterials(const LibraryFile& file, const SourceTable& sources, 
     const auto id = material.id;
     const auto [place, is_new] = entries.try_emplace(id, Entry{std::move(material), at});
     if (!is_new)
-      return (at / "id").unusable("'" + id + "' is already defined in " + place->second.at.file + ' ' +
+      return (at / "id").unusable("'" + id + "' is already defined in " + place->second.at.file + " " +
                                   place->second.at.pointer);
   }
   return {};

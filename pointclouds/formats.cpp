@@ -99,8 +99,9 @@ class ExtentSink final : public PointSink {
 Result<const CloudFormat*> known(const std::filesystem::path& file) {
   if (const CloudFormat* format = cloudFormatFor(file)) return format;
   std::string extensions;
-  for (const CloudFormat& format : cloudFormats()) extensions += std::string(" ") + format.extension;
-  return failure(ErrorKind::usage, "no point-cloud format has this extension; known are" + extensions, file.string());
+  for (const CloudFormat& format : cloudFormats())
+    extensions += std::string(extensions.empty() ? "" : ", ") + format.extension;
+  return failure(ErrorKind::usage, "no point-cloud format has this extension; use " + extensions, file.string());
 }
 
 }  // namespace
@@ -126,7 +127,8 @@ Result<CloudFormat::Writer> writerOf(const CloudFormat& format, const std::strin
   }
   return failure(
       ErrorKind::usage,
-      std::string(format.name) + " has no variant '" + as + "'" + (names.empty() ? "" : "; there is " + names), "--as");
+      std::string(format.name) + " has no variant '" + as + "'" + (names.empty() ? "" : "; available: " + names),
+      "--as");
 }
 
 const CloudFormat* readableCloudFormat(const std::filesystem::path& file) {

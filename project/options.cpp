@@ -104,9 +104,7 @@ Result<Outcome> runVerb(const Verb& verb, const Document& document, const json& 
   if (takes_document && !document.imported)
     return failure(ErrorKind::usage, "there is no model: import one first", verb.name);
   if (takes_document && !document.hasModel() && !verb.without_model)
-    return failure(ErrorKind::usage,
-                   "the project has point clouds and no model: add one first, with `standpoint add PROJECT FILE`",
-                   verb.name);
+    return failure(ErrorKind::usage, "the project has point clouds and no model: add a model first", verb.name);
   try {
     return verb.run(document, complete, progress);
   } catch (const std::bad_alloc&) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "editor/words/sentences.h"
+
 namespace standpoint {
 
 namespace {
@@ -89,7 +91,7 @@ std::shared_ptr<const PanoramaRead> PanoramaView::result() const {
 
 std::string PanoramaView::problem() const {
   const auto* answer = latest_.answer();
-  return answer == nullptr || *answer ? std::string() : describe(answer->error());
+  return answer == nullptr || *answer ? std::string() : trError(answer->error());
 }
 
 }  // namespace standpoint

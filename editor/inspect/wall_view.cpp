@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "editor/words/sentences.h"
 #include "editor/words/words.h"
 
 namespace standpoint {
@@ -75,7 +76,7 @@ std::shared_ptr<const WallResult> WallView::result() const {
 
 std::string WallView::problem() const {
   const auto* answer = latest_.answer();
-  return answer == nullptr || *answer ? std::string() : describe(answer->error());
+  return answer == nullptr || *answer ? std::string() : trError(answer->error());
 }
 
 }  // namespace standpoint

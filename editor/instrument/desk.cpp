@@ -9,6 +9,7 @@
 
 #include "core/units.h"
 #include "editor/instrument/preview_picture.h"
+#include "editor/words/sentences.h"
 #include "editor/words/words.h"
 #include "emulated-ui/classroom/dates.h"
 #include "emulated-ui/classroom/signed_result.h"
@@ -104,7 +105,7 @@ void act(InstrumentDesk& desk, const RehearsalAction& action) {
     done = desk.shown()->hand(action.name, action.value);
   else if (action.kind == Kind::wait)
     desk.shown()->tick(action.seconds);
-  desk.said = done ? desk.shown()->state().moved_along : done.error().message;
+  desk.said = done ? desk.shown()->state().moved_along : trSentence(done.error().message);
   desk.view.pointed.clear();
   if (done && desk.records()) desk.recording->note(action, *desk.shown());
 }
@@ -147,7 +148,7 @@ void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& de
   desk.said.clear();
   auto type = loadDevice(device, instrument);
   if (!type) {
-    desk.problem = describe(type.error());
+    desk.problem = trError(type.error());
     return;
   }
   desk.scanners = scannersOf(**type);
@@ -156,7 +157,7 @@ void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& de
   auto& state = desk.host->device().change();
   if (state.values.contains("language")) state.values["language"] = state.language = spoken();
   if (auto recalled = desk.host->remember(scansFolder(editor)); !recalled)
-    desk.refused = trf("The device memory was lost: {}", describe(recalled.error()));
+    desk.refused = trf("The device memory was lost: {}", trError(recalled.error()));
   desk.last = std::chrono::steady_clock::now();
 }
 
@@ -296,7 +297,7 @@ void takeFieldWork(InstrumentDesk& desk, const Session& session, std::string_vie
   } else {
     Progress quiet;
     const auto done = desk.rehearsal->act(action, quiet);
-    desk.said = done ? std::string() : done.error().message;
+    desk.said = done ? std::string() : trSentence(done.error().message);
   }
 }
 
@@ -335,7 +336,7 @@ void openAssignment(InstrumentDesk& desk, const fs::path& file) {
   if (read)
     desk.assignment = *std::move(read);
   else
-    desk.refused = describe(read.error());
+    desk.refused = trError(read.error());
 }
 
 const Exercise* assignedExercise(InstrumentDesk& desk) {
@@ -360,7 +361,7 @@ std::string whyNotStartAssigned(const InstrumentDesk& desk) {
 void startAssigned(InstrumentDesk& desk, Editor& editor) {
   const auto exercise = desk.assignment->exerciseWith(*desk.assignment->variantOf(desk.student));
   if (!exercise) {
-    desk.refused = describe(exercise.error());
+    desk.refused = trError(exercise.error());
     return;
   }
   startExercise(desk, editor, *exercise);
@@ -379,12 +380,12 @@ void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercis
   auto rehearsal = Rehearsal::start(exercise, isFor(exercise, desk.device->id) ? desk.device->id : std::string(),
                                     folder, editor.wake, quiet);
   if (!rehearsal) {
-    desk.refused = describe(rehearsal.error());
+    desk.refused = trError(rehearsal.error());
     return;
   }
   const auto project = folder / folderName(exercise, (*rehearsal)->device().state().language);
   if (auto saved = saveProject((*rehearsal)->document(), project, quiet); !saved) {
-    desk.refused = describe(saved.error());
+    desk.refused = trError(saved.error());
     return;
   }
   if (!editor.session.open(project)) return;
@@ -414,12 +415,12 @@ void finishExercise(InstrumentDesk& desk, Editor& editor) {
         TRY_ASSIGN(auto marks, marksOf(rehearsal, student, language, progress));
         Graded graded{std::move(marks), {}, {}};
         if (auto written = writeMarks(rehearsal, graded.marks, folder); !written)
-          graded.refused = describe(written.error());
+          graded.refused = trError(written.error());
         if (!assignment) return graded;
         if (auto result = writeResult(rehearsal, graded.marks, *assignment, started, folder))
           graded.result = *std::move(result);
         else
-          graded.refused = describe(result.error());
+          graded.refused = trError(result.error());
         return graded;
       },
       editor.wake);
@@ -429,7 +430,7 @@ void takeMarks(InstrumentDesk& desk, Editor& editor) {
   if (!desk.marking || !desk.marking->done()) return;
   auto graded = std::exchange(desk.marking, nullptr)->take();
   if (!graded) {
-    if (graded.error().kind != ErrorKind::cancelled) desk.refused = describe(graded.error());
+    if (graded.error().kind != ErrorKind::cancelled) desk.refused = trError(graded.error());
     return;
   }
   desk.marks = std::move(graded->marks);

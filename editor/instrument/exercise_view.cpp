@@ -11,6 +11,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/sentences.h"
 #include "emulated-ui/classroom/dates.h"
 #include "emulated-ui/device/format.h"
 #include "emulated-ui/rehearsal/marks.h"
@@ -39,7 +40,7 @@ void readExercises(InstrumentDesk& desk) {
   auto known = knownExercises();
   desk.exercises = std::move(known.readable);
   desk.exercises_refused.clear();
-  for (const auto& error : known.refused) desk.exercises_refused.push_back(describe(error));
+  for (const auto& error : known.refused) desk.exercises_refused.push_back(trError(error));
 }
 
 // The exercise that the student's lecturer gave; true: it was started.
@@ -145,7 +146,7 @@ void takeProof(InstrumentDesk& desk) {
   if (!desk.proving || !desk.proving->done()) return;
   const auto written = desk.proving->take();
   desk.proving.reset();
-  desk.refused = written ? trf("Written: {}", written->string()) : describe(written.error());
+  desk.refused = written ? trf("Written: {}", written->string()) : trError(written.error());
   if (written) desk.recording.reset();
 }
 

@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <mutex>
 
+#include "editor/words/sentences.h"
 #include "emulated-ui/menus.h"
 
 namespace standpoint {
@@ -53,7 +54,7 @@ void LayoutFollower::follow(const Device& device, DeviceView& view, const std::f
   problem_.clear();
   auto layout = written == fs::file_time_type::min() ? loadLayout(*row, type) : readLayout(file, type.definition);
   if (!layout) {
-    problem_ = describe(layout.error());
+    problem_ = trError(layout.error());
     layout = loadLayout(*row, type);
   }
   layout_ = std::make_shared<const Layout>(layout ? *std::move(layout) : plainLayout(type.definition));

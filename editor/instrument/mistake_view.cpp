@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "editor/words/sentences.h"
 #include "editor/words/words.h"
 
 namespace standpoint {
@@ -124,7 +125,7 @@ void MistakeView::takeSolution(Editor& editor) {
   if (solved)
     showSolution(*solved, editor);
   else
-    editor.proof->good_text = describe(solved.error());
+    editor.proof->good_text = trError(solved.error());
 }
 
 std::string MistakeView::captionOf(const std::string& whose, const Side& side) const {
@@ -138,7 +139,7 @@ void MistakeView::takeSides(Editor& editor) {
     auto read = std::exchange(*side, nullptr)->take();
     auto& text = side == &reading_yours_ ? editor.proof->yours_text : editor.proof->good_text;
     if (!read) {
-      text = describe(read.error());
+      text = trError(read.error());
       continue;
     }
     text = captionOf(side == &reading_yours_ ? tr("Your scan") : tr("Sample solution"), *read);

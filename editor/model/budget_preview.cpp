@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "editor/words/sentences.h"
 #include "optimizer/simplify/preview.h"
 #include "project/model/optimize_verb.h"
 
@@ -54,7 +55,7 @@ void BudgetPreview::followAnswer() {
   if (latest->result)
     state_ = {false, latest->result->environment, latest->result->triangles, latest->result->least, {}};
   else
-    state_.error = describe(latest->result.error());
+    state_.error = trError(latest->result.error());
 }
 
 void BudgetPreview::drop() {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/data_folder.h"
+#include "editor/words/sentences.h"
 #include "materials/materials.h"
 #include "project/verb.h"
 
@@ -16,12 +17,12 @@ const Catalogue& readCatalogue(Catalogue& catalogue) {
   if (auto library = readMaterialLibrary(data / "materials" / "library"))
     catalogue.materials = std::move(*library);
   else
-    catalogue.problem = describe(library.error());
+    catalogue.problem = trError(library.error());
   if (auto files = instrumentsWithFiles()) {
     for (auto& known : files->usable) catalogue.instruments.push_back(std::move(known.instrument));
     catalogue.broken = std::move(files->broken);
   } else {
-    catalogue.problem += (catalogue.problem.empty() ? "" : "\n") + describe(files.error());
+    catalogue.problem += (catalogue.problem.empty() ? "" : "\n") + trError(files.error());
   }
   return catalogue;
 }

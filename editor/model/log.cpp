@@ -6,6 +6,7 @@
 #include <ctime>
 
 #include "core/alike_issues.h"
+#include "editor/words/sentences.h"
 #include "editor/words/words.h"
 
 namespace standpoint {
@@ -45,7 +46,7 @@ bool passes(const LogEntry& entry, const LogFilter& filter) {
       if (!filter.losses) return false;
       break;
   }
-  return filter.text.empty() || containsText(entry.source + " " + entry.message, filter.text);
+  return filter.text.empty() || containsText(entry.source + " " + trSentence(entry.message), filter.text);
 }
 
 LogLevel levelOf(Severity severity) {
@@ -64,8 +65,7 @@ std::vector<LogEntry> entriesOf(const Report& report) {
     entries.push_back({levelOf(issue.severity), time, issue.source, issue.message, false});
   for (const auto& alike : alikeIssues(report)) {
     for (const auto other : alike.others) entries[other].follows = true;
-    if (!alike.others.empty())
-      entries[alike.first].message += trf(" (first of {} similar)", std::to_string(alike.count()));
+    if (!alike.others.empty()) entries[alike.first].message += fmt::format(" (first of {} similar)", alike.count());
   }
   return entries;
 }

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "editor/model/session.h"
+#include "editor/words/sentences.h"
 
 namespace standpoint {
 
@@ -80,7 +81,7 @@ void RecoveryKeeper::keepMark(const Session& session) {
   marked_ = now;
   written_ = mark;
   const auto written = writeSessionMark(folder_, mark);
-  problem_ = written ? std::string() : describe(written.error());
+  problem_ = written ? std::string() : trError(written.error());
 }
 
 double RecoveryKeeper::untilGrown_s() const {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/data_folder.h"
+#include "editor/words/sentences.h"
 #include "project/verb.h"
 
 namespace standpoint {
@@ -105,7 +106,7 @@ void TargetList::work(const Document& document, const RayScene& scene, const std
     if (measured)
       measured_ = *std::move(measured);
     else
-      problem = describe(measured.error());
+      problem = trError(measured.error());
   }
   const bool cancelled = progress.cancelled();
   if (!cancelled) measured_key_ = problem.empty() ? key : std::string();

@@ -144,7 +144,7 @@ void drawIssue(const Model& model, Actions& actions, const LogEntry& issue, int 
     actions.frameSelection();
   }
   ImGui::SetCursorPos(at);
-  const std::string text = issue.source.empty() ? issue.message : issue.source + "  " + issue.message;
+  const std::string text = (issue.source.empty() ? "" : issue.source + "  ") + trSentence(issue.message);
   if (product) ImGui::PushStyleColor(ImGuiCol_Text, tone::kLink);
   ui::fitted(text, ImGui::GetContentRegionAvail().x);
   if (product) ImGui::PopStyleColor();

@@ -14,6 +14,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/sentences.h"
 #include "optimizer/surface/mesh_statistics.h"
 #include "project/materials/materials_verb.h"
 
@@ -251,7 +252,7 @@ void drawPhysicalMaterial(const Model& model, InspectorState& state, Actions& ac
     ui::swatch(model, materialColour(&m));
     ImGui::SameLine();
     ui::wrapped(m.label);
-    if (!reason.empty()) ui::tooltip(trf("Matched by: {}", reason));
+    if (!reason.empty()) ui::tooltip(trf("Matched by: {}", trSentence(reason)));
     drawPhysics(m);
   }
 }

@@ -82,9 +82,9 @@ std::string placeText(const AssessPlace& place) {
 
 // All of it, for what the columns are too narrow for.
 std::string rowText(const AssessRow& row) {
-  std::string text = fmt::format("{}: {}", row.label, valueText(row));
-  if (!row.note.empty()) text += "\n" + row.note;
-  return text + "\n" + trf("Good {}, bad {} ({})", row.good_text, row.bad_text, row.limit_source);
+  std::string text = fmt::format("{}: {}", tr(row.label), valueText(row));
+  if (!row.note.empty()) text += "\n" + trSentence(row.note);
+  return text + "\n" + trf("Good {}, bad {} ({})", row.good_text, row.bad_text, trSentence(row.limit_source));
 }
 
 void drawRow(const Model& model, Actions& actions, const AssessRow& row, int index) {
@@ -137,7 +137,7 @@ void drawRemedies(const AssessAnswer& answer) {
     if (!row.good_text.empty()) continue;
     drawSign(row.verdict);
     ImGui::SameLine();
-    ui::wrapped(row.label + ": " + row.note);
+    ui::wrapped(trSentence(row.label) + ": " + trSentence(row.note));
   }
 }
 
@@ -145,7 +145,7 @@ void drawVerdict(const AssessAnswer& answer) {
   const auto verdict = answer.bad > 0 ? Verdict::bad : answer.warn > 0 ? Verdict::warn : Verdict::good;
   drawSign(verdict);
   ImGui::SameLine();
-  ui::wrapped(trf("{}, by {}", trSentence(verdictText(answer)), answer.profile));
+  ui::wrapped(trf("{}, by {}", trSentence(verdictText(answer)), tr(answer.profile)));
 }
 
 // Of what was assessed: later changes of the project are not in it.

@@ -15,6 +15,7 @@
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/sentences.h"
 
 namespace standpoint {
 
@@ -108,7 +109,7 @@ void drawWeather(const Model& model, ScanChoice& asked) {
   if (const auto checked = check(asked.weather); !checked) {
     ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
     ImGui::SameLine();
-    ui::wrapped(describe(checked.error()));
+    ui::wrapped(trError(checked.error()));
   }
   if (!asked.effects.has(Effect::weather) || !asked.effects.has(Effect::atmosphere))
     ui::dimText("Enable both the weather and the atmosphere effect first");
@@ -192,7 +193,7 @@ void drawScanConditions(const Model& model, ScanState& state, ScanChoice& asked,
 }
 
 std::string whyNotConditions(const ScanChoice& asked, const ScanSettings& settings) {
-  if (const auto checked = check(asked.weather); !checked) return trf("Weather: {}", describe(checked.error()));
+  if (const auto checked = check(asked.weather); !checked) return trf("Weather: {}", trError(checked.error()));
   if (asked.panorama && !settings.imaging)
     return "The current settings take no images. Choose other settings, or turn the panorama off.";
   return {};

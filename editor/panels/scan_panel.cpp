@@ -274,7 +274,7 @@ void listBrokenInstruments(const Model& model) {
     ImGui::BeginDisabled();
     ImGui::Selectable(trf("Broken: {}", broken.file.filename().string()).c_str());
     ImGui::EndDisabled();
-    ui::tooltip(describe(broken.error));
+    ui::tooltip(trError(broken.error));
   }
 }
 

@@ -7,6 +7,8 @@
 #include <unistd.h>
 #include <utility>
 
+#include "editor/words/sentences.h"
+
 namespace standpoint {
 
 namespace {
@@ -173,7 +175,7 @@ void CloudNodes::work() {
     if (points)
       made = std::make_shared<const PackedPoints>(packedNode(node, *std::move(points), paint_, move_));
     else
-      trouble = describe(points.error());
+      trouble = trError(points.error());
     lock.lock();
     reading_ = false;
     if (made) {

@@ -9,6 +9,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keyboard.h"
 #include "editor/widgets/theme.h"
+#include "editor/words/sentences.h"
 #include "editor/words/words.h"
 #include "project/survey/measure_verb.h"
 
@@ -28,7 +29,7 @@ void finish(Editor& editor) {
   for (const auto& p : measuring.points) options.points.push_back(p + editor.shift_m());
   measuring.problem.clear();
   if (const auto fits = checkMeasurement({name, measuring.kind, measuring.points, {}}); !fits)
-    measuring.problem = fits.error().message;
+    measuring.problem = trSentence(fits.error().message);
   else if (!editor.session.start(options, trf("Measure {} {}", rowOf(measuring.kind).name, name)))
     measuring.problem = editor.session.whyNot("measure");
   if (!measuring.problem.empty()) editor.say(measuring.problem);

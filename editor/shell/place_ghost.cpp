@@ -152,7 +152,7 @@ void drawRefused(const Editor& editor, const ViewPen& pen, ImVec2 origin, ImVec2
   const ImU32 tone = verdictTone(Verdict::bad);
   if (!refused->floor)
     return pen.plate({origin.x + editor.px(14), origin.y + size.y - editor.px(90)}, verdictSign(Verdict::bad), tone,
-                     trSentence(refused->brief) + ": " + refused->reason);
+                     trSentence(refused->brief) + ": " + trSentence(refused->reason));
   drawCross(pen, *refused->floor, tone);
   const auto place = pen.at(*refused->floor);
   if (!place) return;

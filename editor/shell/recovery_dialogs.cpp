@@ -11,6 +11,7 @@
 #include "editor/shell/editor.h"
 #include "editor/widgets/modal.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/sentences.h"
 #include "editor/words/words.h"
 #include "project/fields.h"
 #include "project/survey/survey_verbs.h"
@@ -47,7 +48,7 @@ void drawComparison(Editor& editor, const LeftWork& left) {
   ui::gap(editor, 6);
   if (!comparison.task->done()) return ui::dimText("Comparing the copy with the project …");
   const auto& lines = comparison.task->result();
-  if (!lines) return ui::wrapped(trf("They cannot be compared: {}", describe(lines.error())));
+  if (!lines) return ui::wrapped(trf("They cannot be compared: {}", trError(lines.error())));
   if (lines->empty()) return ui::wrapped("The copy and the project hold the same.");
   const float row = ImGui::GetTextLineHeightWithSpacing();
   constexpr float kMostRows = 10;

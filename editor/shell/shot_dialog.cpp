@@ -16,6 +16,7 @@
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/sentences.h"
 #include "editor/words/words.h"
 
 namespace standpoint {
@@ -56,7 +57,7 @@ Result<ShotRequest> requested(const Editor& editor) {
 std::string whyNot(const Editor& editor) {
   if (editor.scene == nullptr) return "Nothing draws pictures here: OpenGL is missing";
   auto request = requested(editor);
-  if (!request) return describe(request.error());
+  if (!request) return trError(request.error());
   if (request->kind == ShotKind::walk_through) {
     const auto& job = editor.session.document().job;
     if (!editor.shots.stops.rooms && (!job || job->stations.size() < 2))
@@ -67,7 +68,7 @@ std::string whyNot(const Editor& editor) {
 }
 
 void fail(ShotDialog& dialog, const Error& error) {
-  dialog.problem = describe(error);
+  dialog.problem = trError(error);
   dialog.waits_for_ground = false;
   dialog.finding.reset();
   dialog.shoot.reset();
@@ -118,7 +119,8 @@ void goOn(Editor& editor) {
   if (dialog.finding && dialog.finding->done()) {
     auto way = std::exchange(dialog.finding, nullptr)->take();
     if (!way) return fail(dialog, way.error());
-    for (const auto& issue : way->report.issues) dialog.notes.push_back(issue.source + ": " + issue.message);
+    for (const auto& issue : way->report.issues)
+      dialog.notes.push_back(issue.source + ": " + trSentence(issue.message));
     dialog.request.way = std::move(way->feet);
     beginShoot(dialog);
   }

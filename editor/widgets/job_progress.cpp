@@ -12,6 +12,7 @@
 #include "editor/model/time_left.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/sentences.h"
 
 namespace standpoint::ui {
 
@@ -39,7 +40,7 @@ void jobBar(const Style& style, const Progress& progress, float width) {
 }
 
 std::string jobText(const Progress& progress, double seconds_so_far) {
-  std::string text = tr(progress.stageName());
+  std::string text = trSentence(progress.stageName());
   const auto add = [&](const std::string& part) {
     if (!part.empty()) text += (text.empty() ? "" : "   ") + part;
   };

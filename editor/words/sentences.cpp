@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/words/sentences.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <vector>
@@ -14,7 +15,16 @@ namespace standpoint {
 
 namespace {
 
-// What stands in the places of a pattern; nothing where the text is not of it. A place takes as little as it can.
+// Where a place ends, before the text that follows it; npos: nowhere. Behind that text is `pattern`. Before the last
+// place with an end of its own it is the last such text, so "A (b) (2 m²)" has 2 in the last place of "{} ({} m²)".
+std::size_t endOfPlace(std::string_view until, std::string_view text, std::string_view pattern) {
+  const auto end = pattern.substr(std::min<std::size_t>(2, pattern.size()));
+  if (end.empty() || end.find("{}") != std::string_view::npos) return text.find(until);
+  return text.size() < end.size() ? std::string_view::npos : text.substr(0, text.size() - end.size()).rfind(until);
+}
+
+// What stands in the places of a pattern; nothing where the text is not of it. A place takes as little as it can, and
+// nothing only at the end.
 std::optional<std::vector<std::string>> placesIn(std::string_view text, std::string_view pattern) {
   std::vector<std::string> places;
   while (true) {
@@ -27,8 +37,10 @@ std::optional<std::vector<std::string>> placesIn(std::string_view text, std::str
     text.remove_prefix(place);
     pattern.remove_prefix(place + 2);
     const auto until = pattern.substr(0, pattern.find("{}"));
-    const auto end = until.empty() ? text.size() : until == pattern ? text.rfind(until) : text.find(until);
-    if (end == std::string_view::npos || end == 0) return std::nullopt;
+    const auto end = until.empty()      ? text.size()
+                     : until == pattern ? text.rfind(until)
+                                        : endOfPlace(until, text, pattern.substr(until.size()));
+    if (end == std::string_view::npos || (end == 0 && !pattern.empty())) return std::nullopt;
     places.emplace_back(text.substr(0, end));
     text.remove_prefix(end);
   }
@@ -67,7 +79,7 @@ std::string trSentence(std::string_view english) {
     const auto known = sentencesByWord().find(word);
     if (known == sentencesByWord().end()) continue;
     for (const auto pattern : known->second) {
-      if (pattern.size() <= nearest.size()) continue;
+      if (pattern.size() <= nearest.size() || !english.ends_with(pattern.substr(pattern.rfind("{}") + 2))) continue;
       if (auto found = placesIn(english, pattern)) nearest = pattern, places = std::move(*found);
     }
   }

@@ -158,8 +158,9 @@ class LayoutChecker {
     }
     const bool along = region.kind == RegionKind::rows || region.kind == RegionKind::columns;
     if (along && (sum > 1 + kRound || (open > 0 && sum > 1 - kRound)))
-      say(region.pointer, fmt::format("its parts take {:.2f} of its size{}", sum,
-                                      open > 0 ? ", and nothing is left for those without a size" : ""));
+      say(region.pointer,
+          open > 0 ? fmt::format("its parts take {:.2f} of its size, and nothing is left for those without a size", sum)
+                   : fmt::format("its parts take {:.2f} of its size", sum));
     if (region.kind == RegionKind::widget) checkWidget(region, *rowOf(screen, region.widget));
     if (region.kind == RegionKind::over) checkOver(region, screen);
     if (region.kind == RegionKind::tabs)

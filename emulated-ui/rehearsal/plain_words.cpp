@@ -376,10 +376,11 @@ Result<void> checkFigures(const std::string& text) {
     Figure figure(place.what, kNoFacts);
     (void)figure.value();
     if (place.wrong || figure.wrong())
-      return failure(ErrorKind::unusable,
-                     fmt::format("'{}' is no figure: write a fact, or facts and numbers with + - * / between blanks, "
-                                 "and its decimals behind a colon, such as {{orientation.azimuth / 57.3 * 20000 : 0}}",
-                                 text.substr(place.from, place.end - place.from)));
+      return failure(
+          ErrorKind::unusable,
+          fmt::format("'{}' is no figure: write a fact, or facts and numbers with + - * / between blanks, "
+                      "and its decimals behind a colon, such as {}",
+                      text.substr(place.from, place.end - place.from), "{orientation.azimuth / 57.3 * 20000 : 0}"));
   }
   return {};
 }

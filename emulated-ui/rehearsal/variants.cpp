@@ -83,9 +83,9 @@ class Filler {
       if (found == figures_.end()) {
         std::vector<std::string> known;
         for (const auto& [one, unused] : figures_) known.push_back(one);
-        fault_.say(at.pointer, known.empty()
-                                   ? fmt::format("'${{{}}}' stands for a figure, but there are no 'variants'", name)
-                                   : fmt::format("unknown figure '{}'; {}", name, knownInstead(name, known)));
+        fault_.say(at.pointer, known.empty() ? fmt::format("'{}' stands for a figure, but there are no 'variants'",
+                                                           "${" + name + "}")
+                                             : fmt::format("unknown figure '{}'; {}", name, knownInstead(name, known)));
         return out;
       }
       if (i == 0 && end + 1 == text.size()) return found->second;  // alone: a number stays a number

@@ -51,9 +51,9 @@ void variants(GltfFile& file, Report& report) {
     if (i > 0) names += ", ";
     names += file.text(list[i], "name");
   }
+  if (list.size() > 8) names += ", …";
   report.note("/extensions/KHR_materials_variants", std::to_string(list.size()) + " variants of the materials (" +
-                                                        names + (list.size() > 8 ? ", …" : "") +
-                                                        ") were not read; the default variant is used");
+                                                        names + ") were not read; the default variant is used");
 }
 
 // Marks what stands outside of the scene on purpose, with all below it: simpler levels of nodes, meshes of colliders.

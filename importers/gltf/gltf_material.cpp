@@ -45,9 +45,9 @@ class NotKept {
   }
   void report(Report& report) const {
     for (const auto& [what, entry] : kinds_)
-      report.note(entry.first,
-                  what + " is not supported" +
-                      (entry.count > 1 ? ", here and in " + std::to_string(entry.count - 1) + " more materials" : ""));
+      report.note(entry.first, entry.count == 1 ? what + " is not supported"
+                                                : what + " is not supported, here and in " +
+                                                      std::to_string(entry.count - 1) + " more materials");
   }
 
  private:

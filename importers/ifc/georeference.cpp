@@ -93,7 +93,7 @@ void readCrs(Georeference& geo, const Entity& crs, const Model& model, Report& r
   for (const Entity& text : model.file.all("IFCWELLKNOWNTEXT"))
     if (text.ref(1) == crs) wkt = text[0].text();
   if (geo.crs.empty()) geo.crs = !digits.empty() || wkt.empty() ? crsName(name) : crsOfWkt(wkt);
-  const char* remedy = "; specify it with --crs EPSG:n";
+  const char* remedy = "; specify it by its EPSG code";
   if (name.empty() && wkt.empty())
     report.warn(crs.place(),
                 std::string("the coordinate reference system has no name; an EPSG code is required") + remedy);
@@ -175,7 +175,7 @@ void readOperations(Georeference& geo, const Model& model, Report& report) {
   if (const Entity crs = all[0].ref(1))
     readCrs(geo, crs, model, report);
   else
-    report.warn(all[0].place(), "the map conversion has no coordinate reference system; specify it with --crs EPSG:n");
+    report.warn(all[0].place(), "the map conversion has no coordinate reference system; specify it by its EPSG code");
 }
 
 // Some exporters write the place into the world coordinate system of the context.
@@ -195,7 +195,7 @@ void readWorldCoordinates(Georeference& geo, const Model& model, Report& report)
     geo.map_from_file = MapConversion{at.x(), at.y(), at.z(), world.linear()(0, 0), world.linear()(1, 0), 1};
     return report.warn(context.place(),
                        "the world coordinate system is used as map position; specify the coordinate reference system "
-                       "with --crs EPSG:n");
+                       "by its EPSG code");
   }
 }
 
@@ -282,7 +282,7 @@ void readPropertySets(Georeference& geo, const Model& model, const Relations& re
   geo.map_from_file = conversionInMetres(sets.conversion, model, report);
   if (geo.crs.empty())
     report.warn(sets.conversion.place,
-                "the map conversion has no coordinate reference system; specify it with --crs EPSG:n");
+                "the map conversion has no coordinate reference system; specify it by its EPSG code");
 }
 
 }  // namespace

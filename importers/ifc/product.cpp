@@ -132,7 +132,7 @@ void tellUnplacedBodies(const Relations& relations, const Model& model, Report& 
   std::erase_if(types, [](const Entity& e) { return !isType(e); });
   if (!types.empty())
     report.lose(types[0].place(), nameOf(types[0]) + " has a shape that no product shows (types with a shape: " +
-                                      std::to_string(types.size()) + "): import types as products with --types");
+                                      std::to_string(types.size()) + "): import types as products to include them");
   else
     report.lose(solid.place(), schemaSpelling(solid.typeName()) +
                                    " belongs to no product and was not imported (solids and surfaces in the file: " +

@@ -219,8 +219,7 @@ class MtlParser {
 
   void sayWhatIsNotKept() {
     for (const auto& [what, found] : odd_)
-      report_.warn(name_ + " line " + std::to_string(found.first),
-                   std::to_string(found.second) + " " + what + " were skipped");
+      report_.warn(name_ + " line " + std::to_string(found.first), what + ", skipped: " + std::to_string(found.second));
     if (!looks_.empty()) report_.note(name_, "skipped lighting properties: " + joined(looks_));
     if (!options_.empty()) report_.note(name_, "skipped texture options: " + joined(options_));
   }

@@ -22,36 +22,37 @@ struct Lost {
   const char* what;
 };
 constexpr std::array kLost = {
-    Lost{"p", "point statement(s) skipped: not a surface"},
-    Lost{"l", "line statement(s) skipped: not a surface"},
-    Lost{"curv", "free-form curve statement(s) (curv) skipped"},
-    Lost{"curv2", "free-form trimming curve statement(s) (curv2) skipped"},
-    Lost{"scrv", "free-form special curve statement(s) (scrv) skipped"},
-    Lost{"surf", "free-form surface statement(s) (surf) skipped; export the model as polygons"},
-    Lost{"trim", "free-form trimming statement(s) (trim) skipped"},
-    Lost{"hole", "free-form hole statement(s) (hole) skipped"},
-    Lost{"bzp", "Bézier patch statement(s) (bzp) skipped"},
-    Lost{"bsp", "B-spline patch statement(s) (bsp) skipped"},
-    Lost{"cdc", "Cardinal curve statement(s) (cdc) skipped"},
-    Lost{"cdp", "Cardinal patch statement(s) (cdp) skipped"},
-    Lost{"res", "free-form resolution statement(s) (res) skipped"},
-    Lost{"call", "file(s) called by the model were not read"},
-    Lost{"csh", "command(s) in the model were not executed"},
-    Lost{kShortFaces, "face(s) have fewer than three corners"},
-    Lost{kWrongTexture, "texture coordinate(s) missing or not numbers"},
+    Lost{"p", "point statements skipped (not a surface)"},
+    Lost{"l", "line statements skipped (not a surface)"},
+    Lost{"curv", "free-form curve statements (curv) skipped"},
+    Lost{"curv2", "free-form trimming curve statements (curv2) skipped"},
+    Lost{"scrv", "free-form special curve statements (scrv) skipped"},
+    Lost{"surf", "free-form surface statements (surf) skipped, export the model as polygons"},
+    Lost{"trim", "free-form trimming statements (trim) skipped"},
+    Lost{"hole", "free-form hole statements (hole) skipped"},
+    Lost{"bzp", "Bézier patch statements (bzp) skipped"},
+    Lost{"bsp", "B-spline patch statements (bsp) skipped"},
+    Lost{"cdc", "Cardinal curve statements (cdc) skipped"},
+    Lost{"cdp", "Cardinal patch statements (cdp) skipped"},
+    Lost{"res", "free-form resolution statements (res) skipped"},
+    Lost{"call", "files called by the model, not read"},
+    Lost{"csh", "commands in the model, not executed"},
+    Lost{kShortFaces, "faces with fewer than three corners"},
+    Lost{kWrongTexture, "texture coordinates missing or not numbers"},
 };
 constexpr std::array kOdd = {
-    Lost{kBadVertices, "invalid vertices; not used by any face"},
-    Lost{kWeights, "vertices have a weight (w) other than 1, used only by free-form geometry"},
-    Lost{kOddColours, "vertices have five or more than seven numbers: values after x y z ignored"},
-    Lost{kUnknown, "unknown statement(s) skipped"},
+    Lost{kBadVertices, "invalid vertices that no face uses"},
+    Lost{kWeights, "vertices with a weight (w) other than 1, which only free-form geometry uses"},
+    Lost{kOddColours, "vertices with five or more than seven numbers, read without those after x y z"},
+    Lost{kUnknown, "unknown statements skipped"},
 };
 
 void sayWhatIsLost(const ObjFile& file, Report& report) {
   const auto say = [&](const Lost& lost, auto&& into) {
     const auto found = file.tallies.find(lost.key);
     if (found != file.tallies.end())
-      into("line " + std::to_string(found->second.first_line), std::to_string(found->second.count) + " " + lost.what);
+      into("line " + std::to_string(found->second.first_line),
+           lost.what + (": " + std::to_string(found->second.count)));
   };
   for (const Lost& lost : kLost)
     say(lost, [&](std::string where, std::string what) { report.lose(std::move(where), std::move(what)); });

@@ -130,23 +130,23 @@ class ChunkParser {
 
   // v, v/t, v//n or v/t/n. The normal is not kept: what a beam meets is the face.
   bool corner(std::size_t begin) {
-    const auto number = [&] { return "corner " + std::to_string(out_.corners.size() - begin + 1) + " of the face "; };
+    const auto which = [&] { return "corner " + std::to_string(out_.corners.size() - begin + 1) + " of the face"; };
     std::int64_t v = 0, t = 0, n = 0;
-    if (!isNumberStart()) return fault(number() + "has no vertex number"), false;
-    if (!integer(v)) return fault(number() + "has an index of more than nine digits"), false;
+    if (!isNumberStart()) return fault(which() + " has no vertex number"), false;
+    if (!integer(v)) return fault(which() + " has an index of more than nine digits"), false;
     bool textured = false;
     if (text_.peek() == '/') {
       text_.advance();
       textured = isNumberStart();
-      if (textured && !integer(t)) return fault(number() + "has an index of more than nine digits"), false;
+      if (textured && !integer(t)) return fault(which() + " has an index of more than nine digits"), false;
       if (text_.peek() == '/') {
         text_.advance();
-        if (isNumberStart() && !integer(n)) return fault(number() + "has an index of more than nine digits"), false;
+        if (isNumberStart() && !integer(n)) return fault(which() + " has an index of more than nine digits"), false;
       }
     }
     if (!text_.atWordEnd() && text_.peek() != '\\' && text_.peek() != '#')
-      return fault(number() + "must be v, v/t, v//n or v/t/n"), false;
-    if (v == 0) return fault(number() + "has vertex number 0; vertex numbers start at 1"), false;
+      return fault(which() + " must be v, v/t, v//n or v/t/n"), false;
+    if (v == 0) return fault(which() + " has vertex number 0; vertex numbers start at 1"), false;
     const auto index = position(v);
     if (textured) {
       out_.texture_corners.resize(out_.corners.size(), kNoObjIndex);

@@ -68,8 +68,7 @@ class Materials {
                      "material '" + s.name + "' is not defined; only its name is known");
     }
     for (const auto& [key, tally] : unread_maps_)
-      report_.note(tally.second,
-                   std::to_string(tally.first) + " material(s) have a " + key + ", which is not supported");
+      report_.note(tally.second, key + " is not supported; materials that have one: " + std::to_string(tally.first));
     soup_.images = std::move(images_).images();
   }
 

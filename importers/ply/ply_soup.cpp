@@ -88,7 +88,7 @@ class SoupReader {
       out_.soup.texture_corners.resize(out_.soup.corners.size(), kNoTextureCorner);
     if (!out_.colour_of_face.empty()) out_.colour_of_face.resize(faceCount(), kNoFaceColour);
     if (short_faces_ > 0)
-      report_.lose(first_short_, std::to_string(short_faces_) + " face(s) have fewer than three corners");
+      report_.lose(first_short_, "faces with fewer than three corners: " + std::to_string(short_faces_));
     return std::move(out_);
   }
 

@@ -128,21 +128,22 @@ class SoupModel {
     const auto place = [&](const FaceTally& tally) { return soup_.place(tally.first_face); };
     const auto& f = findings_;
     const auto warn = [&](const FaceTally& tally, const char* what) {
-      if (tally.count > 0) report_.warn(place(tally), std::to_string(tally.count) + what);
+      if (tally.count > 0) report_.warn(place(tally), what + (": " + std::to_string(tally.count)));
     };
-    warn(f.unclean, " polygon(s) self-intersecting, without area or too complex; triangulated as fans");
-    warn(f.collapsed, " degenerate triangle(s) skipped");
-    warn(f.twice, " duplicate triangle(s) removed");
-    warn(f.repainted, " duplicate triangle(s) with different materials; the first was kept");
+    warn(f.unclean, "polygons that intersect themselves, have no area or are too complex, triangulated as fans");
+    warn(f.collapsed, "degenerate triangles skipped");
+    warn(f.twice, "duplicate triangles removed");
+    warn(f.repainted, "duplicate triangles with different materials, of which the first was kept");
     if (f.unpainted.count > 0)
       report_.warn("",
-                   std::to_string(f.unpainted.count) + " vertices of textured surfaces have no texture coordinates");
+                   "vertices of textured surfaces without texture coordinates: " + std::to_string(f.unpainted.count));
     if (f.flat.count > 0)
       report_.note(place(f.flat),
-                   std::to_string(f.flat.count) + " zero-area triangle(s) kept, since their edges may close a solid");
+                   "zero-area triangles kept, since their edges may close a solid: " + std::to_string(f.flat.count));
     if (f.inside_out.count > 0)
-      report_.note(place(f.inside_out), std::to_string(f.inside_out.count) +
-                                            " closed product(s) face inward (interior shells or inverted); kept as is");
+      report_.note(place(f.inside_out),
+                   "closed products that face inward (interior shells or inverted), kept as they are: " +
+                       std::to_string(f.inside_out.count));
     if (soup_.runs.empty()) report_.warn("", "no faces: nothing to scan");
   }
 

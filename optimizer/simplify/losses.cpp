@@ -158,13 +158,19 @@ void reportEngines(const Environment& before, const std::vector<MeshJob>& jobs, 
   for (const auto& engine : engines().subspan(options.engine == kAutoEngine ? 1 : 0)) {
     const auto& [shapes, products] = made[engine.id];
     if (!shapes.empty())
-      result.report.note("engine", fmt::format("{}: {} {} of {}", engine.description, shapes.size(),
-                                               shapes.size() == 1 ? "shape" : "shapes", listed(products)));
+      result.report.note("engine",
+                         shapes.size() == 1
+                             ? fmt::format("{}: one shape of {}", engine.description, listed(products))
+                             : fmt::format("{}: {} shapes of {}", engine.description, shapes.size(), listed(products)));
   }
   if (!refused.empty())
-    result.report.warn("engine", fmt::format("{} {} simplified by our own engine, as {} refused (for example: {}): {}",
-                                             refused.size(), refused.size() == 1 ? "shape" : "shapes", options.engine,
-                                             jobs[*refused.begin()].refusal, listed(left_to_ours)));
+    result.report.warn("engine", refused.size() == 1
+                                     ? fmt::format("one shape simplified by our own engine, as {} refused ({}): {}",
+                                                   options.engine, jobs[*refused.begin()].refusal, listed(left_to_ours))
+                                     : fmt::format("{} shapes simplified by our own engine, as {} refused (for "
+                                                   "example: {}): {}",
+                                                   refused.size(), options.engine, jobs[*refused.begin()].refusal,
+                                                   listed(left_to_ours)));
 }
 
 void checkBudgets(const std::vector<MeshJob>& jobs, const OptimizeOptions& options, OptimizeResult& result) {
@@ -179,11 +185,11 @@ void checkBudgets(const std::vector<MeshJob>& jobs, const OptimizeOptions& optio
     const auto named = std::find_if(options.products.begin(), options.products.end(),
                                     [&](const auto& a) { return a.budget_group == budget_group; });
     const std::string whose = named == options.products.end() ? "" : named->lod + ": ";
-    const std::string cap = options.products.empty()
-                                ? fmt::format("a maximum deviation of {} m", options.max_deviation_m)
-                                : "the allowed deviations";
-    result.report.lose("budget",
-                       fmt::format("{}cannot reach {} triangles with {}; the minimum is {}", whose, budget, cap, left));
+    const auto lose = [&](const std::string& what) { result.report.lose("budget", whose + what); };
+    lose(options.products.empty()
+             ? fmt::format("cannot reach {} triangles with a maximum deviation of {} m; the minimum is {}", budget,
+                           options.max_deviation_m, left)
+             : fmt::format("cannot reach {} triangles with the allowed deviations; the minimum is {}", budget, left));
   }
 }
 

@@ -118,11 +118,12 @@ Result<CollideResult> collide(const Environment& environment, const CollideOptio
   if (auto wrong = validate(environment); !wrong.empty()) return failure(ErrorKind::unusable, wrong, "environment");
   const auto stops = stopping(environment, options);
   if (const auto product = productTooFar(environment, stops))
-    return failure(ErrorKind::unusable,
-                   fmt::format("product {} extends more than {:.0f} km from the model's origin: exclude it with "
-                               "`treat`, or correct its placement",
-                               environment.products[*product].id, kFarthest / 1000),
-                   "collide");
+    return failure(
+        ErrorKind::unusable,
+        fmt::format(
+            "product {} extends more than {:.0f} km from the model's origin: exclude it, or correct its placement",
+            environment.products[*product].id, kFarthest / 1000),
+        "collide");
   TRY_ASSIGN(auto jobs, makePieces(environment, stops, progress));
   CollideResult result;
   placeShapes(environment, stops, jobs, result);

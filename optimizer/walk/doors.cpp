@@ -122,8 +122,9 @@ void reportDoor(const Environment& environment, const Verdict& verdict, Report& 
     return report.warn(product.id, fmt::format("door {} has no geometry: passability unknown", product.name));
   if (!verdict.door.floor)
     report.warn(product.id,
-                fmt::format("door {} has no floor on {}", product.name,
-                            verdict.floors == 0 ? "either side" : "one side: add what one steps onto there"));
+                verdict.floors == 0
+                    ? fmt::format("door {} has no floor on either side", product.name)
+                    : fmt::format("door {} has no floor on one side: add what one steps onto there", product.name));
   if (!verdict.blocked_by || verdict.door.closed) return;
   const auto& other = environment.products[*verdict.blocked_by];
   report.warn(product.id, verdict.door.clear_width_m > 0

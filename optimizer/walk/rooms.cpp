@@ -153,8 +153,9 @@ void reportRooms(const Environment& environment, const std::vector<Room>& rooms,
   for (const auto& room : rooms) {
     const auto& product = environment.products[room.product];
     if (room.reached || room.tight_place) continue;
-    const char* what = room.walkable_m2 <= kLeast ? "has no floor large enough to stand on" : "cannot be reached";
-    report.warn(product.id, fmt::format("room {} {}", readableName(product), what));
+    report.warn(product.id, room.walkable_m2 <= kLeast
+                                ? fmt::format("room {} has no floor large enough to stand on", readableName(product))
+                                : fmt::format("room {} cannot be reached", readableName(product)));
   }
 }
 

@@ -80,7 +80,7 @@ struct IncidenceJudge {
   Interval interval;  // rad
   Result<void> begin(const ScanHeader& header) {
     if (header.has_truth) return {};
-    return failure(ErrorKind::unusable, "no ground truth: incidence is unknown; scan with --truth", header.name);
+    return failure(ErrorKind::unusable, "no true values: incidence is unknown; scan with them", header.name);
   }
   bool stays(const PointBlock& b, std::size_t i, std::uint64_t) const { return interval.has(b.truth.incidence_rad[i]); }
 };

@@ -20,8 +20,8 @@ Result<void> readValue(const char* key, const FieldLimits& limits, const std::st
                        bool whole = false) {
   const auto value = numberFrom<double>(text);
   if (!value || !std::isfinite(*value) || (whole && *value != std::floor(*value)))
-    return failure(ErrorKind::usage,
-                   std::string("'") + key + "' must be a " + (whole ? "whole " : "") + "number, not '" + text + "'");
+    return failure(ErrorKind::usage, whole ? std::string("'") + key + "' must be a whole number, not '" + text + "'"
+                                           : std::string("'") + key + "' must be a number, not '" + text + "'");
   if (*value < limits.minimum || *value > limits.maximum)
     return failure(ErrorKind::usage, std::string("'") + key + "' must be from " + numberText(limits.minimum) + " to " +
                                          numberText(limits.maximum) + ", not " + text);

@@ -110,8 +110,7 @@ Result<Panorama> readPanorama(const std::filesystem::path& file, const PanoramaO
   if (!sink.found() && options.scan)
     return failure(ErrorKind::unusable, "the file has no scan " + std::to_string(*options.scan + 1), file.string());
   if (!sink.found() || !sink.stands())
-    return failure(ErrorKind::unusable, "the file does not say where the scanner stood, so there is no panorama",
-                   file.string());
+    return failure(ErrorKind::unusable, "no scanner position in the file: a panorama needs one", file.string());
   if (panorama.points == 0) return failure(ErrorKind::unusable, "the scan is empty", file.string());
   return panorama;
 }

@@ -225,7 +225,7 @@ Result<WallFit> fitWall(std::span<const BeamPoint> points, const WallOptions& op
   const auto seed = seedPlane(points, options);
   if (!seed)
     return failure(ErrorKind::unusable,
-                   "no plane of the points lies as the face of the model does: choose another place");
+                   "the points form no plane parallel to the face of the model: choose another place");
   std::vector<std::size_t> kept;
   const Plane plane = refined(points, *seed, kept);
   if (kept.size() < std::max<std::size_t>(options.fewest_points, 4)) return tooFew(kept.size());

@@ -238,9 +238,12 @@ Result<void> HeaderReader::readList(const RecordList& list) {
                                  : list.extended ? loadAt<std::uint64_t>(head, 20)
                                                  : loadAt<std::uint16_t>(head, 20);
     if (!whole || length > list.ends_at - at - head.size()) {
-      report_.warn(place_, "header specifies " + std::to_string(list.records) + (list.extended ? " extended" : "") +
-                               " variable-length records, of which " + std::to_string(i) + " lie " +
-                               (list.extended ? "in the file" : "before the points"));
+      const auto stated = std::to_string(list.records), there = std::to_string(i);
+      report_.warn(place_, list.extended
+                               ? "header specifies " + stated + " extended variable-length records, of which " + there +
+                                     " lie in the file"
+                               : "header specifies " + stated + " variable-length records, of which " + there +
+                                     " lie before the points");
       return {};
     }
     at += head.size();

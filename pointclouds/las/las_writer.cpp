@@ -68,8 +68,8 @@ Result<void> Writer::start(const ScanHeader& header) {
     ++written_.records;
   }
   if (near_infrared_)
-    report_.warn(header.name, std::string("point format 8 has unused fields: near infrared") +
-                                  (layout_.colour ? " is 0" : " and colours are 0"));
+    report_.warn(header.name, layout_.colour ? "point format 8 has unused fields: near infrared is 0"
+                                             : "point format 8 has unused fields: near infrared and colours are 0");
   written_.points_at = bytes.size();
   return file_.append(bytes);
 }
@@ -127,11 +127,11 @@ Result<void> Writer::end() {
   own.coordinate_metadata.clear();
   for (std::string& line : scanLines(own)) lines_.push_back(std::move(line));
   const auto lose = [&](std::uint64_t n, const char* what) {
-    if (n > 0) report_.lose(header_->name, std::to_string(n) + what);
+    if (n > 0) report_.lose(header_->name, what + (": " + std::to_string(n)));
   };
-  lose(packer_.clamped, " intensities outside the sensor's range were clamped");
-  lose(packer_.beyond_returns, " points belong to pulses with more than 15 returns, the limit of LAS");
-  lose(packer_.beyond_truth, " true coordinates beyond 214 km were clamped");
+  lose(packer_.clamped, "intensities outside the sensor's range, clamped");
+  lose(packer_.beyond_returns, "points of pulses with more than 15 returns, the limit of LAS");
+  lose(packer_.beyond_truth, "true coordinates beyond 214 km, clamped");
   header_.reset();
   return {};
 }

@@ -105,7 +105,8 @@ Result<void> Writer::begin(const ScanHeader& header) {
   header_ = header;
   organised_ = wants_grid_ && hasGrid(header);
   if (organised_ && std::uint64_t{header.rows} * header.columns > kMostCells)
-    return failure(ErrorKind::unusable, "the grid has too many cells for a PCD file: use `--as points`",
+    return failure(ErrorKind::unusable,
+                   "the grid has too many cells for a PCD file: write a list of points (variant points)",
                    "scan " + header.name);
   missing_.resize(std::size_t{12} + (hasIntensity(header) ? 4 : 0) + (header.has_colour ? 4 : 0) +
                   (header.has_labels ? 8 : 0) + (header.has_time ? 8 : 0) + (header.has_returns ? 2 : 0) +
@@ -126,7 +127,8 @@ Result<void> Writer::flushFrom(std::size_t enough) {
 Result<void> Writer::fillTo(std::uint64_t cell) {
   if (cell > kManyCells && points_ < cell / 1000)
     return failure(ErrorKind::unusable,
-                   "the grid is almost empty, so a PCD file would store gigabytes of missing points: use `--as points`",
+                   "the grid is almost empty, so a PCD file would store gigabytes of missing points: write a list of "
+                   "points (variant points)",
                    "scan " + header_->name);
   for (; next_cell_ < cell; ++next_cell_) {
     bytes_.insert(bytes_.end(), missing_.begin(), missing_.end());
@@ -147,7 +149,8 @@ Result<void> Writer::write(const PointBlock& block) {
     }
     if (cell < next_cell_)
       return failure(ErrorKind::unusable,
-                     "an organised PCD requires points column by column from bottom to top: use `--as points`",
+                     "an organised PCD requires points column by column from bottom to top: write a list of points "
+                     "(variant points)",
                      "scan " + header_->name);
     if (auto filled = fillTo(cell); !filled) return filled;
     putPoint(block, i);
@@ -166,10 +169,9 @@ Result<void> Writer::end() {
     if (auto filled = fillTo(std::uint64_t{header_->rows} * header_->columns); !filled) return filled;
   if (auto flushed = flushFrom(0); !flushed) return flushed;
   if (crowded_ > 0)
-    report_.lose(
-        header_->name,
-        std::to_string(crowded_) +
-            " additional returns dropped: a cell of an organised PCD holds one point; use `--as points` to keep all");
+    report_.lose(header_->name, std::to_string(crowded_) +
+                                    " additional returns dropped: a cell of an organised PCD holds one point; write a "
+                                    "list of points (variant points) to keep all");
   const std::string text = headerText();
   return file_.overwrite(0, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }

@@ -286,8 +286,8 @@ void tellVerified(const VerifyFound& found, Report& report) {
   const auto& c = found.comparison;
   if (!c.scale.db.empty())
     report.note(found.underlay,
-                fmt::format("vendor scale: {}{}; explains {:.1f} % of range and incidence effects, to {:.2f} dB",
-                            c.scale.describe(), c.scale.range_compensated ? ", without range" : "",
+                fmt::format("vendor scale: {}; explains {:.1f} % of range and incidence effects, to {:.2f} dB",
+                            c.scale.describe() + (c.scale.range_compensated ? ", without range" : ""),
                             c.scale.explained * 100, c.scale.scatter_db));
   for (const auto& m : c.materials)
     report.note(idOf(found, m.material),

@@ -29,9 +29,7 @@ std::string lower(std::string text) {
 
 Result<std::shared_ptr<const Underlay>> underlayFor(const Document& document, const VerifyOptions& options) {
   const auto& all = document.underlays;
-  if (all.empty())
-    return failure(ErrorKind::usage, "there is no underlay: add one with `standpoint underlay PROJECT --add FILE`",
-                   "verify");
+  if (all.empty()) return failure(ErrorKind::usage, "there is no underlay: add one first", "verify");
   const auto& name = options.underlay;
   if (name.empty() && all.size() == 1) return all.front();
   std::vector<std::string> names;
@@ -61,7 +59,7 @@ Result<Instrument> instrumentFor(const VerifyOptions& options, const CloudSample
   if (best == nullptr)
     return failure(ErrorKind::usage,
                    fmt::format("the point cloud does not identify its instrument: specify the one with the closest "
-                               "wavelength with --instrument; available: {}",
+                               "wavelength; available: {}",
                                idsOf(all)),
                    "--instrument");
   report.note("instrument",
@@ -91,7 +89,7 @@ Result<CloudSample> usableSample(const Underlay& underlay, const VerifyOptions& 
   if (without == sample.scans.size())
     return failure(ErrorKind::unusable,
                    "the point cloud has no scanner position: import single scans with poses (E57 or PTX with grid), or "
-                   "specify it with --from X,Y,Z",
+                   "specify the position",
                    underlay.name);
   return sample;
 }
@@ -126,15 +124,14 @@ Result<VerifyFound> found(const Document& document, const Underlay& underlay, co
   constexpr std::uint64_t kFewest = 100;  // fewer say nothing of any material
   if (with_station < kFewest)
     return failure(ErrorKind::unusable,
-                   fmt::format("only {} point{} with a known scanner position, at least {} required: add a more "
-                               "complete export of the scan with `standpoint underlay PROJECT --add FILE`",
-                               with_station, with_station == 1 ? "" : "s", kFewest),
+                   fmt::format("points with a known scanner position: {}, at least {} required; add a more complete "
+                               "export of the scan as an underlay",
+                               with_station, kFewest),
                    underlay.name);
   if (near < kFewest || static_cast<double>(near) < kFewOnModel * static_cast<double>(with_station))
     return failure(ErrorKind::unusable,
-                   fmt::format("only {} of {} points are on the model: register the cloud first with `standpoint "
-                               "underlay PROJECT --register {} --pairs … --icp`",
-                               near, with_station, underlay.name),
+                   fmt::format("only {} of {} points are on the model: register underlay {} first", near, with_station,
+                               underlay.name),
                    underlay.name);
   progress.stage("Placement of the cloud", 0.6, 0.85);
   f.placement = fitCloudToModel(*document.environment(), document.georeference->shift_m, sample,
@@ -186,8 +183,7 @@ const Fields<VerifyOptions>& verifyFields() {
 Result<Answered<VerifyAnswer>> runVerify(const Document& document, const VerifyOptions& options, Progress& progress) {
   progress.stage("Verify", 0, 0.4);
   TRY_ASSIGN(auto underlay, underlayFor(document, options));
-  if (!document.materials)
-    return failure(ErrorKind::usage, "no materials assigned: run `standpoint materials PROJECT` first", "verify");
+  if (!document.materials) return failure(ErrorKind::usage, "no materials assigned: assign them first", "verify");
   TRY_ASSIGN(auto library, readMaterialLibrary(dataFolder() / "materials" / "library"));
   Answered<VerifyAnswer> outcome{document};
   progress.stage("Reading " + underlay->name, 0, 0.4);

@@ -64,12 +64,14 @@ void reportMissingSlabs(const Environment& environment, const CollideResult& res
     auto& heights = storey.on_nothing;
     if (heights.empty()) continue;
     std::sort(heights.begin(), heights.end());
-    report.warn(
-        name.empty() ? "collide" : name,
-        fmt::format("the floor slab at {:.2f} m is missing: {} of {} doors{} have no floor on either side; add a "
-                    "floor plane at that height with `standpoint add PROJECT floor.obj --up z`",
-                    heights[heights.size() / 2], heights.size(), storey.doors,
-                    name.empty() ? std::string() : fmt::format(" of storey '{}'", name)));
+    report.warn(name.empty() ? "collide" : name,
+                name.empty()
+                    ? fmt::format("the floor slab at {:.2f} m is missing: {} of {} doors have no floor on either side; "
+                                  "add a model with a floor at that height",
+                                  heights[heights.size() / 2], heights.size(), storey.doors)
+                    : fmt::format("the floor slab at {:.2f} m is missing: {} of {} doors of storey '{}' have no floor "
+                                  "on either side; add a model with a floor at that height",
+                                  heights[heights.size() / 2], heights.size(), storey.doors, name));
   }
 }
 

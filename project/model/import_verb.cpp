@@ -245,7 +245,7 @@ Result<Answered<ImportAnswer>> importModels(const Document& document, const std:
                                     [](const SpatialNode& n) { return n.ifc_class == "IfcBuilding"; });
   if (building && crs.empty() && georeference.crs.empty() && !georeference.map_from_file)
     outcome.report.warn("georeference",
-                        "the model has no georeference; set it with `georeference` (--crs, --origin, --rotation-deg)");
+                        "the model has no georeference; set its coordinate reference system, origin and rotation");
   if (!crs.empty()) {
     TRY_ASSIGN(auto found, findCrs(crs));
     georeference.crs = found.code;
@@ -389,8 +389,7 @@ Result<Answered<ImportAnswer>> runImport(const Document& document, const ImportV
   const auto [models, clouds] = sorted(options.files);
   if (options.update) {
     if (!clouds.empty())
-      return failure(ErrorKind::usage,
-                     "a point cloud is no model to update from; add it with `standpoint underlay PROJECT --add FILE`",
+      return failure(ErrorKind::usage, "a point cloud is no model to update from; add it as an underlay",
                      clouds.front().string());
     return updateModels(document, models, typed, options.crs, progress);
   }
@@ -420,8 +419,7 @@ Result<Answered<ImportAnswer>> addImported(const Document& document, Answered<Im
   d.import_report = std::make_shared<const Report>(std::move(all));
   d.sources.insert(d.sources.end(), imported.document.sources.begin(), imported.document.sources.end());
   if (d.simplified || d.collision)
-    outcome.report.note(
-        source, "the simplified model and collision shapes are out of date: run `optimize` and `collide` again");
+    outcome.report.note(source, "the simplified model and the collision shapes are out of date; compute them again");
   d.simplified.reset();
   d.collision.reset();
   if (d.materials) {
@@ -434,9 +432,7 @@ Result<Answered<ImportAnswer>> addImported(const Document& document, Answered<Im
 
 Result<Answered<ImportAnswer>> runAdd(const Document& document, const AddOptions& options, Progress& progress) {
   if (const auto clouds = sorted(options.files).clouds; !clouds.empty())
-    return failure(ErrorKind::usage,
-                   "a point cloud is an underlay; add it with `standpoint underlay PROJECT --add FILE`",
-                   clouds.front().string());
+    return failure(ErrorKind::usage, "a point cloud is no model; add it as an underlay", clouds.front().string());
   auto imported = importModels(Document(), options.files, importOptions(options), options.crs, progress);
   if (!imported) return imported;
   return addImported(document, *std::move(imported), progress);

@@ -46,13 +46,11 @@ void reportRules(const SimplificationPlan& plan, Report& report) {
                                          level.part, members, budget, level.max_deviation_m));
     for (const auto& rule : level.rules)
       if (const auto decided = count(rule.reason); decided > 0)
-        report.note(
-            level.level,
-            fmt::format("{}: {} products {}", rule.reason, decided,
-                        rule.drop   ? "dropped"
-                        : rule.keep ? "kept unchanged"
-                                    : fmt::format("within {} m, weight {}",
-                                                  rule.max_deviation_m.value_or(level.max_deviation_m), rule.weight)));
+        report.note(level.level, rule.drop ? fmt::format("{}: {} products dropped", rule.reason, decided)
+                                 : rule.keep
+                                     ? fmt::format("{}: {} products kept unchanged", rule.reason, decided)
+                                     : fmt::format("{}: {} products within {} m, weight {}", rule.reason, decided,
+                                                   rule.max_deviation_m.value_or(level.max_deviation_m), rule.weight));
   }
 }
 
@@ -68,7 +66,7 @@ Result<SimplificationPlan> planLightening(const Document& document, const Simpli
                                           const Progress& progress) {
   SimplificationPlan plan;
   if (request.by_view && !document.collision)
-    return failure(ErrorKind::usage, "visibility is computed from the walkable surface: run `collide` first",
+    return failure(ErrorKind::usage, "visibility is computed from the walkable surface: compute that first",
                    "--by-view");
   if (request.lod_rules.empty()) {
     plan.options.budget = request.budget.value_or(0);

@@ -219,7 +219,7 @@ Result<Answered<TreatAnswer>> runTreat(const Document& document, const TreatOpti
   after.imported = withExclusions(document.imported, *after.treatments);
   if (after.imported != document.imported) TRY(follow(after, outcome.report, progress));
   if (document.simplified && kind != TreatmentKind::excluded)
-    outcome.report.note("optimize", "the simplified model is out of date; run `optimize` again");
+    outcome.report.note("optimize", "the simplified model is out of date; compute it again");
   outcome.answer = answerOf(*after.imported, *after.treatments);
   const char* done = kind == TreatmentKind::excluded     ? "Excluded"
                      : kind == TreatmentKind::kept       ? "Keep unchanged:"

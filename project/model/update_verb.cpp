@@ -154,9 +154,8 @@ struct Update {
         old.map_from_file && now.map_from_file &&
         (mapFromFile(*old.map_from_file, probe) - mapFromFile(*now.map_from_file, probe)).norm() > 1e-4;
     if (other_crs || other_map)
-      outcome.report.warn(
-          "georeference",
-          "the changed model has a different georeference; the project's is kept. Change it with `georeference`");
+      outcome.report.warn("georeference",
+                          "the changed model has a different georeference; that of the project is kept");
     if (old.map_from_file) now.map_from_file = old.map_from_file;
     if (!old.crs.empty() && crs.empty()) now.crs = old.crs;
     outcome.document.georeference = std::make_shared<const Georeference>(std::move(now));
@@ -234,7 +233,7 @@ Result<Answered<ImportAnswer>> updateModels(const Document& document, std::vecto
                                             const ImportOptions& options, const std::string& crs, Progress& progress) {
   if (!document.imported) return failure(ErrorKind::usage, "there is no model to update; import one first", "--update");
   if (options.shift != ShiftMode::automatic)
-    return failure(ErrorKind::usage, "an update keeps the project's shift; leave out --shift", "--shift");
+    return failure(ErrorKind::usage, "an update keeps the project's shift; leave out the shift", "--shift");
   TRY_ASSIGN(auto all, sourcesAfter(document, files));
   ImportOptions same_frame = options;
   same_frame.shift = ShiftMode::given;

@@ -174,7 +174,7 @@ Result<Document> fromJson(const json& project, const fs::path& folder, Report& r
     d.verification = verificationFrom(project.at("verification"));
     if (!d.verification)
       report.warn((folder / kProjectFile).string() + " /verification",
-                  "the comparison with an underlay is damaged and was dropped; compare again with `standpoint verify`");
+                  "the comparison with an underlay is damaged and was dropped; compare again");
   }
   if (project.contains("measurements"))
     d.measurements = std::make_shared<const Measurements>(measurementsFrom(project.at("measurements"), report));
@@ -305,9 +305,7 @@ Result<Document> loadProject(const fs::path& folder, Progress& progress, Report*
   const auto file = folder / kProjectFile;
   std::error_code ignored;
   if (!fs::exists(file, ignored))
-    return failure(ErrorKind::file_system,
-                   "not a Standpoint project (no project.json); create one with `standpoint import FILE -o " +
-                       folder.string() + "`",
+    return failure(ErrorKind::file_system, "not a Standpoint project (no project.json); import a model to create one",
                    folder.string());
   progress.stage("Open " + folder.filename().string());
   for (int attempt = 1;; ++attempt) {

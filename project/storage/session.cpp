@@ -28,7 +28,8 @@ Result<std::filesystem::path> projectFolder(const Verb& verb, const json& option
 Result<void> checkEmpty(const fs::path& folder, const json& options) {
   std::error_code ignored;
   if (!fs::exists(folder, ignored) || isEmptyProjectFolder(folder) || options.value("replace", false)) return {};
-  return failure(ErrorKind::usage, "the folder is not empty; choose another folder, or use --replace", folder.string());
+  return failure(ErrorKind::usage, "the folder is not empty; choose another folder, or replace the project in it",
+                 folder.string());
 }
 
 Result<Outcome> runOnNewProject(const Verb& verb, const fs::path& folder, const json& own, Progress& progress) {

@@ -275,8 +275,7 @@ Result<Answered<AssessAnswer>> runAssess(const Document& document, const AssessO
   const ScanWorld world = scanWorld(document.environment(), document.job->targets, assignment);
   if (sceneTriangleCount(*document.environment()) == 0)
     return failure(ErrorKind::unusable,
-                   "the scene contains no products to assess scans by; import a model, or include products again with "
-                   "`treat`");
+                   "the scene contains no products to assess scans by; import a model, or include products again");
   TRY_ASSIGN(auto model, RayScene::build(document.environment(), progress));
   auto scene = model;
   if (!document.job->targets.empty()) {

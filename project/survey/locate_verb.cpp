@@ -55,11 +55,13 @@ Result<void> fitsUnderlay(const Underlay& underlay, const fs::path& file, Progre
   const auto &old = underlay.bounds_cloud_m, &now = extent.bounds_file_m;
   const bool same_place = !now.empty() && std::max((old.min - now.min).norm(), (old.max - now.max).norm()) < kSame_m;
   if (extent.points == underlay.points && same_place) return {};
-  return failure(
-      ErrorKind::unusable,
-      fmt::format("this is another cloud: it has {} points{}, underlay {} has {}", extent.points,
-                  extent.points == underlay.points ? " in another place" : "", underlay.name, underlay.points),
-      file.string());
+  return failure(ErrorKind::unusable,
+                 extent.points == underlay.points
+                     ? fmt::format("this is another cloud: its points are in another place than those of underlay {}",
+                                   underlay.name)
+                     : fmt::format("this is another cloud: it has {} points, underlay {} has {}", extent.points,
+                                   underlay.name, underlay.points),
+                 file.string());
 }
 
 // What the project knows of `old` is in `file`.
@@ -181,7 +183,7 @@ Result<Answered<LocateAnswer>> runLocate(const Document& document, const LocateO
     return failure(ErrorKind::file_system, "file not found", to.string());
   if (wanted.size() > 1 && !isFolder(to))
     return failure(ErrorKind::usage,
-                   fmt::format("{} files are missing: specify a folder, or which of them by --file", wanted.size()),
+                   fmt::format("{} files are missing: specify a folder, or which of them it is", wanted.size()),
                    "--to");
   for (const auto& old : wanted) {
     const fs::path file = isFolder(to) ? to / old.filename() : to;

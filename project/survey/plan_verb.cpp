@@ -251,9 +251,8 @@ Result<Answered<PlanAnswer>> runPlan(const Document& document, const PlanOptions
   TRY_ASSIGN(auto assignment, scanAssignment(document, progress));
   const ScanWorld world = scanWorld(document.environment(), document.job->targets, assignment);
   if (sceneTriangleCount(*world.environment) == 0)
-    return failure(
-        ErrorKind::unusable,
-        "the scene contains no products to plan for; import a model, or include products again with `treat`");
+    return failure(ErrorKind::unusable,
+                   "the scene contains no products to plan for; import a model, or include products again");
   TRY_ASSIGN(auto scene, RayScene::build(world.environment, progress, world.balls));
   TRY_ASSIGN(auto plan, planSurvey(*document.job, scene, std::make_shared<const MaterialAssignment>(world.assignment),
                                    request, progress));

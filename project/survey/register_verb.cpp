@@ -353,7 +353,7 @@ Result<Answered<RegisterAnswer>> runRegister(const Document& document, const Reg
     return failure(ErrorKind::usage, "--cloud and --control cannot be combined", "--control");
   if (!cloud && document.job->targets.size() < 3)
     return failure(ErrorKind::usage, fmt::format("the project has {} targets, at least three are required: add targets "
-                                                 "with `target` before scanning, or register with --cloud",
+                                                 "before scanning, or register cloud to cloud",
                                                  document.job->targets.size()));
   MeasuringRequest request;
   request.files = options.files;
@@ -368,7 +368,8 @@ Result<Answered<RegisterAnswer>> runRegister(const Document& document, const Reg
   TRY_ASSIGN(const auto measured, measureTargets(*document.job, request, progress));
   if (measured.scans.size() < (options.control.empty() ? 2U : 1U))
     return failure(ErrorKind::usage,
-                   "a single station cannot be registered: specify scans of at least two, or use --control", "files");
+                   "a single station cannot be registered: specify scans of at least two, or use control points",
+                   "files");
   Answered<RegisterAnswer> outcome{document, {}, measured.report};
   Job job = *document.job;
   TRY_ASSIGN(const auto held, heldStation(job, measured, options));

@@ -77,7 +77,7 @@ void tell(const SurfaceFit& fit, const std::string& name, Report& report) {
     report.warn(name,
                 fmt::format("the surface does not constrain the cloud {}: start position kept", describe(motion)));
   if (!fit.settled)
-    report.warn(name, fmt::format("not converged after {} iterations: place the cloud closer first, using --pairs",
+    report.warn(name, fmt::format("not converged after {} iterations: place the cloud closer first, by pairs of points",
                                   fit.iterations));
   if (fit.used_fraction < 0.5)
     report.warn(

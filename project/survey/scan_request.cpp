@@ -124,9 +124,7 @@ ScanVerbOptions optionsOf(const ScanChoice& choice) {
 
 Result<std::vector<std::size_t>> stationsFrom(const Job& job, const StationNames& wanted) {
   std::vector<std::size_t> result;
-  if (job.stations.empty())
-    return failure(ErrorKind::usage,
-                   "there are no stations: add one with `standpoint station PROJECT --add S1 --on X,Y`", "--stations");
+  if (job.stations.empty()) return failure(ErrorKind::usage, "there are no stations: add one first", "--stations");
   for (const auto& name : wanted.names) {
     const auto at =
         std::find_if(job.stations.begin(), job.stations.end(), [&](const Station& s) { return s.name == name; });

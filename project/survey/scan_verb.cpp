@@ -196,16 +196,15 @@ class ScanRun {
     for (const auto index : request_.stations)
       if (parts_.hasRecord(job_.stations[index].name)) names.push_back(job_.stations[index].name);
     if (names.empty()) return {};
-    return failure(ErrorKind::usage,
-                   fmt::format("an earlier run finished {}: continue with --resume, or remove that folder first",
-                               fmt::join(names, ", ")),
-                   parts_.folder().string());
+    return failure(
+        ErrorKind::usage,
+        fmt::format("an earlier run finished {}: resume it, or remove that folder first", fmt::join(names, ", ")),
+        parts_.folder().string());
   }
 
   tl::unexpected<Error> withHint(Error error) const {
     if (!finished_.empty())
-      error.message += fmt::format("; finished and kept: {}; continue with the same command and --resume",
-                                   fmt::join(finished_, ", "));
+      error.message += fmt::format("; finished and kept: {}; resume the scan to continue", fmt::join(finished_, ", "));
     return tl::unexpected<Error>(std::move(error));
   }
 

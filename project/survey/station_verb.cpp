@@ -100,8 +100,7 @@ Result<Eigen::Vector3d> bestPlace(const Document& document, const StationPlaceme
     return *lowest;
   }
   TRY(progress.check());
-  return failure(ErrorKind::unusable,
-                 "no free place found for the tripod; specify one with --at X,Y,Z or --on X,Y[,Z]");
+  return failure(ErrorKind::unusable, "no free place found for the tripod; specify a place");
 }
 
 // The instrument's centre in the local frame, from --at or --on.
@@ -123,10 +122,9 @@ Result<Eigen::Vector3d> centreFrom(const RayScene& scene, const Georeference& g,
                                  on.x_m, on.y_m, productText(scene.environment().products[blocked->product]),
                                  blocked->free_m, blocked->floor_m + g.shift_m.z(), height + kRoomAbove_m));
   if (floors.empty())
-    return failure(ErrorKind::unusable,
-                   fmt::format("no floor at ({}, {}) with {:.2f} m of free height for the tripod; choose another "
-                               "place, or specify the instrument centre with --at X,Y,Z",
-                               on.x_m, on.y_m, height + kRoomAbove_m));
+    return failure(ErrorKind::unusable, fmt::format("no floor at ({}, {}) with {:.2f} m of free height for the tripod; "
+                                                    "choose another place, or specify the instrument centre",
+                                                    on.x_m, on.y_m, height + kRoomAbove_m));
   TRY_ASSIGN(const auto floor, chosen);
   return Eigen::Vector3d(x, y, floor + height);
 }
@@ -142,8 +140,10 @@ std::string onFloorRemedy(const StationPlacement& placement, const Eigen::Vector
   for (const auto floor : floorsAt(placement.scene(), centre.x(), centre.y(), height)) {
     if (std::abs(floor - centre.z()) > kSameFloor_m || placement.whyNot({centre.x(), centre.y(), floor + height}))
       continue;
-    return fmt::format("if {} is the height of the floor, specify --on {},{},{}: the tripod adds its height", at.z(),
-                       at.x(), at.y(), at.z());
+    return fmt::format(
+        "if {} is the height of the floor, specify the place on the floor (--on {},{},{}), to which the tripod adds "
+        "its height",
+        at.z(), at.x(), at.y(), at.z());
   }
   return {};
 }
@@ -200,7 +200,7 @@ Result<void> checkStationName(Job& job, const std::string& name) {
     return failure(ErrorKind::usage,
                    fmt::format("invalid station name '{}': commas and slashes are not allowed", name));
   if (find(job, name) != job.stations.end())
-    return failure(ErrorKind::usage, fmt::format("station '{}' already exists; use --move, or another name", name));
+    return failure(ErrorKind::usage, fmt::format("station '{}' already exists; move it, or use another name", name));
   return {};
 }
 

@@ -57,7 +57,7 @@ Result<Target> targetArticleFrom(const TargetKinds& kinds, const TargetOptions& 
   }
   if (!type.empty() && kind && *kind != found->shape)
     return failure(ErrorKind::usage,
-                   fmt::format("'{}' is not a {}: leave out --kind", type,
+                   fmt::format("'{}' is not a {}: leave out the kind", type,
                                *kind == TargetKind::sphere ? "sphere" : "checkerboard"),
                    "--kind");
   t.kind = found->shape;

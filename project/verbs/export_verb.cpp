@@ -117,8 +117,7 @@ Result<void> exportGltf(const Document& document, Environment& scene, const fs::
   Environment shapes;
   if (options.collision) {
     if (!document.collision)
-      return failure(ErrorKind::usage, "there are no collision shapes; compute them with `collide` first",
-                     "--collision");
+      return failure(ErrorKind::usage, "there are no collision shapes; compute them first", "--collision");
     shapes = collisionEnvironment(*document.collision);
     companions.collision = collisionOf(*document.collision, shapes, *options.collision);
     outcome.answer.collision_shapes = shapes.instances.size();
@@ -129,8 +128,7 @@ Result<void> exportGltf(const Document& document, Environment& scene, const fs::
 // The physical materials instead of the looks.
 Result<void> exportPhysical(const Document& document, Environment& scene, const fs::path& file, bool helios,
                             Report& report, Progress& progress) {
-  if (!document.materials)
-    return failure(ErrorKind::usage, "there are no materials; assign them with `materials` first", file.string());
+  if (!document.materials) return failure(ErrorKind::usage, "there are no materials; assign them first", file.string());
   const std::array all = {&scene};
   const auto physical = physicalSurfaces(document, all, LooksOfSplit::left_out);
   if (helios) return writeHeliosScene(scene, physical, *document.georeference, file, report, progress);

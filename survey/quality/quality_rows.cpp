@@ -27,7 +27,7 @@ class Rows {
   Rows(const SurveyQuality& quality, const Job& job) : quality_(quality), job_(job) {}
 
   Figure coverage() const {
-    Figure figure{100 * quality_.seen.all.coverage(), "of all surfaces in the scene; treat leaves products out"};
+    Figure figure{100 * quality_.seen.all.coverage(), "of all surfaces in the scene; excluded products do not count"};
     if (quality_.seen.holes.empty()) return figure;
     const auto product = quality_.seen.holes.front().product;
     figure.worst.product = product;

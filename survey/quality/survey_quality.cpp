@@ -267,8 +267,7 @@ class Assessment {
     for (auto& trouble : quality_.troubles)  // a file of its own that could be read stands in for it
       if (hasScan(trouble.station, false)) trouble.verdict = Verdict::warn;
     for (const auto s : with_.request.stations)
-      if (with_.job.stations[s].scans.empty())
-        tell(s, Verdict::warn, "not scanned yet: scan it, or leave it out with --stations");
+      if (with_.job.stations[s].scans.empty()) tell(s, Verdict::warn, "not scanned yet: scan it, or leave it out");
     for (const auto& scan : quality_.scans) {
       if (scan.moved && !hasScan(scan.station, false))
         tell(scan.station, Verdict::warn,

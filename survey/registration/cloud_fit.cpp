@@ -153,8 +153,8 @@ Result<SurfaceFit> fitCloudToModel(const Environment& model, const Vector3d& shi
 std::string describe(const FreeMotion& motion) {
   const auto text = [](const Vector3d& v) { return fmt::format("({:.2f}, {:.2f}, {:.2f})", v.x(), v.y(), v.z()); };
   if (motion.axis.isZero()) return "along " + text(motion.shift);
-  if (motion.shift.isZero()) return "about " + text(motion.axis);
-  return "along " + text(motion.shift) + " combined with rotation about " + text(motion.axis);
+  if (motion.shift.isZero()) return "around " + text(motion.axis);
+  return "along " + text(motion.shift) + " combined with rotation around " + text(motion.axis);
 }
 
 }  // namespace standpoint

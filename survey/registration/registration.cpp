@@ -166,7 +166,7 @@ Result<TargetRegistration> registerByTargets(const Job& job, const TargetMeasure
     if (all[s].found.size() < 3)
       return failure(ErrorKind::unusable,
                      fmt::format("{} targets were measured from station {}, at least three are required; add visible "
-                                 "targets, scan finer, or register with --cloud{}",
+                                 "targets, scan finer, or register cloud to cloud{}",
                                  all[s].found.size(), name, whyMissed(job, measured, all[s].station)),
                      measured.scans[s].file);
     r.station_of.push_back(all[s].station);
@@ -190,10 +190,12 @@ Result<TargetRegistration> registerByTargets(const Job& job, const TargetMeasure
     const std::size_t station = r.station_of[*problem.station];
     return failure(
         ErrorKind::unusable,
-        fmt::format("station {} shares {} targets with the others{}; {}{}", job.stations[station].name, problem.shared,
-                    problem.on_one_line ? ", all on one line" : ", at least three are required",
-                    problem.on_one_line ? "add a target off the line" : "add targets visible from both",
-                    whyMissed(job, measured, station)),
+        problem.on_one_line
+            ? fmt::format("station {} shares {} targets with the others, all on one line; add a target off the line{}",
+                          job.stations[station].name, problem.shared, whyMissed(job, measured, station))
+            : fmt::format("station {} shares {} targets with the others, at least three are required; add targets "
+                          "visible from both{}",
+                          job.stations[station].name, problem.shared, whyMissed(job, measured, station)),
         measured.scans[*problem.station].file);
   }
   if (!fit) return failure(fit.error());

@@ -70,7 +70,7 @@ Pose placeCloud(const CloudPlace& cloud, const Georeference& model, const Bounds
                                         shownCrs(cloud.crs), found->metres_per_unit, 1 / found->metres_per_unit));
   if (!cloud.crs.empty() && !model.crs.empty() && !same)
     report.warn(cloud.name, fmt::format("the cloud's CRS is {}, the model's is {}: coordinates are not transformed; "
-                                        "convert the cloud to the model's CRS first, or specify its origin with --at",
+                                        "convert the cloud to the model's CRS first, or specify its origin",
                                         shownCrs(cloud.crs), shownCrs(model.crs)));
   if (model_in_map) {
     Report of_map;
@@ -82,8 +82,8 @@ Pose placeCloud(const CloudPlace& cloud, const Georeference& model, const Bounds
                                    : "placed using the model's map conversion: the cloud specifies no CRS, but this "
                                      "places it near the model");
       if (by_map_m > kFarFromModel_m)
-        report.warn(cloud.name, fmt::format("the cloud is {:.1f} km from the model: check the model's map conversion "
-                                            "(`standpoint georeference`), or specify the cloud's origin with --at",
+        report.warn(cloud.name, fmt::format("the cloud is {:.1f} km from the model: check the model's map conversion, "
+                                            "or specify the cloud's origin",
                                             by_map_m / 1000));
       return by_map;
     }
@@ -91,10 +91,9 @@ Pose placeCloud(const CloudPlace& cloud, const Georeference& model, const Bounds
   report.note(cloud.name, model_file_m.empty() ? "placed by its coordinates"
                                                : "placed by its coordinates in the model's file frame");
   if (as_is_m > kFarFromModel_m)
-    report.warn(cloud.name,
-                fmt::format("the cloud is {:.1f} km from the model: specify its origin with --at X,Y,Z, or set the "
-                            "model's map conversion (`standpoint georeference --origin`) and add the cloud again",
-                            as_is_m / 1000));
+    report.warn(cloud.name, fmt::format("the cloud is {:.1f} km from the model: specify its origin, or set the model's "
+                                        "map conversion and add the cloud again",
+                                        as_is_m / 1000));
   return {};
 }
 

@@ -32,7 +32,7 @@ std::string whyNothing(const RayScene& scene, const Pose& local_from_scanner, co
       too_far += static_cast<int>(hit->range_m > settings.max_range_m);
     }
   if (sceneTriangleCount(scene.environment()) == 0)
-    return "the scan is empty: the scene contains no products; import a model, or include products again with `treat`";
+    return "the scan is empty: the scene contains no products; import a model, or include products again";
   if (const double away = distanceTo(bounds(scene.environment()), local_from_scanner.translation);
       away > settings.max_range_m) {
     too_far = met;  // and where the model is small from there, no beam of this look round need have met it

@@ -122,7 +122,7 @@ void visitPicture(Archive& archive, Picture& p, Double* rotation, Double* transl
 }
 
 tl::unexpected<Error> damaged(const fs::path& file) {
-  return failure(ErrorKind::unusable, "is damaged: remove its folder and scan again without --resume", file.string());
+  return failure(ErrorKind::unusable, "is damaged: remove its folder and scan again from the start", file.string());
 }
 
 }  // namespace

@@ -69,12 +69,10 @@ Result<Pose> believedPose(const Station& station, const Instrument& instrument, 
   const auto& compensator = *instrument.compensator;
   const double limit_rad = std::max(compensator.range_rad, compensator.reduced_range_rad);
   if (compensator.range_rad > 0 && tilt.angle_rad > limit_rad)
-    return failure(
-        ErrorKind::unusable,
-        fmt::format("station {} is {} out of level; the compensator of the {} {} works up to {}; level the station "
-                    "(station --move {} --tilt-deg 0) or turn the compensator off (--compensator off)",
-                    station.name, angleText(tilt.angle_rad), instrument.maker, instrument.model, angleText(limit_rad),
-                    station.name));
+    return failure(ErrorKind::unusable, fmt::format("station {} is {} out of level; the compensator of the {} {} works "
+                                                    "up to {}; level the station or turn the compensator off",
+                                                    station.name, angleText(tilt.angle_rad), instrument.maker,
+                                                    instrument.model, angleText(limit_rad)));
   if (levelling.exact) return pose;
   const double accuracy_rad = tilt.angle_rad > compensator.range_rad && compensator.reduced_range_rad > 0
                                   ? compensator.reduced_accuracy_rad

@@ -70,7 +70,7 @@ std::optional<Refusal> StationPlacement::badHeight(double height_m) const {
   if (height_m >= lowest_m() - 1e-9 && height_m <= highest_m() + 1e-9) return std::nullopt;
   return Refusal{fmt::format("a tripod supports instrument heights of {:.2f} to {:.2f} m, not {:.2f} m", lowest_m(),
                              highest_m(), height_m),
-                 "change --height, or use --stand free for suspended or handheld instruments",
+                 "change the height, or use the stand 'free' for suspended or handheld instruments",
                  fmt::format("Tripod reaches {:.2f} to {:.2f} m", lowest_m(), highest_m())};
 }
 
@@ -89,7 +89,7 @@ std::optional<Refusal> StationPlacement::tooNear(const Eigen::Vector3d& centre) 
   if (!near) return std::nullopt;
   const auto& product = scene_.environment().products[near->product];
   return Refusal{
-      fmt::format("the instrument centre would be {:.0f} mm from {}; it needs {:.0f} mm of clearance",
+      fmt::format("the instrument centre would be {:.0f} mm from {}, but needs {:.0f} mm of clearance",
                   near->distance_m * 1000, productText(product), stand_.clearance_m * 1000),
       fmt::format("move it {:.0f} mm away", std::ceil((stand_.clearance_m - near->distance_m) * 1000 - 0.01)),
       fmt::format("{:.0f} cm from {}", near->distance_m * 100, plainKind(product))};
@@ -110,7 +110,7 @@ std::optional<Refusal> StationPlacement::noHeadroom(const Eigen::Vector3d& centr
   const auto above = scene_.intersect(centre, kUp, stand_.headroom_m);
   if (!above) return std::nullopt;
   return Refusal{
-      fmt::format("{} is {:.2f} m above the instrument centre; it needs {:.2f} m of headroom",
+      fmt::format("{} is {:.2f} m above the instrument centre, which needs {:.2f} m of headroom",
                   productText(scene_.environment().products[above->product]), above->range_m, stand_.headroom_m),
       fmt::format("lower it by {:.2f} m, or choose another place", stand_.headroom_m - above->range_m),
       fmt::format("{:.0f} cm below {}", above->range_m * 100, someKind(scene_.environment().products[above->product]))};
@@ -132,8 +132,7 @@ std::string StationPlacement::steepText(double slope_rad, const Product& product
 
 std::optional<Refusal> StationPlacement::badGround(const Eigen::Vector3d& centre) const {
   const auto ground = groundBelow(centre);
-  const char* elsewhere =
-      "use --on X,Y[,Z] with a point on a floor, or --stand free for suspended or handheld instruments";
+  const char* elsewhere = "choose a point on a floor, or use the stand 'free' for suspended or handheld instruments";
   if (!ground)
     return Refusal{"no ground below: the whole model is above the station, or there is no model", elsewhere,
                    "No floor below"};
@@ -154,10 +153,11 @@ std::optional<Refusal> StationPlacement::badGround(const Eigen::Vector3d& centre
         fmt::format("raise it by {:.2f} m, or {}", lowest_m() - height, elsewhere),
         fmt::format("Only {:.2f} m above ground", height)};
   if (ground->slope_rad > stand_.steepest_rad)
-    return Refusal{fmt::format("the ground below is {} of {:.0f} degrees, {}; the limit for a tripod is {:.0f} degrees",
-                               ground->slope_rad > stand_.wall_rad ? "a wall" : "a slope",
-                               ground->slope_rad / kRadPerDeg, ground->product, stand_.steepest_rad / kRadPerDeg),
-                   elsewhere, steepText(ground->slope_rad, scene_.environment().products[*ground->index])};
+    return Refusal{
+        fmt::format("the ground below is {} of {:.0f} degrees, {}, beyond the limit of {:.0f} degrees for a tripod",
+                    ground->slope_rad > stand_.wall_rad ? "a wall" : "a slope", ground->slope_rad / kRadPerDeg,
+                    ground->product, stand_.steepest_rad / kRadPerDeg),
+        elsewhere, steepText(ground->slope_rad, scene_.environment().products[*ground->index])};
   return noFooting(centre, *ground);
 }
 
@@ -177,7 +177,7 @@ std::optional<Refusal> StationPlacement::noFooting(const Eigen::Vector3d& centre
     if (stands[k] && stands[k + kTurns] && stands[k + 2 * kTurns]) return std::nullopt;
   return Refusal{fmt::format("the tripod feet, {:.2f} m from the centre, have no ground: {} is too small here",
                              stand_.foot_radius_m, ground.product),
-                 "move it away from the edge, or use --stand free for suspended or handheld instruments",
+                 "move it away from the edge, or use the stand 'free' for suspended or handheld instruments",
                  "No ground under the feet"};
 }
 
@@ -185,7 +185,7 @@ std::optional<Refusal> StationPlacement::whyNotOn(const RayHit& hit, double heig
   const double slope = slopeOf(hit);
   if (slope > stand_.steepest_rad)
     return Refusal{
-        fmt::format("this is {} of {:.0f} degrees, {}; the limit for a tripod is {:.0f} degrees",
+        fmt::format("this is {} of {:.0f} degrees, {}, beyond the limit of {:.0f} degrees for a tripod",
                     slope > stand_.wall_rad ? "a wall" : "a slope", slope / kRadPerDeg,
                     productText(scene_.environment().products[hit.product]), stand_.steepest_rad / kRadPerDeg),
         "choose a point on a floor", steepText(slope, scene_.environment().products[hit.product])};
@@ -206,7 +206,7 @@ std::optional<Refusal> StationPlacement::whyNot(const Eigen::Vector3d& centre) c
   if (!why && !solid) why = badGround(centre);
   if (!solid && !(around && why)) return why;
   return Refusal{fmt::format("the position is inside {}, a closed body", productText(environment.products[*around])),
-                 "move it out of the body; if the body models a room, use --stand free", inside(*around)};
+                 "move it out of the body; if the body models a room, use the stand 'free'", inside(*around)};
 }
 
 std::optional<std::string> StationPlacement::remark(const Eigen::Vector3d& centre) const {

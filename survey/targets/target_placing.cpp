@@ -76,7 +76,7 @@ Result<void> fits(const Job& job, const RayScene& scene, const Target& t) {
   if (const auto hit = whatCuts(scene, t))
     return failure(ErrorKind::unusable,
                    fmt::format("cannot place target {}: {} is {:.0f} mm from its centre, {:.0f} mm required; choose a "
-                               "position farther away, or attach it with --on-surface",
+                               "position farther away, or attach it to the surface",
                                t.name, productText(products[hit->product]), hit->range_m * 1000, t.size_m * 500));
   return {};
 }
@@ -85,7 +85,7 @@ Result<double> floorFor(const RayScene& scene, const FloorPlace& on, const Vecto
   const auto floors = floorsAt(scene, on.x_m - shift.x(), on.y_m - shift.y(), height);
   if (!floors.empty()) return chosenFloor(floors, on.z_m, shift.z());
   return failure(ErrorKind::unusable, fmt::format("no floor at ({}, {}) with {:.2f} m of free height for the target "
-                                                  "tripod; choose another place or a smaller --height",
+                                                  "tripod; choose another place or a smaller height",
                                                   on.x_m, on.y_m, height));
 }
 
@@ -105,9 +105,9 @@ Result<void> stick(const Job& job, const RayScene& scene, const Vector3d& place,
   const ModelSurface surface(around(scene.environment(), place, kSurfaceSearch_m));
   const SurfaceTouch touch = surface.empty() ? SurfaceTouch{} : surface.nearest(place, kSurfaceSearch_m);
   if (touch.normal.isZero())
-    return failure(ErrorKind::unusable,
-                   fmt::format("cannot place target {}: no surface within {} m; use --on to place it on a tripod",
-                               t.name, kSurfaceSearch_m));
+    return failure(
+        ErrorKind::unusable,
+        fmt::format("cannot place target {}: no surface within {} m; place it on a tripod", t.name, kSurfaceSearch_m));
   const Vector3d out = freeSide(job, scene, place, touch);
   t.normal = out;
   t.centre = touch.position + out * (stand_off_m + (t.kind == TargetKind::sphere ? t.size_m / 2 : kPlate_m));
@@ -157,7 +157,8 @@ Result<Target> placedTarget(const Job& job, const Vector3d& shift, const RayScen
     const Vector3d place = t.centre;
     TRY(stick(job, scene, place, asked.stand_off_m, t, stands, report));
   } else if (asked.normal) {
-    if (asked.normal->norm() < 1e-9) return failure(ErrorKind::usage, "--normal requires three numbers, not all zero");
+    if (asked.normal->norm() < 1e-9)
+      return failure(ErrorKind::usage, "the normal requires three numbers, not all zero");
     t.normal = asked.normal->normalized();
   }
   TRY(fits(job, scene, t));

@@ -141,7 +141,7 @@ TEST(CommandLine, DoesNotReplaceAProjectUnlessToldTo) {
   ASSERT_TRUE(saveProject(twoStoreyDocument(), folder.path(), progress));
   const auto ran = command({"import", "house.ifc", "-o", folder.path().string()});
   EXPECT_EQ(ran.code, 2);
-  EXPECT_NE(ran.err.find("--replace"), std::string::npos);
+  EXPECT_NE(ran.err.find("replace the project in it"), std::string::npos);
   EXPECT_TRUE(loadProject(folder.path(), progress));
 }
 

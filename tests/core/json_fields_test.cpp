@@ -58,7 +58,7 @@ TEST(JsonFields, NameTheFileAndThePointerOfWhatIsWrong) {
       {saysOf({{"nam", "S1"}}, [](JsonFields& f) { f.skip("name"); }),
        "r.json /rules/0/nam: unknown key; did you mean 'name'? available: name"},
       {saysOf({{"a/b", 1}}, [](JsonFields&) {}), "r.json /rules/0/a~1b: unknown key; none"},
-      {saysOf(json::array(), [](JsonFields&) {}), "r.json /rules/0: must be an object, in { }, not a list"}};
+      {saysOf(json::array(), [](JsonFields&) {}), "r.json /rules/0: must be an object in braces, not a list"}};
   for (const auto& [said, expected] : kFaults) EXPECT_EQ(said, expected);
 }
 

@@ -146,7 +146,7 @@ TEST(SurfaceFit, RefusesTooFewPointsAndPointsFarFromAnySurface) {
   for (auto& p : far) p += Vector3d(100, 100, 100);
   const auto result = fit(kRoom, far);
   ASSERT_FALSE(result);
-  EXPECT_NE(result.error().message.find("place the cloud with --pairs first"), std::string::npos);
+  EXPECT_NE(result.error().message.find("place the cloud by pairs of points first"), std::string::npos);
   Progress cancelled;
   cancelled.cancel();
   EXPECT_EQ(fitToSurface(pointsOn(kRoom, 0), {}, kRoom.search(), {}, cancelled).error().kind, ErrorKind::cancelled);

@@ -238,7 +238,7 @@ std::string furnitureType(const std::string& rest = "") {
 TEST(IfcLosses, GeometryThatHangsOnlyOnTypesIsALossThatOffersToTakeThem) {
   const ImportedModel model = importText(ifcText(furnitureType()));
   EXPECT_TRUE(loses(model, "#130", "IfcFurnitureType type130")) << issuesOf(model);
-  EXPECT_TRUE(loses(model, "#130", "--types"));
+  EXPECT_TRUE(loses(model, "#130", "import types as products"));
   EXPECT_TRUE(model.environment.products.empty());
 }
 

@@ -113,7 +113,7 @@ TEST(Obj, WhatStandsThereTwiceOrHasCollapsedIsLeftOutAndSaid) {
   EXPECT_EQ(model->environment.meshes.at(0)->positions.size(), 3U);
   ASSERT_EQ(model->report.issues.size(), 2U);
   EXPECT_EQ(model->report.issues[0].source, "line 8");
-  EXPECT_THAT(model->report.issues[0].message, HasSubstr("2 degenerate triangle(s) skipped"));
+  EXPECT_THAT(model->report.issues[0].message, HasSubstr("degenerate triangles skipped: 2"));
   EXPECT_EQ(model->report.issues[1].source, "line 6");
 }
 
@@ -123,7 +123,7 @@ TEST(Obj, AHouseInMillimetresIsPointedOut) {
   const auto model = objModel(text);
   ASSERT_TRUE(model);
   ASSERT_FALSE(model->report.issues.empty());
-  EXPECT_THAT(model->report.issues.back().message, HasSubstr("--unit mm"));
+  EXPECT_THAT(model->report.issues.back().message, HasSubstr("coordinates are in mm"));
 }
 
 TEST(Obj, PiecesOfAnySizeGiveTheSameModel) {

@@ -161,7 +161,7 @@ TEST(ConvertCloud, NamesWhatItCannotDo) {
   EXPECT_EQ(convertCloud(folder / "a.e57", folder / "b.laz", "", report, progress).error().kind, ErrorKind::usage);
   const auto variant = convertCloud(folder / "a.e57", folder / "b.e57", "short", report, progress);
   ASSERT_FALSE(variant.has_value());
-  EXPECT_THAT(describe(variant.error()), ::testing::HasSubstr("there is scaled, spherical"));
+  EXPECT_THAT(describe(variant.error()), ::testing::HasSubstr("available: scaled, spherical"));
   EXPECT_EQ(convertCloud(folder / "none.e57", folder / "b.ptx", "", report, progress).error().kind,
             ErrorKind::file_system);
   EXPECT_TRUE(filesIn(folder).empty());

@@ -66,7 +66,7 @@ void resumes(const char* name, json (*made)(const fs::path&) = options) {
   const auto cancelled = scanUntil(d, made(broken), "S3", cancel);
   ASSERT_FALSE(cancelled);
   EXPECT_EQ(cancelled.error().kind, ErrorKind::cancelled);
-  EXPECT_THAT(cancelled.error().message, AllOf(HasSubstr("S1, S2"), HasSubstr("--resume")));
+  EXPECT_THAT(cancelled.error().message, AllOf(HasSubstr("S1, S2"), HasSubstr("resume the scan")));
   auto again = made(broken);
   const auto unasked = run("scan", d, again);
   ASSERT_FALSE(unasked) << "finished stations are not thrown away";

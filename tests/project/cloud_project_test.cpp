@@ -95,7 +95,7 @@ TEST(CloudProject, RefusesWhatNeedsAModelAndNamesTheRemedy) {
       if (p.required) options[p.name] = p.kind == ParameterKind::list ? json({"x.e57"}) : json("leica-rtc360");
     const auto done = run(verb.name, document, options);
     ASSERT_FALSE(done) << verb.name;
-    EXPECT_THAT(done.error().message, HasSubstr("standpoint add PROJECT FILE")) << verb.name;
+    EXPECT_THAT(done.error().message, HasSubstr("add a model first")) << verb.name;
   }
 }
 
@@ -153,9 +153,8 @@ TEST(CloudProject, IsRefusedWhereFileOrOptionDoesNotFit) {
   std::ofstream(folder.path() / "noise.e57") << "no E57 at all";
   EXPECT_THAT(refused({{"files", {(folder.path() / "noise.e57").string()}}}), HasSubstr("noise.e57"));
   EXPECT_THAT(describe(run("import", projectOf({file}), {{"files", {file}}, {"update", true}}).error()),
-              HasSubstr("standpoint underlay PROJECT --add"));
-  EXPECT_THAT(describe(run("add", projectOf({file}), {{"files", {file}}}).error()),
-              HasSubstr("standpoint underlay PROJECT --add"));
+              HasSubstr("add it as an underlay"));
+  EXPECT_THAT(describe(run("add", projectOf({file}), {{"files", {file}}}).error()), HasSubstr("add it as an underlay"));
 }
 
 }  // namespace

@@ -62,8 +62,8 @@ TEST(Placement, KeepsTwentyCentimetresFromASurface) {
 TEST(Placement, NamesOnWhereAtHasTheHeightOfAFloor) {
   const auto d = ground([](Environment& e) { addBox(e, "wall", "IfcWall", {1, -3, 0}, {1.3, 3, 3}); });
   EXPECT_THAT(refusal(d, {{"at", {0, 0, 0}}}),
-              HasSubstr("if 0 is the height of the floor, specify --on 0,0,0: the tripod adds its height"));
-  EXPECT_THAT(refusal(d, {{"at", {0, 0, 0.12}}}), HasSubstr("specify --on 0,0,0.12"));
+              HasSubstr("if 0 is the height of the floor, specify the place on the floor (--on 0,0,0)"));
+  EXPECT_THAT(refusal(d, {{"at", {0, 0, 0.12}}}), HasSubstr("(--on 0,0,0.12)"));
   EXPECT_THAT(refusal(d, {{"at", {0.9, 0, 0}}}), testing::Not(HasSubstr("--on"))) << "it cannot stand there either";
   EXPECT_THAT(refusal(d, {{"at", {0.81, 0, 1.6}}}), testing::Not(HasSubstr("--on"))) << "that is no floor's height";
 }

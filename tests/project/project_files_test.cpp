@@ -178,7 +178,7 @@ TEST(Project, SaysThatADamagedComparisonIsDropped) {
     Progress again;
     const auto listed = runOnDisk(*findVerb(verbs(), "station"), {{"project", folder.path().string()}}, again);
     ASSERT_TRUE(listed) << describe(listed.error());
-    EXPECT_NE(said(listed->report).find("standpoint verify"), std::string::npos);
+    EXPECT_NE(said(listed->report).find("compare again"), std::string::npos);
   }
 }
 
@@ -187,7 +187,7 @@ TEST(Project, ThatIsNotThereIsAFileSystemErrorWithARemedy) {
   const auto back = loadProject("/nonexistent/project", progress);
   ASSERT_FALSE(back);
   EXPECT_EQ(back.error().kind, ErrorKind::file_system);
-  EXPECT_NE(back.error().message.find("standpoint import"), std::string::npos);
+  EXPECT_NE(back.error().message.find("import a model"), std::string::npos);
 }
 
 TEST(Project, DamagedAnywhereIsAnErrorAndNeverACrash) {

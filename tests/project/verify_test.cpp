@@ -235,7 +235,7 @@ TEST_F(Verify, OfAListOfPointsAsksForTheStation) {
     return line.str();
   });
   const Document d = laid(file, {500002, 5600001.5, 1.6});
-  EXPECT_THAT(refusal(d), HasSubstr("--from X,Y,Z"));
+  EXPECT_THAT(refusal(d), HasSubstr("specify the position"));
   const auto done = verified(d, {{"from", {500002, 5600001.5, 1.6}}});
   ASSERT_TRUE(done) << describe(done.error());
   EXPECT_TRUE(done->answer.at("no_verdict").is_null());
@@ -250,14 +250,14 @@ TEST_F(Verify, SaysWhatIsMissing) {
     return std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z);
   });
   EXPECT_THAT(refusal(laid(bare)), HasSubstr("the point cloud has no intensity"));
-  EXPECT_THAT(refusal(laid(path("scan.ptx"), {100, 0, 0})), HasSubstr("register the cloud first"));
+  EXPECT_THAT(refusal(laid(path("scan.ptx"), {100, 0, 0})), HasSubstr("register underlay"));
   Document none = laid(path("scan.ptx"));
   none.materials = nullptr;
   EXPECT_THAT(refusal(none), HasSubstr("no materials assigned"));
   EXPECT_THAT(refusal(laid(path("scan.ptx")), {{"underlay", "clod"}}), HasSubstr("available: cloud"));
   const auto unsaid = run("verify", laid(path("scan.ptx")), json::object());
   ASSERT_FALSE(unsaid);
-  EXPECT_THAT(unsaid.error().message, HasSubstr("--instrument"));
+  EXPECT_THAT(unsaid.error().message, HasSubstr("with the closest wavelength"));
 }
 
 TEST_F(Verify, OfAHeapAtOnePlaceProposesNothing) {
@@ -274,8 +274,8 @@ TEST_F(Verify, OfAHandfulOfPointsSaysThatTheyAreTooFewAndNotThatTheyLieWrong) {
     return n++ < 40 ? text(x, y, z, intensity) : std::string("0 0 0 0.5");
   });
   const auto said = refusal(laid(few));
-  EXPECT_THAT(said, AllOf(HasSubstr("only 40 points"), HasSubstr("at least 100 required"),
-                          HasSubstr("underlay PROJECT --add FILE")));
+  EXPECT_THAT(
+      said, AllOf(HasSubstr("scanner position: 40"), HasSubstr("at least 100 required"), HasSubstr("as an underlay")));
   EXPECT_THAT(said, Not(HasSubstr("--register")));
 }
 

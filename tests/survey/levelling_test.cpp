@@ -71,7 +71,7 @@ TEST(Levelling, IsRefusedBeyondTheCompensatorsRangeAndTiltedWithoutIt) {
   const auto refused = believedPose(leaning(0.1, 0), p40, {}, report);
   ASSERT_FALSE(refused) << "6 arc minutes; the liquid runs out at 5";
   EXPECT_THAT(refused.error().message,
-              AllOf(HasSubstr("6 arc minutes"), HasSubstr("5 arc minutes"), HasSubstr("--compensator off")));
+              AllOf(HasSubstr("6 arc minutes"), HasSubstr("5 arc minutes"), HasSubstr("turn the compensator off")));
   EXPECT_TRUE(believedPose(leaning(0.08, 0), p40, {}, report));
   const auto off = believedPose(leaning(0.1, 0), p40, {.compensator = false}, report);
   ASSERT_TRUE(off);

@@ -106,7 +106,7 @@ MapConversion conversionInMetres(const StatedConversion& stated, const Model& mo
   if (std::abs(c.scale - 1) > 0.01)
     report.warn(
         stated.place,
-        fmt::format("scale {} from model to map is implausible for a projection; check the units (--unit)", c.scale));
+        fmt::format("scale {} from model to map is implausible for a projection; check the length unit", c.scale));
   if ((stated.factors.array() > 0).all() && stated.factors.allFinite())
     c.factors = stated.factors;
   else

@@ -156,7 +156,7 @@ Units readUnits(const StepFile& file, double given_m, Report& report) {
     units.length_m = given_m;
   } else if (!length) {
     report.warn(assignment ? assignment.place() : "header",
-                "the file has no valid length unit; metres assumed. Use --unit to specify another");
+                "the file has no valid length unit; metres assumed; specify the length unit if it is another");
   }
   return units;
 }
