@@ -46,6 +46,22 @@ class Gui : public ::testing::Test {
   GuiDriver gui{editor};
 };
 
+// As when the work of a crash is offered while the model of the command line is read.
+TEST_F(Gui, ShowsItsPanelsOverTheirGroundWhereTheyFirstAppearUnderADialog) {
+  editor.dialogs.preferences = true;
+  gui.frames(3);
+  open();
+  gui.frames(3);
+  editor.dialogs.preferences = false;
+  gui.frames(3);
+  const auto& windows = ImGui::GetCurrentContext()->Windows;  // what lies behind comes first
+  const auto place = [&](const char* name) {
+    return std::find(windows.begin(), windows.end(), ImGui::FindWindowByName(name)) - windows.begin();
+  };
+  for (const char* panel : {"###left", "###right", "###bottom", "###viewport"})
+    EXPECT_LT(place("###splitters"), place(panel)) << panel;
+}
+
 TEST_F(Gui, ShowsEveryPanelInSomeWorkspace) {
   open();
   std::set<std::string> seen;
