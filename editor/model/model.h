@@ -212,7 +212,8 @@ struct Model : Style {
   Fly fly;                             // while the tool is Tool::fly
   CameraFlight flight;                 // while neither is
   WalkGround walk_ground;
-  WalkPlace wanted_walk;  // from where, as soon as the ground is there
+  WalkPlace wanted_walk;     // from where, as soon as the ground is there
+  bool wanted_jump = false;  // a teleport: it can be undone
   ViewHistory views;
   ImportPreview preview;
   Selection preview_selection;  // products of what the preview shows
