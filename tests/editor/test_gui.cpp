@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <set>
 #include <thread>
@@ -376,6 +377,40 @@ TEST_F(Gui, ShowsTheOriginalBesideTheLighterModelWithTheirDistances) {
   gui.frames(3);
   EXPECT_EQ(editor.view.side, ModelSide::lighter);
   EXPECT_EQ(editor.view.colour, ColourMode::model);
+}
+
+TEST_F(Gui, ExportsUnderTheProjectsNameWhereNothingIsYet) {
+  open();
+  const TemporaryFolder folder;
+  editor.settings.last_folder = folder.path().string();
+  const auto offered = [&] {
+    EXPECT_TRUE(invoke(editor, "export"));
+    gui.frames(2);
+    EXPECT_EQ(editor.dialogs.verb.form.problem(), "") << "one press of Run is enough";
+    const std::filesystem::path file = editor.dialogs.verb.form.find("output")->text;
+    editor.dialogs.verb.open = false;
+    gui.frames(2);
+    return file;
+  };
+  const auto first = offered();
+  EXPECT_EQ(first, folder.path() / (editor.session.name() + ".glb"));
+  std::ofstream(first) << "somebody's";
+  EXPECT_NE(offered(), first);
+}
+
+TEST_F(Gui, TakesTheBudgetInTrianglesToo) {
+  open();
+  editor.workspace = Workspace::optimise;
+  editor.wanted_tab[1] = "optimise";
+  gui.frames(3);
+  ASSERT_TRUE(gui.click("###budget-triangles"));
+  gui.frames(2);
+  gui.key('A', true);
+  gui.type("30");
+  gui.key(kEnter);
+  gui.frames(2);
+  const auto whole = static_cast<double>(sceneTriangleCount(*editor.session.document().imported));
+  EXPECT_NEAR(editor.panels.of<OptimiseState>().budget_fraction * whole, 30, 1e-6);
 }
 
 TEST_F(Gui, FollowsTheBudgetsSliderAtOnceAndForgetsItWhenOptimised) {
