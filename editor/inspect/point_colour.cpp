@@ -56,7 +56,7 @@ std::string whyNoChannel(std::uint32_t channel) {
     case cloud_channel::kLabels: return "The file has no labels of products and materials";
     case cloud_channel::kTime: return "The file has no times; scan with time";
     case cloud_channel::kReturns: return "The file has no numbers of returns; scan with returns";
-    default: return "The file has no truth; scan with truth";
+    default: return "The file has no truth: choose Extra output › Truth in the Scan panel and scan again";
   }
 }
 

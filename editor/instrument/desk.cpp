@@ -85,9 +85,14 @@ void saveEnvironment(Editor& editor) {
   if (editor.session.modified() && !editor.session.folder().empty()) editor.session.save(editor.session.folder());
 }
 
-// Empty while the project has no folder.
-fs::path scansFolder(const Editor& editor) {
-  return editor.session.folder().empty() ? fs::path() : editor.session.folder() / "scans";
+// Of a project without a name: in a place of its own, as the scans of the survey are.
+fs::path scansFolder(const Editor& editor) { return editor.session.ownFolder() / "scans"; }
+
+// Nothing is written for a project without a name that nobody scans in.
+void remember(InstrumentDesk& desk, const Editor& editor) {
+  if (editor.session.folder().empty()) return;
+  if (auto recalled = desk.host->remember(scansFolder(editor)); !recalled)
+    desk.refused = trf("The device memory was lost: {}", trError(recalled.error()));
 }
 
 }  // namespace
@@ -156,8 +161,7 @@ void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& de
   // A device that remembers no choice begins in the editor's language; in an exercise in that of the exercise.
   auto& state = desk.host->device().change();
   if (state.values.contains("language")) state.values["language"] = state.language = spoken();
-  if (auto recalled = desk.host->remember(scansFolder(editor)); !recalled)
-    desk.refused = trf("The device memory was lost: {}", trError(recalled.error()));
+  remember(desk, editor);
   desk.last = std::chrono::steady_clock::now();
 }
 
@@ -166,9 +170,12 @@ void followProject(InstrumentDesk& desk, Editor& editor) {
   const auto key = std::pair(editor.session.folder(), editor.session.document().imported.get());
   if (desk.host && (key == desk.project || desk.host->busy())) return;
   const bool moved_only = desk.host && key.second == desk.project.second;
+  const bool named = desk.project.first.empty();
   desk.project = key;
   if (!moved_only)
     chooseDevice(desk, editor, *desk.device, desk.instrument);  // saved elsewhere: the same device goes on
+  else if (named)
+    remember(desk, editor);
 }
 
 namespace {

@@ -142,6 +142,14 @@ std::optional<GraphicsLevel> GraphicsPace::notMeasured() const {
   return std::nullopt;
 }
 
+std::string GraphicsPace::aboutMeasured(GraphicsChoice choice) const {
+  constexpr double kUsual_s = 0.1;
+  GraphicsPace measured = *this;
+  if (choice != GraphicsChoice::automatic)
+    if (auto& cost_s = measured.cost_s_[index(levelOf(choice))]; !cost_s) cost_s = kUsual_s;
+  return measured.about(choice);
+}
+
 std::string GraphicsPace::about(GraphicsChoice choice) const {
   if (choice == GraphicsChoice::automatic && choice_ == choice)
     return trf("The highest level that keeps 25 frames per second, now {}", tr(graphicsName(level())));

@@ -62,6 +62,8 @@ class GraphicsPace {
   std::optional<GraphicsLevel> notMeasured() const;
   // One line: what a choice has, and what it costs on this machine if that has been measured.
   std::string about(GraphicsChoice choice) const;
+  // The same as it will be once that has been measured.
+  std::string aboutMeasured(GraphicsChoice choice) const;
 
  private:
   GraphicsLevel most() const;

@@ -127,7 +127,7 @@ GuideStep inspectStep(const Model& model) {
   const auto* last = model.session.lastOf("assess");
   const auto* answer = last == nullptr ? nullptr : answerAs<AssessAnswer>(last->answer);
   if (answer == nullptr) return step;
-  if (last->revision != model.session.revision()) {
+  if (model.session.isOutOfDate(*last)) {
     step.status = "Assessment is out of date";
     return step;
   }

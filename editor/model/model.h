@@ -146,6 +146,7 @@ struct ViewportState {
   std::optional<Eigen::Vector2d> placed_at;  // the pointer, until it leaves the place where it has just set a station
   std::optional<Eigen::Vector3d> row_from;   // where a row of stations begins, on the floor
   RowSteps row{.count = 3, .spacing_m = {}};
+  std::size_t target_article = 0;  // what the next click puts up, of TargetList::kinds()
   StationHandle handle = StationHandle::none, hovered_handle = StationHandle::none;
   std::optional<HandledStation> handled_station;    // the chosen one, as its handle was dragged
   std::optional<ViewBeforeStation> before_station;  // while the camera is where an instrument is
@@ -212,7 +213,8 @@ struct Model : Style {
   Fly fly;                             // while the tool is Tool::fly
   CameraFlight flight;                 // while neither is
   WalkGround walk_ground;
-  WalkPlace wanted_walk;  // from where, as soon as the ground is there
+  WalkPlace wanted_walk;     // from where, as soon as the ground is there
+  bool wanted_jump = false;  // a teleport: it can be undone
   ViewHistory views;
   ImportPreview preview;
   Selection preview_selection;  // products of what the preview shows

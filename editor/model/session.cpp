@@ -418,6 +418,7 @@ void Session::succeed(VerbTask& task, Outcome outcome) {
   }
   if (begins_project) project_since_ = revision_;
   finished_.front().revision = revision_;
+  finished_.front().left = document();
   if (done) done(task.verb(), task.options());
 }
 
@@ -489,6 +490,13 @@ const FinishedTask* Session::lastOf(std::string_view name) const {
     return t.ok && t.verb == name && t.revision >= project_since_;
   });
   return found == finished_.end() ? nullptr : &*found;
+}
+
+bool Session::isOutOfDate(const FinishedTask& task) const {
+  const auto& then = task.left;
+  const auto& now = document();
+  return then.imported != now.imported || then.georeference != now.georeference || then.simplified != now.simplified ||
+         then.materials != now.materials || then.job != now.job;
 }
 
 void Session::say(const Report& report) {

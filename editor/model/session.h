@@ -32,6 +32,7 @@ struct FinishedTask {
   double seconds = 0;
   std::any answer;             // as answerAs reads it
   std::uint64_t revision = 0;  // of the document that it ran on, or made
+  Document left;               // that document
 };
 
 struct ShownError {
@@ -136,6 +137,8 @@ class Session {
   const std::deque<FinishedTask>& finished() const { return finished_; }  // newest first
   // That went well, and on this project.
   const FinishedTask* lastOf(std::string_view verb) const;
+  // Whether the model, its materials or the survey have changed since; a measurement or a bookmark is nothing to it.
+  bool isOutOfDate(const FinishedTask& task) const;
   // Its answer; null where there is none of that type.
   template <class A>
   const A* lastAnswer(std::string_view verb) const {

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <optional>
 #include <string_view>
+#include <tuple>
 
 #include "core/part_file.h"
 #include "editor/desktop/interface_scale.h"
@@ -152,6 +153,21 @@ Result<void> writeSettings(const Settings& settings, const std::filesystem::path
   std::error_code error;
   std::filesystem::create_directories(file.parent_path(), error);
   return writeWholeText(file, toJson(settings).dump(2) + '\n');
+}
+
+void SettingsKeeper::keep(const Settings& settings) {
+  constexpr std::chrono::milliseconds kQuiet(500);
+  if (settings == known_) return due_.reset();
+  const auto now = Clock::now();
+  if (!due_) due_ = now + kQuiet;
+  if (now < *due_) return;
+  due_.reset();
+  known_ = settings;
+  std::ignore = writeSettings(settings, file_);  // the end of the editor tries once more, and says what is wrong
+}
+
+double SettingsKeeper::untilDue_s() const {
+  return due_ ? std::max(0.0, std::chrono::duration<double>(*due_ - Clock::now()).count()) : -1;
 }
 
 }  // namespace standpoint

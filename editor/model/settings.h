@@ -2,8 +2,11 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -57,5 +60,20 @@ struct StoredSettings {
 };
 StoredSettings readSettings(const std::filesystem::path& file);
 Result<void> writeSettings(const Settings& settings, const std::filesystem::path& file);
+
+// Writes what has changed while the editor runs, so that a crash takes no preference with it; not in every frame of a
+// drag.
+class SettingsKeeper {
+ public:
+  SettingsKeeper(std::filesystem::path file, Settings known) : file_(std::move(file)), known_(std::move(known)) {}
+  void keep(const Settings& settings);
+  double untilDue_s() const;  // -1: nothing waits
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::filesystem::path file_;
+  Settings known_;
+  std::optional<Clock::time_point> due_;
+};
 
 }  // namespace standpoint

@@ -27,20 +27,24 @@ constexpr double kLookDown_rad = 0.25, kNearest_m = 0.6, kFarthest_m = 3.5, kBef
 
 ViewHistory::View viewNow(const Model& model) {
   return {model.view.camera, model.walk.active() ? std::optional(model.walk.feet()) : std::nullopt,
-          model.visibility.cut_height_m};
+          model.visibility.cut_height_m, std::nullopt};
 }
 
-void walkFrom(Model& model, WalkPlace place) {
+void walkFrom(Model& model, WalkPlace place, bool jumps = false) {
   model.wanted_walk = std::move(place);
+  model.wanted_jump = jumps;
   model.walk_ground.prepare(model.session.document(), model.walker, model.wake);
   followWalking(model);
 }
+
+void jump(Model& model, WalkPlace place) { walkFrom(model, std::move(place), true); }
 
 // Without a source: there is no file to be repaired.
 Error nowhere(std::string message) { return {ErrorKind::unusable, std::move(message), {}}; }
 
 bool begin(Model& model, const std::shared_ptr<const WalkedGround>& ground, const StartPlace& place) {
-  const auto before = viewNow(model);
+  auto before = viewNow(model);
+  if (model.wanted_jump) before.jumped_at = model.session.revision();
   stopFlying(model);
   if (!model.walk.start(ground, model.walker, place, model.view.camera)) return false;
   model.views.push(before);
@@ -86,7 +90,7 @@ std::string whyNoLanding(const Landing& landing, const Model& model) {
 }
 
 void teleport(Model& model, const RayHit& hit) {
-  walkFrom(model, [&model, hit, body = model.walker](const WalkedGround& ground) -> Result<StartPlace> {
+  jump(model, [&model, hit, body = model.walker](const WalkedGround& ground) -> Result<StartPlace> {
     const auto landing = landingOn(ground, body, hit.position, hit.normal);
     const auto why = whyNoLanding(landing, model);
     if (!why.empty()) return tl::unexpected(nowhere(trf("Cannot stand there: {}", why)));
@@ -95,7 +99,7 @@ void teleport(Model& model, const RayHit& hit) {
 }
 
 void jumpToRoom(Model& model, std::uint32_t product) {
-  walkFrom(model, [product, body = model.walker](const WalkedGround& ground) -> Result<StartPlace> {
+  jump(model, [product, body = model.walker](const WalkedGround& ground) -> Result<StartPlace> {
     if (auto place = placeInRoom(*ground.environment, product, *ground.collision, ground.obstacles, body))
       return *place;
     return tl::unexpected(
@@ -105,7 +109,7 @@ void jumpToRoom(Model& model, std::uint32_t product) {
 
 void jumpToStation(Model& model, std::size_t station) {
   const auto& chosen = model.session.document().job->stations[station];
-  walkFrom(model, [chosen, body = model.walker](const WalkedGround& ground) -> Result<StartPlace> {
+  jump(model, [chosen, body = model.walker](const WalkedGround& ground) -> Result<StartPlace> {
     Avatar avatar(ground.obstacles, body);
     if (avatar.stand(chosen.true_pose.translation, chosen.instrument_height_m + 1))
       return StartPlace{avatar.feet(), {}};
@@ -120,7 +124,7 @@ void jumpToStorey(Model& model, std::int32_t node) {
   const double low = storey->elevation_m - kStoreySill, high = std::next(storey) == storeys.end()
                                                                    ? low + kHighestStorey_m
                                                                    : std::next(storey)->elevation_m - kStoreySill;
-  walkFrom(model, [&model, low, high, node, body = model.walker](const WalkedGround& ground) -> Result<StartPlace> {
+  jump(model, [&model, low, high, node, body = model.walker](const WalkedGround& ground) -> Result<StartPlace> {
     if (auto place = placeOnLevel(*ground.environment, *ground.collision, ground.obstacles, body, low, high))
       return *place;
     return tl::unexpected(nowhere("No floor of 2 m² to stand on in " +
@@ -185,6 +189,8 @@ void goBackInViews(Model& model) {
   model.view.camera = view->camera;
   model.visibility.cut_height_m = view->cut_height_m;
 }
+
+bool canUndoJump(const Model& model) { return model.walk.active() && model.views.endsInJump(model.session.revision()); }
 
 void followWalking(Model& model) {
   if (auto error = model.walk_ground.takeError()) {

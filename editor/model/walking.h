@@ -26,10 +26,13 @@ class ViewHistory {
     Camera camera;
     std::optional<Eigen::Vector3d> feet;  // of whoever walked there
     std::optional<double> cut_height_m;
+    std::optional<std::uint64_t> jumped_at;  // revision of the session when a teleport or a jump left this view
   };
   void push(const View& view);
   std::optional<View> back();
   bool empty() const { return views_.empty(); }
+  // Whether the last thing that happened is a jump: nothing in the session has changed since.
+  bool endsInJump(std::uint64_t revision) const { return !views_.empty() && views_.back().jumped_at == revision; }
 
  private:
   std::vector<View> views_;
@@ -58,6 +61,7 @@ void walkFromEye(Model& model, const Eigen::Vector3d& eye, const Camera& camera)
 // From near and indoors, from where most is free around it; the view before comes back with Alt+Left.
 void flyTo(Model& model, const Eigen::Vector3d& place);
 void goBackInViews(Model& model);
+bool canUndoJump(const Model& model);  // by goBackInViews()
 // To be called once a frame: begins to walk when the ground is there.
 void followWalking(Model& model);
 

@@ -50,7 +50,7 @@ void drawStated(const Georeference& g) {
 
 void drawUtm(double latitude_deg, double longitude_deg) {
   const auto u = utm(latitude_deg, longitude_deg);
-  ui::property("UTM", fmt::format("{}{}  {:.3f}  {:.3f}", u.zone, u.north ? "N" : "S", u.easting_m, u.northing_m));
+  ui::property("UTM", fmt::format("{}{}\n{:.3f}  {:.3f}", u.zone, u.north ? "N" : "S", u.easting_m, u.northing_m));
   ui::property("Convergence, UTM", fmt::format("{:.6f}°", u.convergence_deg));
   ui::property("Scale, UTM", fmt::format("{:.8f}", u.scale));
 }

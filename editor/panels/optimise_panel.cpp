@@ -203,7 +203,13 @@ void draw(const Model& model, OptimiseState& state, Actions& actions) {
     if (ui::numberSlider("###budget", percent, 1, 100,
                          {.kind = {.unit = "%", .least = 0.01, .most = 100}, .decimals = 0}))
       state.budget_fraction = percent / 100;
-    ui::property(" ", trf("{} triangles", groupedDigits(budget)));
+    ui::propertyLabel(" ");
+    double triangles = static_cast<double>(budget);
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    if (ui::numberField("###budget-triangles", triangles,
+                        {.kind = {.unit = "triangles", .least = 1, .most = static_cast<double>(before)}, .decimals = 0},
+                        "Triangles that the whole model may have"))
+      state.budget_fraction = triangles / static_cast<double>(before);
     ui::propertyLabel("Max deviation");
     ui::numberSlider("###deviation", state.max_deviation_mm, 0.5, 100,
                      {.kind = {.unit = "mm", .least = 0.001, .most = 10000}, .decimals = 1}, nullptr, true);

@@ -164,7 +164,7 @@ void drawPlanPanel(const Model& model, PanelStates&, Actions& actions) {
   const auto* last = model.session.lastOf("plan");
   const auto* answer = last == nullptr ? nullptr : answerAs<PlanAnswer>(last->answer);
   if (answer == nullptr) return;
-  if (last->revision != model.session.revision()) ui::dimWrapped("Coverage is out of date. Compute it again.");
+  if (model.session.isOutOfDate(*last)) ui::dimWrapped("Coverage is out of date. Compute it again.");
   ui::meter(model, answer->coverage, tone::kGood);
   ui::dimText(trf("{} of {:.0f} m² of exposed surface", percent(answer->coverage), answer->exposed_m2));
   if (answer->proposed) drawProposal(model, actions, *answer->proposed);

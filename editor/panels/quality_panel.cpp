@@ -174,7 +174,7 @@ void draw(const Model& model, QualityState& state, Actions& actions) {
     ui::dimWrapped("Compares the scans with the model and with limits, and shows the worst place of each figure.");
     return;
   }
-  if (last->revision != model.session.revision()) ui::wrapped("The project has changed since. Assess the scans again.");
+  if (model.session.isOutOfDate(*last)) ui::wrapped("The project has changed since. Assess the scans again.");
   drawVerdict(*answer);
   drawSave(*answer, actions);
   drawRemedies(*answer);

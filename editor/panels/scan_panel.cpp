@@ -206,6 +206,12 @@ void start(const Model& model, ScanState& state, const ScanChoice& asked, Action
   actions.startScan(options, stations == "all" ? tr("Scan all stations") : trf("Scan station {}", stations));
 }
 
+bool lastWasCancelled(const Session& session) {
+  const auto& finished = session.finished();
+  const auto last = std::find_if(finished.begin(), finished.end(), [](const auto& t) { return t.verb == "scan"; });
+  return last != finished.end() && last->cancelled;
+}
+
 void drawLast(const Model& model) {
   const auto* last = model.session.lastAnswer<ScanAnswer>("scan");
   if (last == nullptr) return;
@@ -245,6 +251,8 @@ void drawForm(const Model& model, ScanState& state, ScanChoice& asked, Actions& 
   const CloudFormat* format = formats.empty() ? nullptr : formats[static_cast<std::size_t>(state.format)];
   if (ui::primaryButton(ICON_PLAY "  Scan###run-scan", whyNotScan(model, asked, *settings), {-FLT_MIN, model.px(28)}))
     start(model, state, asked, actions, folder, format);
+  if (state.resume && lastWasCancelled(model.session))
+    ui::dimWrapped("The last scan was cancelled. With the same settings, Scan resumes it.");
   if (!model.session.document().materials) {
     ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
     ImGui::SameLine();

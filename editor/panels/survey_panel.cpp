@@ -132,15 +132,21 @@ void draw(const Model& model, PanelStates& states, Actions& actions) {
     return;
   }
   // Beside one another where both have room.
-  const float half = ui::shareOfRow(2);
-  const float wanted =
-      ImGui::CalcTextSize(tr(ICON_STATION "  Add station").c_str()).x + 2 * ImGui::GetStyle().FramePadding.x;
-  const bool beside = half >= wanted;
-  const float width = beside ? half : ImGui::GetContentRegionAvail().x;
+  const auto wanted = [](const char* label) {
+    return ImGui::CalcTextSize(tr(label).c_str()).x + 2 * ImGui::GetStyle().FramePadding.x;
+  };
+  const float gap = ImGui::GetStyle().ItemSpacing.x, row = wanted("Add row"),
+              half = (ImGui::GetContentRegionAvail().x - row - 2 * gap) / 2;
+  const bool beside = half >= std::max(wanted(ICON_STATION "  Add station"), wanted(ICON_TARGET "  Add target"));
+  const float width = beside ? half : ImGui::GetContentRegionAvail().x - row - gap;
   const auto why = model.session.whyNot("station");
   if (ui::primaryButton(ICON_STATION "  Add station###add-station", why, {width, 0})) actions.run("add-station");
+  ImGui::SameLine();
+  if (ui::button("Add row###add-row", why, {row, 0}, "Several stations at even distances: click both ends"))
+    actions.run("add-row");
   if (beside) ImGui::SameLine();
-  if (ui::button(ICON_TARGET "  Add target###add-target", why, {width, 0}, "Click in the view to place the target"))
+  if (ui::button(ICON_TARGET "  Add target###add-target", why, {beside ? half : -FLT_MIN, 0},
+                 "Click in the view to place the target"))
     actions.run("add-target");
   drawStations(model, actions, *job);
   if (model.survey.station >= static_cast<int>(job->stations.size()))

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <optional>
@@ -30,13 +31,20 @@ constexpr const char* kMarkFile = "owner.json";
 constexpr const char* kSeen = "seen";  // a start has counted this crash
 
 // Of all processes that ever had this number, which one: when it started, since which boot. Empty: there is none now.
+// One that is ending is gone, though its memory takes seconds to free, or nobody asks how it ended.
 std::string startOf(long process) {
+  constexpr int kState = 3, kFlags = 9, kStart = 22;  // proc_pid_stat(5)
+  constexpr unsigned long kEnding = 0x4;              // PF_EXITING of the kernel
   std::ifstream stat("/proc/" + std::to_string(process) + "/stat"), boot("/proc/sys/kernel/random/boot_id");
   std::string text, field, boot_id;
   std::getline(stat, text);
   std::getline(boot, boot_id);
   std::istringstream fields(text.substr(std::min(text.size(), text.rfind(')') + 1)));
-  for (int i = 3; i <= 22; ++i) fields >> field;
+  for (int i = kState; i <= kStart; ++i) {
+    fields >> field;
+    if (i == kState && (field == "Z" || field == "X")) return {};
+    if (i == kFlags && (std::strtoul(field.c_str(), nullptr, 10) & kEnding) != 0) return {};
+  }
   return fields ? boot_id + ' ' + field : std::string();
 }
 
@@ -44,7 +52,8 @@ std::string startOf(long process) {
 bool ownerLives(long process, const json& owner) {
   if (kill(static_cast<pid_t>(process), 0) != 0 && errno != EPERM) return false;
   const auto start = owner.is_object() ? owner.value("process_start", json()) : json();
-  return !start.is_string() || start.get<std::string>() == startOf(process);
+  const auto now = startOf(process);
+  return !now.empty() && (!start.is_string() || start.get<std::string>() == now);
 }
 
 std::optional<long> processOf(const fs::path& folder) {

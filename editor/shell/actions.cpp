@@ -126,7 +126,11 @@ std::string whyPaintNot(const Editor& e) {
   return e.session.whyNot("materials");
 }
 std::string whySaveNot(const Editor& e) { return e.session.whyNotSave(); }
-std::string whyUndoNot(const Editor& e) { return e.session.whyNotUndo(); }
+std::string whyUndoNot(const Editor& e) { return canUndoJump(e) ? "" : e.session.whyNotUndo(); }
+void undo(Editor& e) {
+  if (canUndoJump(e)) return goBackInViews(e);
+  e.session.undo();
+}
 std::string whyRedoNot(const Editor& e) { return e.session.whyNotRedo(); }
 std::string whyImportNot(const Editor& e) { return e.session.whyNot("import"); }
 std::string whyUpdateNot(const Editor& e) { return e.environment() ? e.session.whyNot("import") : whyNoModel(e); }
@@ -152,7 +156,7 @@ const std::array kOwn = {
     Action{"turntable", "Save turntable film…", "", {}, openShots<ShotKind::turntable>, whyNothingOpen},
     Action{"walk-through", "Save walk-through film…", "", {}, openShots<ShotKind::walk_through>, whyNothingOpen},
     Action{"quit", "Quit", "", {'Q', true}, quit, nullptr},
-    Action{"undo", "Undo", ICON_UNDO, {'Z', true}, [](Editor& e) { e.session.undo(); }, whyUndoNot},
+    Action{"undo", "Undo", ICON_UNDO, {'Z', true}, undo, whyUndoNot},
     Action{"redo", "Redo", ICON_REDO, {'Y', true}, [](Editor& e) { e.session.redo(); }, whyRedoNot},
     Action{"select-all", "Select all", "", {'A', true}, selectAll, whyNoModel},
     Action{"select-none", "Clear selection, leave tool", "", {kKeyEscape}, leaveTool, nullptr},
@@ -336,6 +340,10 @@ std::string shortcutText(const Shortcut& s) {
 void runShortcuts(Editor& editor) {
   const auto& io = ImGui::GetIO();
   if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
+  if (io.KeyCtrl && io.KeyShift && !io.KeyAlt && !io.WantTextInput) {  // as in many other programs
+    if (keyboard::pressed('Z')) return static_cast<void>(invoke(editor, "redo"));
+    if (keyboard::pressed('P')) return static_cast<void>(invoke(editor, "palette"));
+  }
   for (const auto& action : actions()) {
     const auto& s = action.shortcut;
     if (s.key == kKeyEscape) continue;  // closeTopmost
@@ -354,7 +362,8 @@ void actionMenuItem(Editor& editor, const char* id) {
   const auto why = whyNot(action, editor);
   std::string title = tr(action.title);
   if (std::strcmp(id, "undo") == 0 && why.empty())
-    title = trf("Undo: {}", trSentence(editor.session.history().undoDescription()));
+    title =
+        trf("Undo: {}", canUndoJump(editor) ? tr("Teleport") : trSentence(editor.session.history().undoDescription()));
   if (std::strcmp(id, "redo") == 0 && why.empty())
     title = trf("Redo: {}", trSentence(editor.session.history().redoDescription()));
   const char* const icon = action.on != nullptr && action.on(editor) ? ICON_CHECK : action.icon;
@@ -374,7 +383,8 @@ void actionButton(Editor& editor, const char* id, const char* text, float width)
   const Action& action = *findAction(id);
   const std::string keys = shortcutText(action.shortcut);
   const std::string tip = tr(action.title) + (keys.empty() ? "" : "  (" + keys + ")");
-  if (ui::button(ui::fittingLabel(action.icon, text, id, width).c_str(), whyNot(action, editor), {width, 0},
+  const float wide = width < 0 ? ImGui::GetContentRegionAvail().x : width;
+  if (ui::button(ui::fittingLabel(action.icon, text, id, wide).c_str(), whyNot(action, editor), {width, 0},
                  tip.c_str()))
     action.run(editor);
 }

@@ -293,7 +293,22 @@ void askToLocate(Editor& editor, const std::filesystem::path& missing) {
              });
 }
 
-void askForExport(Editor& editor) { openVerbForm(editor, "export"); }
+// Where nothing is yet, so that whoever agrees writes over nothing.
+void askForExport(Editor& editor) {
+  openVerbForm(editor, "export");
+  const auto& project = editor.session.folder();
+  std::error_code unreadable;
+  std::filesystem::path folder = editor.settings.last_folder;
+  if (!project.empty()) folder = project.parent_path();
+  if (folder.empty()) folder = std::filesystem::current_path(unreadable);
+  if (!std::filesystem::is_directory(folder, unreadable)) return;
+  std::filesystem::path file = folder / (editor.session.name() + ".glb");
+  for (int n = 2; std::filesystem::exists(file, unreadable); ++n)
+    file = folder / fmt::format("{} {}.glb", editor.session.name(), n);
+  auto& state = editor.dialogs.verb;
+  state.form.fill({{"output", file.string()}});
+  state.begun_with = state.form.options();
+}
 
 void askWhereToSave(Editor& editor) {
   const auto& folder = editor.session.folder();

@@ -19,11 +19,18 @@ void drawGraphicsChoices(Editor& editor, float width_pt) {
     const float inset = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x;
     ImGui::Indent(inset);
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - editor.px(6));
+    const std::string about = editor.graphics.about(choice);
+    const auto height = [&](const std::string& text) {
+      return ImGui::CalcTextSize(text.c_str(), nullptr, false, editor.px(width_pt) - inset).y;
+    };
+    // So that nothing moves under the pointer when the costs come in.
+    const float left_free = editor.shown() ? height(editor.graphics.aboutMeasured(choice)) - height(about) : 0;
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + editor.px(width_pt) - inset);
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    ImGui::TextUnformatted(editor.graphics.about(choice).c_str());
+    ImGui::TextUnformatted(about.c_str());
     ImGui::PopStyleColor();
     ImGui::PopTextWrapPos();
+    if (left_free > 0) ImGui::SetCursorPosY(ImGui::GetCursorPosY() + left_free);
     ImGui::Unindent(inset);
   }
 }

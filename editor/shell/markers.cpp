@@ -155,12 +155,16 @@ void drawWay(const Editor& editor, Pen& pen) {
   }
 }
 
+const TargetArticle& chosenArticle(const Editor& editor, const TargetKinds& kinds) {
+  return kinds.articles[std::min(editor.view.target_article, kinds.articles.size() - 1)];
+}
+
 // A target as the click would put it up, and how many points each station's scan would lay on it.
 void tellTargetHere(Editor& editor, Pen& pen) {
   const auto& hit = *editor.view.hover;
   const auto* kinds = editor.target_list.kinds();
   if (kinds == nullptr) return;
-  const auto& article = kinds->articles.front();
+  const auto& article = chosenArticle(editor, *kinds);
   const bool sphere = article.shape == TargetKind::sphere;
   const Target target{article.label, article.shape, hit.position + (sphere ? article.size_m / 2 : 0.0) * hit.normal,
                       hit.normal, article.size_m};
@@ -169,7 +173,7 @@ void tellTargetHere(Editor& editor, Pen& pen) {
   const auto& job = editor.session.document().job;
   if (!scene || !job) return;
   const auto settings = editor.plannedSettings();
-  std::string text = article.label;
+  std::string text = tr(article.label);
   for (const auto& station : job->stations) {
     const auto sight = sightFrom(station, *scene, target, kinds->rules, settings);
     text += fmt::format("\n{}   {:.1f} m   {}", station.name, sight.distance_m,
@@ -187,6 +191,20 @@ void drawPreview(Editor& editor, Pen& pen) {
 }
 
 }  // namespace
+
+void targetChip(Editor& editor) {
+  const auto* kinds = editor.target_list.kinds();
+  if (editor.view.tool != Tool::placeTarget || kinds == nullptr) return;
+  const std::string label = ICON_TARGET "  " + tr(chosenArticle(editor, *kinds).label);
+  ImGui::NewLine();
+  ImGui::SetNextItemWidth(chipWidth(editor, label, 150));
+  const bool open = ImGui::BeginCombo("###target-article", label.c_str(), ImGuiComboFlags_NoArrowButton);
+  if (!open) return ui::tooltip("Kind of target that the next click puts up");
+  for (std::size_t i = 0; i < kinds->articles.size(); ++i)
+    if (ImGui::Selectable(ui::Label(kinds->articles[i].label.c_str()), i == editor.view.target_article))
+      editor.view.target_article = i;
+  ImGui::EndCombo();
+}
 
 void drawMarkers(Editor& editor, ImVec2 origin) {
   Pen pen(editor, origin);

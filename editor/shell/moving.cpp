@@ -185,8 +185,8 @@ const char* movingHint(const Editor& editor) {
     return "R to return to the instrument, H to step out of its sight   W A S D to walk, T to teleport, B to put up a "
            "sphere   Esc to leave";
   return editor.walk.doorInReach(editor.view.camera)
-             ? "E to open or close the door   W A S D to walk, Shift to run, C to crouch, T to teleport   Esc to leave"
-             : "W A S D to walk, Shift to run, C to crouch, T to teleport, B to put up a sphere   Esc to leave";
+             ? "E to open or close the door   W A S D to walk, drag to look, Shift to run, T to teleport   Esc to leave"
+             : "W A S D to walk, drag to look, Shift to run, C to crouch, T to teleport, B: sphere   Esc to leave";
 }
 
 void drawMovingLine(const Editor& editor, ImVec2 origin, ImVec2 size, float above_pt) {

@@ -55,6 +55,11 @@ bool overNavigationCube(const Editor& editor, ImVec2 origin, ImVec2 size) {
   return std::hypot(p.x - c.x, p.y - c.y) < editor.px(kCubeReach);
 }
 
+ImVec2 navigationCubeCorner(const Editor& editor, ImVec2 origin, ImVec2 size) {
+  const ImVec2 centre = cubeCentre(editor, origin, size);
+  return {centre.x - editor.px(kCubeReach), centre.y + editor.px(kCubeReach)};
+}
+
 void drawNavigationCube(Editor& editor, ImVec2 origin, ImVec2 size) {
   const ImVec2 centre = cubeCentre(editor, origin, size);
   const auto& camera = editor.view.camera;

@@ -11,4 +11,7 @@ struct Editor;
 void drawNavigationCube(Editor& editor, ImVec2 origin, ImVec2 size);
 bool overNavigationCube(const Editor& editor, ImVec2 origin, ImVec2 size);  // the pointer is
 
+// Lower left of the room that it takes.
+ImVec2 navigationCubeCorner(const Editor& editor, ImVec2 origin, ImVec2 size);
+
 }  // namespace standpoint

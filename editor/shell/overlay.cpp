@@ -26,6 +26,7 @@ namespace standpoint {
 namespace {
 
 constexpr float kMargin = 10, kBannerPad_pt = 8;
+constexpr float kBannerAbove_pt = 26;  // of the hint, over the view's edge
 // Behind the last chip where there is room for one of this width before the view's edge, else below.
 void beside(const Editor& editor, float width) {
   ImGui::SameLine();
@@ -257,12 +258,11 @@ ui::Text toolHint(const Editor& editor) {
 
 // Of who moves, above it what it says of the place.
 void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
-  constexpr float kAbove_pt = 26;
   const auto hint = toolHint(editor);
   float height = ImGui::GetTextLineHeight();
-  if (!hint.empty()) height = drawBanner(editor, origin, size, hint, kAbove_pt, IM_COL32(38, 84, 148, 235));
+  if (!hint.empty()) height = drawBanner(editor, origin, size, hint, kBannerAbove_pt, IM_COL32(38, 84, 148, 235));
   if (!editor.walk_ground.preparing())
-    drawMovingLine(editor, origin, size, kAbove_pt + height / editor.px(1) + 1.5F * kBannerPad_pt);
+    drawMovingLine(editor, origin, size, kBannerAbove_pt + height / editor.px(1) + 1.5F * kBannerPad_pt);
 }
 
 void drawReflectanceLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
@@ -333,7 +333,12 @@ ImVec2 bannerPlace(const Editor& editor, ImVec2 origin, ImVec2 size, ImVec2 text
   const ImVec2 pointer = ImGui::GetIO().MousePos;
   const bool in_the_way = std::abs(pointer.x - origin.x - size.x / 2) < text.x / 2 + editor.px(48) &&
                           pointer.y > at.y - editor.px(64) && pointer.y < origin.y + size.y;
-  return in_the_way ? ImVec2(at.x, origin.y + editor.px(above_pt + 2 * kBannerPad_pt)) : at;
+  if (!in_the_way) return at;
+  const float gap = editor.px(2 * kBannerPad_pt);
+  const ImVec2 cube = navigationCubeCorner(editor, origin, size);
+  float controls_end = origin.y + editor.px(kMargin) + editor.overlay_size.y();
+  if (at.x + text.x + gap > cube.x) controls_end = std::max(controls_end, cube.y);
+  return {at.x, std::max(controls_end - editor.px(kBannerAbove_pt) + gap, origin.y + gap) + editor.px(above_pt)};
 }
 
 float drawBanner(const Editor& editor, ImVec2 origin, ImVec2 size, const ui::Text& words, float above_pt,
@@ -381,6 +386,7 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   expectedChips(editor);
   coverageChips(editor);
   rowChips(editor);
+  targetChip(editor);
   movingChips(editor);
   ImGui::EndGroup();
   const ImVec2 drawn = ImGui::GetItemRectSize();

@@ -13,6 +13,7 @@ struct Editor;
 
 // Drawn over the picture of the scene with Dear ImGui's draw list: crisp at any scale, and no redraw of the scene.
 void drawMarkers(Editor& editor, ImVec2 origin);  // stations, targets, the measured distance, the tool's preview
+void targetChip(Editor& editor);  // the kind of target that the next click puts up, while its tool is chosen
 // Of a list's chip: as its label needs it, so that none is cut off, but not less, so that few changes of it move
 // others.
 float chipWidth(const Editor& editor, const std::string& label, float least_pt);

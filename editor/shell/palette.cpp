@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <sstream>
 #include <string_view>
 
@@ -27,7 +28,32 @@ namespace {
 struct Entry {
   std::string id, icon, title, detail, why;
   std::function<void()> run;
+  std::string also = {};  // other words that it is found by
 };
+
+// What others call the same.
+std::string otherWords(std::string_view action) {
+  struct Called {
+    std::string_view action;
+    const char* words;
+  };
+  constexpr std::array kCalled = {
+      Called{"add-row", "array line several copies of stations"},
+      Called{"teleport", "jump go to"},
+      Called{"view-before", "back return go back"},
+      Called{"add-target", "sphere checkerboard"},
+      Called{"picture", "screenshot image"},
+      Called{"panorama", "image sphere"},
+      Called{"turntable", "video movie"},
+      Called{"walk-through", "video movie"},
+      Called{"preferences", "settings options language graphics quality"},
+      Called{"export", "save model as glTF OBJ"},
+      Called{"walk", "first person"},
+      Called{"shortcuts", "keys help"},
+  };
+  const auto* found = std::find_if(kCalled.begin(), kCalled.end(), [&](const auto& c) { return c.action == action; });
+  return found == kCalled.end() ? std::string() : tr(found->words);
+}
 
 bool matches(const std::string& text, const std::string& query) {
   const std::string all = withoutCase(text);
@@ -47,7 +73,7 @@ std::vector<Entry> entries(Editor& editor) {
   for (const auto& action : actions()) {
     const auto about = aboutGraphics(editor, action.id);
     all.push_back({action.id, action.icon, tr(action.title), about.empty() ? shortcutText(action.shortcut) : about,
-                   whyNot(action, editor), [&editor, &action] { action.run(editor); }});
+                   whyNot(action, editor), [&editor, &action] { action.run(editor); }, otherWords(action.id)});
   }
   for (const auto& verb : editor.session.verbs())
     if (!ownToEditor(verb))
@@ -144,7 +170,7 @@ std::vector<Entry> matching(Editor& editor, const std::string& query) {
   std::vector<Entry> shown;
   const auto add = [&](std::vector<Entry> found) {
     for (auto& entry : found)
-      if (matches(entry.title + " " + entry.detail, words)) shown.push_back(std::move(entry));
+      if (matches(entry.title + " " + entry.detail + " " + entry.also, words)) shown.push_back(std::move(entry));
   };
   const auto wanted = [&](char own) { return kind == own || (kind == 0 && !words.empty()); };
   if (kind == 0) add(entries(editor));

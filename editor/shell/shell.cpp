@@ -50,7 +50,7 @@ struct Box {
   float x = 0, y = 0, w = 0, h = 0;
 };
 
-void beginFixed(const char* id, const Box& box, ImVec2 padding, ImU32 background) {
+void beginFixed(const char* id, const Box& box, ImVec2 padding, ImU32 background, ImGuiWindowFlags more = 0) {
   ImGui::SetNextWindowPos({box.x, box.y});
   ImGui::SetNextWindowSize({std::max(box.w, 1.0F), std::max(box.h, 1.0F)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
@@ -58,7 +58,7 @@ void beginFixed(const char* id, const Box& box, ImVec2 padding, ImU32 background
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0F);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
   ImGui::PushStyleColor(ImGuiCol_WindowBg, background);
-  ImGui::Begin(id, nullptr, kFixed);
+  ImGui::Begin(id, nullptr, kFixed | more);
   ImGui::PopStyleColor();
   ImGui::PopStyleVar(4);
 }
@@ -346,7 +346,8 @@ Layout layOut(const Editor& editor, const Box& all) {
 void drawSplitters(Editor& editor, const Layout& l) {
   auto& sizes = editor.settings.areas[static_cast<std::size_t>(editor.workspace)];
   const float gap = editor.px(3);
-  beginFixed("###splitters", l.all, {0, 0}, tone::kBehind);
+  // Never as one that wants the focus: under a dialog that would put it over the areas that have just appeared.
+  beginFixed("###splitters", l.all, {0, 0}, tone::kBehind, ImGuiWindowFlags_NoFocusOnAppearing);
   if (l.left.w > 0)
     splitter(editor, "###split-left", {l.left.x + l.left.w, l.all.y, gap, l.all.h}, ImGuiAxis_X, 1, sizes.left, 160,
              900);

@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "editor/shell/actions.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/place_ghost.h"
+#include "editor/widgets/widgets.h"
 #include "editor/words/words.h"
 #include "project/survey/survey_verbs.h"
 #include "survey/stations/levelling.h"
@@ -60,6 +62,24 @@ void drop(Editor& editor, const Station& station) {
 }
 
 }  // namespace
+
+bool openStationMenu(Editor& editor, ImVec2 origin) {
+  const int station = editor.view.tool == Tool::select ? stationAt(editor, origin) : -1;
+  if (station < 0) return false;
+  editor.survey.station = station;
+  editor.survey.target = -1;
+  ImGui::OpenPopup("###station-menu");
+  return true;
+}
+
+void drawStationMenu(Editor& editor) {
+  if (!ImGui::BeginPopup("###station-menu")) return;
+  const auto& job = editor.session.document().job;
+  const auto chosen = static_cast<std::size_t>(editor.survey.station);
+  if (job && chosen < job->stations.size()) ui::dimText(job->stations[chosen].name);
+  for (const char* id : {"look-from-station", "rename", "duplicate-station", "remove"}) actionMenuItem(editor, id);
+  ImGui::EndPopup();
+}
 
 bool dragStation(Editor& editor, ImVec2 origin, bool hovered) {
   auto& dragged = editor.view.dragged_station;

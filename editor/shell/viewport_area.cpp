@@ -113,6 +113,8 @@ void placeTarget(Editor& editor, const RayHit& hit) {
   const Eigen::Vector3d p = hit.position + hit.normal * kBefore_m + editor.shift_m();
   TargetOptions options{.add = name};
   options.on_surface = p;
+  if (const auto* kinds = editor.target_list.kinds())
+    options.type = kinds->articles[std::min(editor.view.target_article, kinds->articles.size() - 1)].id;
   editor.session.start(options, trf("Add target {}", name));
 }
 
@@ -190,7 +192,7 @@ void handleMouse(Editor& editor, ImVec2 origin, bool hovered) {
   if (view.dragging) continueDrag(editor);
   const bool previewed = editor.preview.isOpen() || editor.proof;  // it can be turned and nothing else
   if (view.dragging && !view.dragged && ImGui::IsMouseReleased(0) && !previewed) click(editor);
-  if (view.dragging && !view.dragged && ImGui::IsMouseReleased(1) && !previewed) {
+  if (view.dragging && !view.dragged && ImGui::IsMouseReleased(1) && !previewed && !openStationMenu(editor, origin)) {
     if (view.hover && !editor.selection.contains(view.hover->product)) editor.select(view.hover->product, true);
     ImGui::OpenPopup("###viewport-menu");
   }
@@ -320,6 +322,7 @@ void drawViewport(Editor& editor) {
   drawTightPlaces(editor, both ? right : origin);
   drawTour(editor, origin, whole);
   contextMenu(editor);
+  drawStationMenu(editor);
   drawMaterialMenu(editor);
 }
 

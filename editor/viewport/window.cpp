@@ -37,13 +37,17 @@ class GlfwEvents : public EventSource {
   void waitAtMost(double seconds) override { glfwWaitEventsTimeout(seconds); }
 };
 
+// Of two times to come; below 0: never.
+double sooner(double a_s, double b_s) { return a_s < 0 ? b_s : b_s < 0 ? a_s : std::min(a_s, b_s); }
+
 class Window {
  public:
   Window(Editor& editor, GLFWwindow* handle, FramePacer& pacer, bool after_crash)
       : editor_(editor),
         handle_(handle),
         pacer_(pacer),
-        keeper_(recoveryFolder(recoveryRoot(), getpid()), after_crash) {
+        keeper_(recoveryFolder(recoveryRoot(), getpid()), after_crash),
+        settings_keeper_(settingsFile(), editor.settings) {
     ImGui::CreateContext();
     auto& io = ImGui::GetIO();
     io.IniFilename = nullptr;
@@ -96,6 +100,7 @@ class Window {
  private:
   void keepWork() {
     keeper_.keep(editor_.session, editor_.settings.recovery);
+    if (!editor_.dialogs.start_as_usual) settings_keeper_.keep(editor_.settings);
     const auto& copying = editor_.session.keepingProblem();
     const auto& problem = keeper_.problem().empty() ? copying : keeper_.problem();
     if (problem == editor_.keeping_problem) return;
@@ -166,7 +171,7 @@ class Window {
           .text_edited = ImGui::GetIO().WantTextInput,
           .job_runs = editor_.jobRuns(),
           .refining = refining(),
-          .until_due_s = keeper_.untilGrown_s()};
+          .until_due_s = sooner(keeper_.untilGrown_s(), settings_keeper_.untilDue_s())};
       if (reasons.walker_moves || (reasons.key_held && (editor_.walk.active() || editor_.view.tool == Tool::fly)))
         moveOn();
       if (!editor_.fine_picture) reasons.until_fine_s = std::max(0.0, untilFine());
@@ -304,6 +309,7 @@ class Window {
   bool was_fine_ = false;
   Theme applied_theme_ = Theme::dark;
   RecoveryKeeper keeper_;
+  SettingsKeeper settings_keeper_;
   float built_scale_ = 0;
   bool focus_lost_ = false;
   std::string title_;

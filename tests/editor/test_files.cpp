@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <chrono>
 #include <fstream>
+#include <thread>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
@@ -64,6 +66,24 @@ TEST_F(Folder, KeepsSettingsFromOneStartToTheNext) {
   EXPECT_EQ(stored.settings, settings);
   EXPECT_EQ(stored.problem, "");
   EXPECT_EQ(settings.recent, (std::vector<std::string>{"/models/house.ifc", "/models/school.ifc"}));
+}
+
+TEST_F(Folder, KeepsSettingsWhileTheEditorRunsThoughItIsKilledLater) {
+  Settings settings;
+  SettingsKeeper keeper(root / "editor.json", settings);
+  keeper.keep(settings);
+  EXPECT_LT(keeper.untilDue_s(), 0);
+  settings.language = "de";
+  settings.remember("/models/house.ifc");
+  keeper.keep(settings);
+  const double due = keeper.untilDue_s();
+  ASSERT_GT(due, 0);
+  ASSERT_LT(due, 2);
+  EXPECT_FALSE(fs::exists(root / "editor.json")) << "not in every frame of a drag";
+  std::this_thread::sleep_for(std::chrono::duration<double>(due));
+  keeper.keep(settings);
+  EXPECT_EQ(readSettings(root / "editor.json").settings, settings);
+  EXPECT_LT(keeper.untilDue_s(), 0);
 }
 
 TEST(Scale, GoesUpAndDownAndEnds) {

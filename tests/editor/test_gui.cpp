@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <set>
 #include <thread>
@@ -45,6 +46,22 @@ class Gui : public ::testing::Test {
   Editor editor{verbsWithDemo(), [] {}};
   GuiDriver gui{editor};
 };
+
+// As when the work of a crash is offered while the model of the command line is read.
+TEST_F(Gui, ShowsItsPanelsOverTheirGroundWhereTheyFirstAppearUnderADialog) {
+  editor.dialogs.preferences = true;
+  gui.frames(3);
+  open();
+  gui.frames(3);
+  editor.dialogs.preferences = false;
+  gui.frames(3);
+  const auto& windows = ImGui::GetCurrentContext()->Windows;  // what lies behind comes first
+  const auto place = [&](const char* name) {
+    return std::find(windows.begin(), windows.end(), ImGui::FindWindowByName(name)) - windows.begin();
+  };
+  for (const char* panel : {"###left", "###right", "###bottom", "###viewport"})
+    EXPECT_LT(place("###splitters"), place(panel)) << panel;
+}
 
 TEST_F(Gui, ShowsEveryPanelInSomeWorkspace) {
   open();
@@ -360,6 +377,40 @@ TEST_F(Gui, ShowsTheOriginalBesideTheLighterModelWithTheirDistances) {
   gui.frames(3);
   EXPECT_EQ(editor.view.side, ModelSide::lighter);
   EXPECT_EQ(editor.view.colour, ColourMode::model);
+}
+
+TEST_F(Gui, ExportsUnderTheProjectsNameWhereNothingIsYet) {
+  open();
+  const TemporaryFolder folder;
+  editor.settings.last_folder = folder.path().string();
+  const auto offered = [&] {
+    EXPECT_TRUE(invoke(editor, "export"));
+    gui.frames(2);
+    EXPECT_EQ(editor.dialogs.verb.form.problem(), "") << "one press of Run is enough";
+    const std::filesystem::path file = editor.dialogs.verb.form.find("output")->text;
+    editor.dialogs.verb.open = false;
+    gui.frames(2);
+    return file;
+  };
+  const auto first = offered();
+  EXPECT_EQ(first, folder.path() / (editor.session.name() + ".glb"));
+  std::ofstream(first) << "somebody's";
+  EXPECT_NE(offered(), first);
+}
+
+TEST_F(Gui, TakesTheBudgetInTrianglesToo) {
+  open();
+  editor.workspace = Workspace::optimise;
+  editor.wanted_tab[1] = "optimise";
+  gui.frames(3);
+  ASSERT_TRUE(gui.click("###budget-triangles"));
+  gui.frames(2);
+  gui.key('A', true);
+  gui.type("30");
+  gui.key(kEnter);
+  gui.frames(2);
+  const auto whole = static_cast<double>(sceneTriangleCount(*editor.session.document().imported));
+  EXPECT_NEAR(editor.panels.of<OptimiseState>().budget_fraction * whole, 30, 1e-6);
 }
 
 TEST_F(Gui, FollowsTheBudgetsSliderAtOnceAndForgetsItWhenOptimised) {

@@ -274,6 +274,39 @@ TEST_F(Desk, WhatIsDoneInTheSurveyBelongsToTheExercise) {
       << "for the replay, with the time between them";
 }
 
+// Nobody has to save a project to scan in it: its scans have a place of their own until it has a name.
+TEST_F(Desk, ScansInAProjectWithoutAName) {
+  setenv("XDG_DATA_HOME", folder_.path().c_str(), 1);
+  Document document = demoHouse();
+  ASSERT_TRUE(editor.session.adopt({document, {}, {}, "opened"}));
+  ASSERT_TRUE(editor.session.folder().empty());
+  followProject(desk, editor);
+  desk.time_factor = 1000;
+  desk.was_busy = true;
+  const auto until = [&](const std::function<bool()>& there) {
+    for (int i = 0; i < 3000 && !there(); ++i) pass(10);
+    return there();
+  };
+  const auto press = [&](const std::string& widget, const std::string& value = "") {
+    act(desk, {RehearsalAction::Kind::press, widget, value, 0, {}});
+    EXPECT_EQ(desk.said, "") << widget;
+    ASSERT_TRUE(until([&] { return !desk.host->busy(); })) << widget;
+  };
+  press("power");
+  carryTo(desk, document, document.job->stations[0].name);
+  for (const char* widget : {"job", "new_job", "create"}) press(widget);
+  press("settings");
+  press("resolution", "12mm");
+  press("images", "off");
+  press("back");
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "standpoint")) << "nothing is written before somebody scans";
+  press("scan");
+  ASSERT_TRUE(until([&] { return !editor.session.document().job->stations[0].scans.empty(); }));
+  const std::filesystem::path file = editor.session.document().job->stations[0].scans[0].file;
+  EXPECT_TRUE(std::filesystem::exists(file));
+  EXPECT_NE(file.string().find(editor.session.ownFolder().string()), std::string::npos) << file;
+}
+
 TEST_F(Desk, AnExerciseThatRunsKeepsItsModelAndItsPast) {
   desk.device = findDevice("faro-focus");
   begin("E06");

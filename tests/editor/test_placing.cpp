@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -88,8 +89,9 @@ TEST_F(Placing, WordsOverTheViewGoUpWhereThePointerComesNearThem) {
   EXPECT_EQ(low, origin.y + size.y - 16 - editor.px(26));
   EXPECT_EQ(heightFor({320, low}), low) << "beside them";
   EXPECT_EQ(heightFor({600, 700}), low) << "in the panel below";
-  EXPECT_LT(heightFor({600, low + 5}), origin.y + 100);
-  EXPECT_LT(heightFor({700, low - editor.px(50)}), origin.y + 100);
+  EXPECT_LT(heightFor({600, low + 5}), origin.y + 200);
+  EXPECT_LT(heightFor({700, low - editor.px(50)}), origin.y + 200);
+  EXPECT_GT(heightFor({600, low + 5}), origin.y + editor.overlay_size.y()) << "not over the view's controls";
 }
 
 TEST_F(Placing, ACutThatIsChosenInsideTheBuildingIsSeenFromOutside) {
@@ -179,6 +181,39 @@ TEST_F(Placing, ADraggedStationMovesWhereItIsLetGo) {
   EXPECT_TRUE(editor.session.errors().empty());
   editor.session.undo();
   EXPECT_NEAR(job().stations[0].true_pose.translation.x(), 3.2, 1e-9);
+}
+
+TEST_F(Placing, ARightClickOnAStationOffersWhatCanBeDoneWithIt) {
+  gui.moveTo(screenOf(job().stations[0].true_pose.translation));
+  gui.press(1);
+  gui.frames(2);
+  EXPECT_TRUE(ImGui::IsPopupOpen("###station-menu", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel));
+  EXPECT_EQ(editor.survey.station, 0);
+  EXPECT_TRUE(editor.selection.empty()) << "not the floor under it";
+  EXPECT_NE(gui.find("###look-from-station"), nullptr);
+}
+
+TEST_F(Placing, TheNextTargetIsOfTheKindThatIsChosen) {
+  const auto before = job().targets.size();
+  const auto* kinds = editor.target_list.kinds();
+  ASSERT_NE(kinds, nullptr);
+  const auto flat = std::find_if(kinds->articles.begin(), kinds->articles.end(),
+                                 [](const auto& a) { return a.shape == TargetKind::checkerboard; });
+  ASSERT_NE(flat, kinds->articles.end());
+  gui.frames(2);
+  EXPECT_EQ(gui.find("###target-article"), nullptr);
+  ASSERT_TRUE(invoke(editor, "add-target"));
+  gui.frames(2);
+  ASSERT_TRUE(gui.click("###target-article"));
+  gui.frames(2);
+  ASSERT_TRUE(gui.click(flat->label));
+  gui.frames(2);
+  gui.moveTo(screenOf({2, 6, 0}));
+  gui.press();
+  gui.settle();
+  ASSERT_EQ(job().targets.size(), before + 1);
+  EXPECT_EQ(job().targets.back().kind, TargetKind::checkerboard);
+  EXPECT_DOUBLE_EQ(job().targets.back().size_m, flat->size_m);
 }
 
 TEST_F(Placing, LetGoOnARefusedPlaceItStaysAndTheInspectorSaysWhy) {

@@ -70,5 +70,20 @@ TEST_F(QualityPanel, AssessesAndGoesToTheWorstPlaceOfARow) {
   EXPECT_GT((editor.view.camera.target - before.target).norm(), 0.1);
 }
 
+// It takes minutes; what changes nothing that it judges leaves it as it is.
+TEST_F(QualityPanel, IsNotOutOfDateAfterAMeasurementOrABookmark) {
+  ASSERT_NO_FATAL_FAILURE(scan());
+  ASSERT_TRUE(gui.click("###assess"));
+  gui.settle();
+  const auto& session = editor.session;
+  ASSERT_NE(session.lastOf("assess"), nullptr);
+  ASSERT_TRUE(editor.session.start("bookmark", {{"add", "here"}}));
+  gui.settle();
+  EXPECT_FALSE(session.isOutOfDate(*session.lastOf("assess")));
+  ASSERT_TRUE(editor.session.start("station", {{"rename", "S1"}, {"name", "K1"}}));
+  gui.settle();
+  EXPECT_TRUE(session.isOutOfDate(*session.lastOf("assess")));
+}
+
 }  // namespace
 }  // namespace standpoint

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fstream>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <gmock/gmock.h>
@@ -50,6 +51,22 @@ TEST_F(Recovery, IsOfferedOnlyOfProcessesThatAreGone) {
   EXPECT_TRUE(findLeftWork(root).empty());
   write(fs::path(std::to_string(getpid())) / "owner.json", R"({"name": "house", "process_start": "another boot 7"})");
   ASSERT_EQ(findLeftWork(root).size(), 1U) << "another process has its number now";
+}
+
+// As a killed editor does while its memory is freed, and until its parent asks for it.
+TEST_F(Recovery, IsOfferedOfAProcessThatIsEnding) {
+  const pid_t child = fork();
+  if (child == 0) {
+    crash(getpid(), {.name = "house"});
+    _exit(0);
+  }
+  ASSERT_GT(child, 0);
+  siginfo_t ended{};
+  ASSERT_EQ(waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT), 0);
+  const auto left = findLeftWork(root);
+  ASSERT_EQ(waitpid(child, nullptr, 0), child);
+  ASSERT_EQ(left.size(), 1U);
+  EXPECT_EQ(left[0].mark.name, "house");
 }
 
 TEST_F(Recovery, SaysWhatRanAndHowFarItWas) {

@@ -203,6 +203,26 @@ TEST_F(Walking, JumpsToARoomAndToAStationByName) {
   EXPECT_EQ(walkPlaceName(editor), "Living room · Ground floor");
 }
 
+TEST_F(Walking, UndoTakesBackAJumpBeforeAnyChangeOfTheDocument) {
+  walk();
+  const Eigen::Vector3d before = editor.walk.feet();
+  const auto revision = editor.session.revision();
+  jumpToStation(editor, 1);
+  gui.frames(3);
+  ASSERT_GT((editor.walk.feet() - before).norm(), 0.5);
+  gui.key('Z', true);
+  gui.frames(3);
+  EXPECT_NEAR((editor.walk.feet() - before).norm(), 0, 0.05);
+  EXPECT_EQ(editor.session.revision(), revision) << "and nothing else";
+  EXPECT_FALSE(canUndoJump(editor)) << "once";
+  jumpToStation(editor, 1);
+  gui.frames(3);
+  ASSERT_TRUE(editor.session.start("bookmark", {{"add", "here"}}));
+  gui.settle();
+  ASSERT_NE(editor.session.revision(), revision);
+  EXPECT_FALSE(canUndoJump(editor)) << "the newer change is undone first";
+}
+
 TEST_F(Walking, OpensTheDoorAheadAndClosesItBehindWithoutChangingTheDocument) {
   walk();
   const auto revision = editor.session.revision();
