@@ -20,8 +20,8 @@ namespace standpoint {
 namespace {
 
 WaveformRequest requestOf(const WaveformOptions& options, const Pose& local_from_scanner) {
-  const double azimuth = options.direction.azimuth_deg * kRadPerDeg;
-  const double elevation = options.direction.elevation_deg * kRadPerDeg;
+  const double azimuth = options.direction->azimuth_deg * kRadPerDeg;
+  const double elevation = options.direction->elevation_deg * kRadPerDeg;
   const Eigen::Vector3d local(std::cos(elevation) * std::sin(azimuth), std::cos(elevation) * std::cos(azimuth),
                               std::sin(elevation));
   const Eigen::Vector3d own = local_from_scanner.rotation.conjugate() * local;
@@ -64,10 +64,7 @@ const Fields<WaveformOptions>& waveformFields() {
       {"station", &O::station, "name of the station", {.required = true}},
       {"instrument", &O::instrument, "id or file of a time-of-flight instrument", {.required = true}},
       {"set", &O::settings, "settings in the device's own words, such as resolution=12mm"},
-      {"direction",
-       &O::direction,
-       "AZIMUTH,ELEVATION of the beam in degrees, clockwise from the file's Y",
-       {.required = true}},
+      {"direction", &O::direction, "AZIMUTH,ELEVATION of the beam in degrees, clockwise from the file's Y; required"},
       {"without", &O::without, "effects to leave out, as of a scan: footprint, panes, mirrors, …"},
       {"bin", &O::bin_m, "width of a bin (0: a twentieth of the pulse)", {.unit = "m", .minimum = 0, .maximum = 100}},
       {"output",
@@ -97,6 +94,7 @@ Result<Answered<WaveformAnswer>> runWaveform(const Document& document, const Wav
     return failure(ErrorKind::usage,
                    fmt::format("unsupported format '{}'; use .csv", options.output.extension().string()), "--output");
   TRY(checkFolderOf(options.output, "--output"));
+  if (!options.direction) return failure(ErrorKind::usage, "specify AZIMUTH,ELEVATION in degrees", "--direction");
   TRY_ASSIGN(const auto instrument, instrumentNamed(options.instrument));
   TRY_ASSIGN(const auto settings, resolveSettings(instrument, options.settings));
   TRY_ASSIGN(const auto stations, stationsFrom(*document.job, {{options.station}}));

@@ -26,7 +26,7 @@ struct WaveformOptions {
   std::string station;
   std::string instrument;
   KeyValues settings;
-  BeamDirection direction;
+  std::optional<BeamDirection> direction;  // required
   std::optional<Effects> without;
   double bin_m = 0;  // 0 = a twentieth of the pulse
   std::filesystem::path output;

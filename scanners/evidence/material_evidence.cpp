@@ -18,6 +18,7 @@ namespace {
 
 // What stands for a surface to which nothing is assigned: only its cosine counts.
 constexpr double kUnassignedGrey = 0.3;
+constexpr double kDbPerNeper = 4.342944819032518;  // of power: 10 / ln 10
 // Below these the vendor's figure does not follow the law well enough to judge materials by it.
 constexpr double kLeastExplained = 0.8, kLeastSpread_db = 0.7;
 // The range's part is taken as compensated only where that explains clearly more.
@@ -67,6 +68,12 @@ class Comparison {
  private:
   // A material that nobody measured is as good as none.
   bool hasFigures(std::int32_t material) const { return material >= 0 && known_[static_cast<std::size_t>(material)]; }
+  // σ of what one surface of the material is off by against another, in dB.
+  double apartDb(std::int32_t material) const {
+    return hasFigures(material)
+               ? kDbPerNeper * static_cast<double>(optics_[static_cast<std::size_t>(material)].surface_spread)
+               : 0;
+  }
   const Optics& opticsOfGroup(std::uint32_t group) const {
     const auto material = groups_[group].material;
     return hasFigures(material) ? optics_[static_cast<std::size_t>(material)] : grey_;
@@ -238,9 +245,12 @@ void Comparison::findLevel() {
   for (auto& m : result_.materials) {
     for (auto& g : m.groups) {
       g.off_db -= level;
-      g.agrees = std::abs(g.off_db) <= options_.agree_db + 2 * g.sigma_db;
+      const double apart = apartDb(m.material);
+      g.agrees = std::abs(g.off_db) <= options_.agree_db + 2 * std::sqrt(g.sigma_db * g.sigma_db + apart * apart);
     }
-    m.agrees = m.supported && std::abs(materialOff(m)) <= options_.agree_db;
+    const auto judged = std::count_if(m.groups.begin(), m.groups.end(), [](const auto& g) { return g.supported; });
+    m.agrees = m.supported && std::abs(materialOff(m)) <=
+                                  options_.agree_db + 2 * apartDb(m.material) / std::sqrt(static_cast<double>(judged));
   }
   if (!result_.no_verdict.empty()) return;
   if (agreeing.size() < 2 || most < all / 2)

@@ -27,8 +27,8 @@ TEST(Plausibility, AUsualHouseGivesNoFinding) { EXPECT_EQ(issuesOf(importText(if
 TEST(Plausibility, DoorsOfTwoKilometresAreMillimetresTakenForMetres) {
   const std::string text = ifcText(house(1000));
   EXPECT_EQ(issuesOf(importText(text)),
-            "warning model: the doors are 2.1 km large: check the unit; if coordinates are in mm, import with "
-            "--unit mm\n");
+            "warning model: the doors are 2.1 km large: check the unit; if the coordinates are in mm, import the "
+            "model with this unit\n");
   ImportOptions mended;
   mended.metres_per_unit = 0.001;
   const ImportedModel model = importText(text, mended);
@@ -38,15 +38,15 @@ TEST(Plausibility, DoorsOfTwoKilometresAreMillimetresTakenForMetres) {
 
 TEST(Plausibility, DoorsOfTwoMillimetresAreMetresTakenForMillimetres) {
   EXPECT_EQ(issuesOf(importText(ifcText(house(1), "IFCSIUNIT(*,.LENGTHUNIT.,.MILLI.,.METRE.)"))),
-            "warning model: the doors are 2.1 mm large: check the unit; if coordinates are in m, import with "
-            "--unit m\n");
+            "warning model: the doors are 2.1 mm large: check the unit; if the coordinates are in m, import the "
+            "model with this unit\n");
 }
 
 TEST(Plausibility, DoorsThatLieTellThatTheModelLies) {
   const std::string text = ifcText(house(1, true));
   EXPECT_EQ(issuesOf(importText(text)),
             "warning model: 2 of 2 doors are wider than tall: the model may be rotated; if its y axis points "
-            "up, import with --up y\n");
+            "up, import it with this axis up\n");
   ImportOptions mended;
   mended.up = UpAxis::y;
   const ImportedModel model = importText(text, mended);
@@ -64,7 +64,8 @@ TEST(Plausibility, AnObjOfMillimetresIsSeenByItsHeight) {
   const auto model = importFile(file.path(), {}, progress);
   ASSERT_TRUE(model.has_value());
   EXPECT_NE(issuesOf(*model).find(
-                "the whole model is 6 km high: check the unit; if coordinates are in mm, import with --unit mm"),
+                "the whole model is 6 km high: check the unit; if the coordinates are in mm, import the model with "
+                "this unit"),
             std::string::npos)
       << issuesOf(*model);
 }

@@ -145,7 +145,7 @@ TEST(MissingSlab, IsFoundWhereDoorsOfAStoreyHaveAFloorOnNeitherSide) {
   ASSERT_TRUE(collided) << describe(collided.error());
   EXPECT_THAT(said(collided->report),
               HasSubstr("storey 2: the floor slab at 103.00 m is missing: 2 of 2 doors of storey 'storey 2' have no "
-                        "floor on either side; add a floor plane at that height"));
+                        "floor on either side; add a model with a floor at that height"));
   EXPECT_THAT(said(collided->report), HasSubstr("has no floor on one side")) << "outside of the entrance";
   EXPECT_THAT(said(collided->report), testing::Not(HasSubstr("storey 1: the floor slab")));
 }

@@ -88,7 +88,7 @@ TEST(OptimizeVerb, GivesMoreToWhatWalkersSee) {
 TEST(OptimizeVerb, SaysThatWhatWalkersSeeNeedsCollisionShapes) {
   const auto refused = run("optimize", twoStoreyDocument(), {{"budget", 100}, {"by-view", true}});
   ASSERT_FALSE(refused);
-  EXPECT_THAT(describe(refused.error()), HasSubstr("collide"));
+  EXPECT_THAT(describe(refused.error()), HasSubstr("walkable surface: compute that first"));
 }
 
 }  // namespace

@@ -32,21 +32,26 @@ class Verify : public ::testing::Test {
     folder_ = std::make_unique<TemporaryFolder>();
     Document d = run("materials", twoStoreyDocument(), {{"assign", kWalls}})->document;
     d = run("station", d, {{"add", "S1"}, {"at", {500002, 5600001.5, 1.6}}})->document;
-    const auto done = run("scan", d,
-                          {{"instrument", "faro-focus-s350"},
-                           {"set", {"resolution=1/32", "quality=4x"}},
-                           {"output", path("full.ptx").string()}});
-    ASSERT_TRUE(done) << describe(done.error());
-    scanned_ = done->document;
-    keepEvery(8);
+    scanned_ = scannedTo("scan.ptx", d);
+    // Surfaces of one material differ in a scan; without that they are what the library says.
+    scannedTo("even.ptx", d, {{"without", "variation"}});
+  }
+  static Document scannedTo(const std::string& name, const Document& d, json more = json::object()) {
+    more.update({{"instrument", "faro-focus-s350"},
+                 {"set", {"resolution=1/32", "quality=4x"}},
+                 {"output", path("full-" + name).string()}});
+    const auto done = run("scan", d, more);
+    EXPECT_TRUE(done) << describe(done.error());
+    keepEvery(8, "full-" + name, name);
+    return done->document;
   }
   static void TearDownTestSuite() { folder_.reset(), scanned_ = {}; }
   static fs::path path(const std::string& name) { return folder_->path() / name; }
 
   // Columns of the full scan: a text takes its time to read.
-  static void keepEvery(int step) {
-    std::ifstream in(path("full.ptx"));
-    std::ofstream out(path("scan.ptx"));
+  static void keepEvery(int step, const std::string& from, const std::string& to) {
+    std::ifstream in(path(from));
+    std::ofstream out(path(to));
     int columns = 0, rows = 0;
     in >> columns >> rows;
     out << (columns + step - 1) / step << '\n' << rows << '\n';
@@ -113,16 +118,21 @@ TEST_F(Verify, FindsNothingWhereNothingIsWrong) {
   EXPECT_TRUE(done->answer.at("no_verdict").is_null()) << done->answer.at("no_verdict");
   EXPECT_TRUE(done->answer.at("proposals").empty()) << done->answer.at("proposals").dump();
   EXPECT_GE(done->answer.at("materials").size(), 4U);
+}
+
+TEST_F(Verify, FindsEachMaterialWhereItsFiguresSay) {
+  const auto done = verified(laid(path("even.ptx")));
+  ASSERT_TRUE(done) << describe(done.error());
+  EXPECT_TRUE(done->answer.at("proposals").empty()) << done->answer.at("proposals").dump();
   for (const auto& m : done->answer.at("materials")) {
     if (m.at("judged")) {
-      // A material varies from place to place, and a small room has few places of each.
       EXPECT_NEAR(m.at("off_db").at("median").get<double>(), 0, 0.3) << m.at("material");
     }
   }
 }
 
 TEST_F(Verify, NamesTheSwappedWallWithWordsThatMendIt) {
-  const Document wrong = swapped(laid(path("scan.ptx")), "east0=rubber_black");
+  const Document wrong = swapped(laid(path("even.ptx")), "east0=rubber_black");
   const auto done = verified(wrong);
   ASSERT_TRUE(done) << describe(done.error());
   ASSERT_EQ(done->answer.at("proposals").size(), 1U) << done->answer.at("no_verdict");
