@@ -100,7 +100,7 @@ def draw_fence(standpoint, folder):
     axes[1, 0].set_ylabel("from above: y (m)")
     figure.suptitle("Rods of 5 mm every 50 mm at 8 m before a wall at 12 m; RTC360, 6 mm at 10 m")
     figure.tight_layout()
-    figure.savefig(os.path.join(folder, "fence.png"), dpi=90)
+    figure.savefig(os.path.join(folder, "fence.png"), dpi=65)
 
 
 def draw_rail(standpoint, folder):
@@ -120,7 +120,7 @@ def draw_rail(standpoint, folder):
     axes[0].set_ylabel("z (m)")
     figure.suptitle("A picture rail of 20 × 40 mm at 5.6 m, in section")
     figure.tight_layout()
-    figure.savefig(os.path.join(folder, "rail.png"), dpi=90)
+    figure.savefig(os.path.join(folder, "rail.png"), dpi=65)
 
 
 def draw_fog(standpoint, folder):
@@ -140,7 +140,7 @@ def draw_fog(standpoint, folder):
         axis.legend(loc="upper center", markerscale=8)
     axes[-1].set_xlabel("x (m)")
     figure.tight_layout()
-    figure.savefig(os.path.join(folder, "fog.png"), dpi=90)
+    figure.savefig(os.path.join(folder, "fog.png"), dpi=65)
 
 
 def main():
