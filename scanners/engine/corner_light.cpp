@@ -14,10 +14,9 @@ namespace standpoint {
 namespace {
 
 constexpr std::uint32_t kCornerChannel = 10;
-constexpr double kGolden = 0.6180339887498949;  // of a turn
-constexpr double kLeastBend = 0.1;              // sine of it; a gentler one sends little to itself
-constexpr double kSoftening = 0.25;             // of a patch's area: keeps a single pulse from too bright a one
-constexpr double kProbe_m = 0.01;               // how far off edge and surface what stands beside them is looked for
+constexpr double kLeastBend = 0.1;   // sine of it; a gentler one sends little to itself
+constexpr double kSoftening = 0.25;  // of a patch's area: keeps a single pulse from too bright a one
+constexpr double kProbe_m = 0.01;    // how far off edge and surface what stands beside them is looked for
 
 // Unit, towards the scanner in the origin; zero for a degenerate triangle.
 Eigen::Vector3d towardsScanner(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Eigen::Vector3d& beside) {
@@ -43,7 +42,7 @@ void CornerLight::look(const Beam& beam, std::uint32_t column, std::uint32_t row
   Eigen::Vector3d directions[kPacket];
   RayPacket packet;
   for (int k = 0; k < kPacket; ++k) {
-    const double turns = turn + k * kGolden, radius = half_rad * std::sqrt((k + shift) / kPacket);
+    const double turns = turn + k * kGoldenTurns, radius = half_rad * std::sqrt((k + shift) / kPacket);
     float sine, cosine;
     portable::sinCosTurn(static_cast<float>(turns - std::floor(turns)), sine, cosine);
     directions[k] = beam.direction + radius * static_cast<double>(cosine) * beam.across +

@@ -55,7 +55,7 @@ STANDPOINT_INLINE double rangeOf(const SeenFace& seen, const MeetingQuery& q, in
 
 // The end of the cell that the range is in: all faces of a cell are looked at, and one of them is met by rule.
 STANDPOINT_INLINE float cellEnd(double range) {
-  const double bounded = (range >= 0) & (range < kFarthestMet_m) ? range : kFarthestMet_m;
+  const double bounded = ((range >= 0) & (range < kFarthestMet_m)) ? range : kFarthestMet_m;
   return static_cast<float>(static_cast<std::int32_t>(bounded * kTieCells_per_m) + 1) *
          static_cast<float>(1 / kTieCells_per_m);
 }

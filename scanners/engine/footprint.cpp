@@ -13,9 +13,8 @@ namespace {
 struct Spiral {
   float cosine[kReferenceSubRays], sine[kReferenceSubRays];
   Spiral() {
-    constexpr double kGolden = 0.6180339887498949;  // of a turn
     for (int k = 0; k < kReferenceSubRays; ++k) {
-      const double turns = k * kGolden;
+      const double turns = k * kGoldenTurns;
       portable::sinCosTurn(static_cast<float>(turns - std::floor(turns)), sine[k], cosine[k]);
     }
   }

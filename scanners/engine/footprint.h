@@ -19,10 +19,11 @@ struct SubRay {
   double across, upward;
   float weight;  // of the beam's power; of a pattern they add up to 1
 };
-constexpr double kBeamEdge = 1.5;               // that far out rays are sent, in w: 1.1 % of the power is farther out
-constexpr int kSubRays = 16;                    // one packet
-constexpr int kReferenceSubRays = 64;           // where accuracy is worth any time
-constexpr std::uint32_t kFootprintChannel = 9;  // of Philox
+constexpr double kBeamEdge = 1.5;  // that far out rays are sent, in w: 1.1 % of the power is farther out
+constexpr int kSubRays = 16;       // one packet
+constexpr double kGoldenTurns = 0.6180339887498949;  // the golden angle, of a turn
+constexpr int kReferenceSubRays = 64;                // where accuracy is worth any time
+constexpr std::uint32_t kFootprintChannel = 9;       // of Philox
 
 // The pattern of one pulse from its own random numbers (core/random.h): `count` rays, at most kReferenceSubRays, one in
 // each ring of a spiral that is turned as a whole, moved along itself and stretched by chance; weights follow
