@@ -31,6 +31,14 @@ struct MixedOptions {
 };
 MadeFilter makeMixedFilter(const MixedOptions& options);
 
+// As office software does it after the scan.
+struct StrayOptions {
+  std::uint64_t window = 3;  // cells of the grid to each side of a square about the point, odd
+  double distance_m = 0.02;  // of range
+  double share = 0.5;        // of the other points in the window that must be as far as the point
+};
+MadeFilter makeStrayFilter(const StrayOptions& options);
+
 struct GateOptions {
   std::optional<double> from, to;  // m, degrees, or as intensities are stored in the file
 };

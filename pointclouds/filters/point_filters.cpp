@@ -142,6 +142,13 @@ const std::vector<FilterKind>& filterKinds() {
                      {"neighbours", &MixedOptions::neighbours, {.minimum = 6, .maximum = 256}},
                      {"by", &MixedOptions::by}},
                  makeMixedFilter),
+      // points that too few of the points around them in the grid are as far as
+      FilterKind("stray",
+                 std::vector<FilterField<StrayOptions>>{
+                     {"window", &StrayOptions::window, {.minimum = 3, .maximum = 31}},
+                     {"distance", &StrayOptions::distance_m, {.minimum = 1e-4, .maximum = 100}},
+                     {"share", &StrayOptions::share, {.minimum = 0, .maximum = 1}}},
+                 makeStrayFilter),
       FilterKind("range",
                  std::vector<FilterField<GateOptions>>{{"from", &GateOptions::from, {.minimum = 0, .maximum = kFar}},
                                                        {"to", &GateOptions::to, {.minimum = 0, .maximum = kFar}}},

@@ -201,7 +201,54 @@ class MixedFilter final : public ScanFilter {
   std::optional<NeighbourSearch> by_;
 };
 
+// A point that too few of those around it in the grid are as far as. Other than MixedFilter it needs no second surface,
+// takes what stands alone, and takes thin things as well.
+class StrayFilter final : public ScanFilter {
+ public:
+  explicit StrayFilter(const StrayOptions& options) : options_(options) {}
+
+  Result<void> beginScan(const ScanHeader& header) override {
+    if (auto begun = ScanFilter::beginScan(header); !begun) return begun;
+    if (!has_station_) return failure(ErrorKind::unusable, "no scanner position: ranges are unknown", header.name);
+    if (!grid_)
+      return failure(ErrorKind::unusable, "no grid of rows and columns; use 'outliers' for such a cloud", header.name);
+    return {};
+  }
+
+ private:
+  std::vector<std::uint8_t> wrong(ScanPoints& points) const override {
+    const GridIndex grid(points);
+    std::vector<float> range_m(points.size());
+    forEachPoint(points.size(), [&](std::size_t i) { range_m[i] = points.place_m[i].norm(); });
+    std::vector<std::uint8_t> marks(points.size(), 0);
+    forEachPoint(points.size(), [&](std::size_t i) { marks[i] = strays(points, grid, range_m, i) ? 1 : 0; });
+    return marks;
+  }
+
+  bool strays(const ScanPoints& points, const GridIndex& grid, const std::vector<float>& range_m, std::size_t i) const {
+    const auto column = static_cast<std::int64_t>(points.cell[i] >> 32U);
+    const auto row = static_cast<std::int64_t>(points.cell[i] & 0xFFFFFFFFU);
+    const auto reach = static_cast<std::int64_t>(options_.window / 2);
+    std::size_t around = 0, alike = 0;
+    for (std::int64_t c = column - reach; c <= column + reach; ++c)
+      for (std::int64_t r = row - reach; r <= row + reach; ++r) {
+        const auto found = c == column && r == row ? std::nullopt : grid.at(c, r);
+        if (!found) continue;
+        ++around;
+        if (std::abs(range_m[*found] - range_m[i]) <= static_cast<float>(options_.distance_m)) ++alike;
+      }
+    return static_cast<double>(alike) < options_.share * static_cast<double>(std::max<std::size_t>(around, 1));
+  }
+
+  StrayOptions options_;
+};
+
 }  // namespace
+
+MadeFilter makeStrayFilter(const StrayOptions& options) {
+  if (options.window % 2 == 0) return failure(ErrorKind::usage, "'window' must be odd");
+  return std::make_unique<StrayFilter>(options);
+}
 
 MadeFilter makeOutlierFilter(const OutlierOptions& options) {
   return std::make_unique<OutlierFilter>(options.neighbours, options.sigmas);

@@ -125,6 +125,35 @@ TEST(Cleaning, FindsTheMixedPointsAtAnEdgeAndNothingElse) {
   }
 }
 
+TEST(Cleaning, TakesAsStrayWhatTooFewPointsAroundItAreAsFarAs) {
+  const TemporaryFolder folder;
+  writeMade(folder / "in.e57", {edge(true)});
+  const auto done = clean(folder / "in.e57", folder / "out.e57", {"stray"});
+  ASSERT_OK(done);
+  EXPECT_EQ(done->filters[0].flags[0].taken, 200u);  // two of eight neighbours agree
+  EXPECT_EQ(done->filters[0].good.taken, 0u);        // beside the edge five of eight do
+  const auto lenient = clean(folder / "in.e57", folder / "out.e57", {"stray:share=0.25"});
+  ASSERT_OK(lenient);
+  EXPECT_EQ(lenient->filters[0].points.taken, 4u);  // at each end of the two columns one of five agrees
+  const auto coarse = clean(folder / "in.e57", folder / "out.e57", {"stray:distance=1"});
+  ASSERT_OK(coarse);
+  EXPECT_EQ(coarse->filters[0].points.taken, 0u);
+}
+
+TEST(Cleaning, TakesAsStrayThinThingsAndWhatStandsAlone) {
+  const TemporaryFolder folder;
+  MadeScan scan;  // a wire of one column before a wall, and a point far from all others
+  scan.range_m = [](std::uint32_t column, std::uint32_t row, const Eigen::Vector3d& beam) {
+    if (column == 20) return 3 / beam.x();
+    if (column > 80) return column == 90 && row == 50 ? 4.0 : 0.0;
+    return 5 / beam.x();
+  };
+  writeMade(folder / "in.e57", {scan});
+  const auto done = clean(folder / "in.e57", folder / "out.e57", {"stray"});
+  ASSERT_OK(done);
+  EXPECT_EQ(done->filters[0].points.taken, 101u);
+}
+
 TEST(Cleaning, LeavesAFloorThatIsSeenVeryFlatly) {
   const TemporaryFolder folder;
   MadeScan floor;  // 1.7 m below, from 15 to 68 m: up to 88.6° of incidence
@@ -315,6 +344,7 @@ TEST(Cleaning, SaysWhatCannotBe) {
       {"sphere:radius=1", "requires 'station' or 'at'"},
       {"sphere:radius=1,station=S9", "unknown station 'S9'; available: S1"},
       {"mixed:by=eye", "grid or distance"},
+      {"stray:window=4", "'window' must be odd"},
       {"duplicates:distance=", "must be a number"}};
   for (const auto& [word, why] : words) {
     const auto refused = clean(folder / "in.e57", folder / "out.e57", {word});
@@ -322,7 +352,7 @@ TEST(Cleaning, SaysWhatCannotBe) {
     EXPECT_NE(describe(refused.error()).find(why), std::string::npos) << describe(refused.error());
     EXPECT_FALSE(std::filesystem::exists(folder / "out.e57"));
   }
-  for (const std::string word : {"range:to=3", "mixed", "incidence:to=60", "intensity:to=1"})
+  for (const std::string word : {"range:to=3", "mixed", "stray", "incidence:to=60", "intensity:to=1"})
     EXPECT_FALSE(clean(folder / "plain.xyz", folder / "out.e57", {word})) << word;
 }
 
