@@ -132,8 +132,17 @@ struct MovingHead {
   double points_per_s = 0;                     // of all heads, one return each
   double min_rotation_hz = 0, max_rotation_hz = 0;
   double second_rotation_hz = 0;  // of the head about another axis; 0 = none
-  double turn_rad = 0;            // the part of a turn that is measured
-  double cloud_accuracy_m = 0;    // of a whole cloud with the maker's trajectory, 1 σ; 0 = not stated
+  double turn_rad = 0;            // the part of a turn that is measured …
+  double turn_middle_rad = 0;     // … and its middle, counter-clockwise from the head's x
+  double start_rad = 0;           // where a turn begins, counter-clockwise; it goes clockwise seen from above
+  // All channels fire once in a firing; 0: a setting says how many firings there are.
+  double firing_s = 0, first_channel_s = 0, channel_s = 0;
+  std::vector<double> azimuth_offsets_rad;    // of the channels, as the turn goes; repeated; empty = none
+  std::vector<double> channel_heights_m;      // of the channels' beam origins along the head's axis; empty = 0
+  double beam_radius_m = 0;                   // about the axis, from which ranges are measured
+  std::vector<double> tilts_rad;              // of each head about the device's y: forward; empty = upright
+  std::vector<double> forward_m, up_m;        // of each head in the device; empty = 0
+  double cloud_accuracy_m = 0;                // of a whole cloud with the maker's trajectory, 1 σ; 0 = not stated
 };
 
 // An instrument from scanners/instruments/<id>.json: data, no code.
@@ -206,7 +215,11 @@ struct ScanSettings {
   double nearest_m = 0, farthest_m = 0;  // the user's gate on the measured range; 0 = none
   PanoramaCamera camera;                 // the instrument's, as the settings have it
   double scan_seconds = 0, imaging_seconds = 0;  // of the real instrument
+  double rotation_hz = 0, firing_s = 0;          // of an instrument that moves, which has no grid
 };
+// Of an instrument that stands.
 Result<ScanSettings> resolveSettings(const Instrument& instrument, const SettingValues& values);
+// Of one that is carried: neither grid nor time, which its way decides.
+Result<ScanSettings> resolveMovingSettings(const Instrument& instrument, const SettingValues& values);
 
 }  // namespace standpoint

@@ -124,6 +124,8 @@ class InstrumentReader : FigureReader {
     head.max_rotation_hz = figure(group, "most_rotation_hz", {0.01, 10000});
     head.second_rotation_hz = figure(group, "second_rotation_hz", {0, 10000});
     head.turn_rad = figure(group, "turn_deg", {1, 360, kRadPerDeg});
+    readFirings(group, head);
+    readHeads(group, head);
     head.cloud_accuracy_m = figure(group, "cloud_accuracy_mm", {0, 10000, 1e-3});
     group.fields.close();
     if (head.min_rotation_hz > head.max_rotation_hz)
@@ -134,6 +136,40 @@ class InstrumentReader : FigureReader {
       instrument_.max_elevation_rad = *std::max_element(elevations.begin(), elevations.end());
     }
     instrument_.moving = std::move(head);
+  }
+
+  void readFirings(Group& group, MovingHead& head) {
+    const Domain microseconds{0, 1e6, 1e-6};
+    if (group.fields.has("firing_us")) head.firing_s = figure(group, "firing_us", {0.01, 1e6, 1e-6});
+    if (group.fields.has("first_channel_us")) head.first_channel_s = figure(group, "first_channel_us", microseconds);
+    if (group.fields.has("channel_us")) head.channel_s = figure(group, "channel_us", microseconds);
+    if (group.fields.has("start_deg")) head.start_rad = figure(group, "start_deg", {-360, 360, kRadPerDeg});
+    if (group.fields.has("turn_middle_deg"))
+      head.turn_middle_rad = figure(group, "turn_middle_deg", {-360, 360, kRadPerDeg});
+    const std::size_t channels = head.channel_elevations_rad.size();
+    if (group.fields.has("azimuth_offsets_deg"))
+      head.azimuth_offsets_rad = figures(group, "azimuth_offsets_deg", {-90, 90, kRadPerDeg}, channels);
+    if (group.fields.has("beam_radius_mm")) head.beam_radius_m = figure(group, "beam_radius_mm", {0, 500, 1e-3});
+    const double last_s = head.first_channel_s + head.channel_s * (static_cast<double>(channels) - 1);
+    if (head.firing_s > 0 && last_s >= head.firing_s)
+      fail("/moving/firing_us", "must be longer than its channels take");
+  }
+
+  // A figure for each, or none for all.
+  std::vector<double> forEach(Group& group, const char* key, const Domain& domain, std::size_t count, const char* what) {
+    if (!group.fields.has(key)) return {};
+    auto list = figures(group, key, domain, 1024);
+    if (list.size() != count) fail(std::string("/moving/") + key, std::string("must have one figure for each ") + what);
+    return list;
+  }
+
+  void readHeads(Group& group, MovingHead& head) {
+    const auto heads = static_cast<std::size_t>(head.heads);
+    head.channel_heights_m = forEach(group, "channel_heights_mm", {-500, 500, 1e-3},
+                                     head.channel_elevations_rad.size(), "channel");
+    head.tilts_rad = forEach(group, "tilts_deg", {-180, 180, kRadPerDeg}, heads, "head");
+    head.forward_m = forEach(group, "head_forward_mm", {-5000, 5000, 1e-3}, heads, "head");
+    head.up_m = forEach(group, "head_up_mm", {-5000, 5000, 1e-3}, heads, "head");
   }
 
   void readSignal(Group& root) {
@@ -347,8 +383,10 @@ class InstrumentReader : FigureReader {
       fail("/angles/jitter_arcsec", "must not exceed accuracy_arcsec, which includes it");
     checkFractions();
     checkRotations();
-    if (!error() && !instrument_.moving)
-      if (const auto default_value = resolveSettings(instrument_, {}); !default_value)
+    if (!error())
+      if (const auto default_value =
+              instrument_.moving ? resolveMovingSettings(instrument_, {}) : resolveSettings(instrument_, {});
+          !default_value)
         fail("/settings", "the default values are not a valid scan: " + default_value.error().message);
   }
 

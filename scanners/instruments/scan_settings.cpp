@@ -80,6 +80,7 @@ struct ChosenEffects {
   double points_per_s = 0, imaging_factor = 1;
   PointFilters drops;
   bool area = true, stepped = false;
+  double rotation_hz = 0;
 };
 
 void addToCamera(PanoramaCamera& camera, const std::string& key, double value) {
@@ -119,6 +120,7 @@ ChosenEffects gather(const Instrument& instrument, const SettingValues& values) 
       if (key == "area") sum.area = value > 0;
       if (key == "stepped") sum.stepped = value > 0;
       if (key == "points_per_s") sum.points_per_s = sum.points_per_s > 0 ? std::min(sum.points_per_s, value) : value;
+      if (key == "rotation_hz") sum.rotation_hz = value;
       if (key == "imaging_factor") sum.imaging_factor *= value;
       if (key == "seconds_factor") sum.seconds_factor *= value;
       if (key == "compression") sum.compression = value;
@@ -297,6 +299,31 @@ Result<ScanSettings> resolveSettings(const Instrument& instrument, const Setting
   settings.scan_seconds =
       effects.laser ? (instrument.overhead_s + turning * effects.seconds_factor * fraction) * effects.passes : 0;
   settings.imaging_seconds = settings.imaging ? effects.imaging_seconds * effects.imaging_factor : 0;
+  return settings;
+}
+
+Result<ScanSettings> resolveMovingSettings(const Instrument& instrument, const SettingValues& values) {
+  if (!instrument.moving)
+    return failure(ErrorKind::usage,
+                   "the " + instrument.maker + " " + instrument.model +
+                       " stands on a tripod and cannot be carried; choose a mobile scanner",
+                   instrument.id);
+  TRY_ASSIGN(auto filled, complete(instrument, values));
+  const ChosenEffects effects = gather(instrument, filled);
+  ScanSettings settings;
+  settings.values = std::move(filled);
+  settings.rotation_hz = effects.rotation_hz;
+  settings.firing_s = instrument.moving->firing_s;
+  if (effects.columns > 0 && effects.rotation_hz > 0) settings.firing_s = 1 / (effects.columns * effects.rotation_hz);
+  if (effects.rate_hz > 0) settings.firing_s = 1 / effects.rate_hz;
+  if (settings.rotation_hz <= 0 || settings.firing_s <= 0)
+    return failure(ErrorKind::unusable, "no setting defines the rotation, or the time of a firing",
+                   instrument.id + " /settings");
+  settings.max_range_m = effects.max_range_m;
+  settings.reference_reflectivity = effects.reference_reflectivity;
+  settings.noise_factor = effects.noise_factor;
+  settings.unambiguous_m = effects.unambiguous_m;
+  settings.drops = effects.drops;
   return settings;
 }
 
