@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/portable_math.h"
 #include "core/random.h"
-#include "scanners/math/portable_math.h"
 
 namespace standpoint {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scanners/math/portable_math.h"
+#include "core/portable_math.h"
 #include "scanners/math/target_clones.h"
 
 namespace standpoint {

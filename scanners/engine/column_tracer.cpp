@@ -6,7 +6,7 @@
 #include <bit>
 #include <limits>
 
-#include "scanners/math/portable_math.h"
+#include "core/portable_math.h"
 
 namespace standpoint {
 

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "core/points.h"
+#include "core/portable_math.h"
 #include "core/random.h"
-#include "scanners/math/portable_math.h"
 
 namespace standpoint {
 

@@ -12,8 +12,8 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "core/portable_math.h"
 #include "scanners/engine/corner_light.h"
-#include "scanners/math/portable_math.h"
 
 namespace standpoint {
 

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstring>
 
+#include "core/portable_math.h"
 #include "scanners/engine/embree_scene.h"
-#include "scanners/math/portable_math.h"
 #include "scanners/math/target_clones.h"
 
 namespace standpoint {

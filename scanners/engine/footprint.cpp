@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scanners/engine/footprint.h"
 
+#include "core/portable_math.h"
 #include "core/random.h"
-#include "scanners/math/portable_math.h"
 #include "scanners/math/target_clones.h"
 
 namespace standpoint {

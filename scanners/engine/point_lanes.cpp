@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-#include "scanners/math/portable_math.h"
+#include "core/portable_math.h"
 #include "scanners/math/target_clones.h"
 #include "scanners/noise/surface_texture.h"
 

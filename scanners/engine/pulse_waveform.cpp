@@ -5,10 +5,10 @@
 #include <cmath>
 #include <string>
 
+#include "core/portable_math.h"
 #include "core/random.h"
 #include "scanners/engine/column_hits.h"
 #include "scanners/engine/end_powers.h"
-#include "scanners/math/portable_math.h"
 
 namespace standpoint {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/portable_math.h"
 #include "scanners/engine/scan_plan.h"
-#include "scanners/math/portable_math.h"
 
 namespace standpoint {
 

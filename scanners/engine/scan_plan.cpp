@@ -6,9 +6,9 @@
 #include <limits>
 #include <numbers>
 
+#include "core/portable_math.h"
 #include "scanners/engine/column_hits.h"
 #include "scanners/engine/footprint.h"
-#include "scanners/math/portable_math.h"
 #include "scanners/noise/pulse_noise.h"
 
 namespace standpoint {

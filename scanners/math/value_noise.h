@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "scanners/math/portable_math.h"
+#include "core/portable_math.h"
 
 // A random field over space from integer arithmetic: a number for each corner of a cubic grid, blended in between.
 // Straight-line code that vectorises.

@@ -5,7 +5,7 @@
 #include <immintrin.h>
 #endif
 
-#include "scanners/math/portable_math.h"
+#include "core/portable_math.h"
 #include "scanners/math/target_clones.h"
 
 namespace standpoint {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "scanners/math/portable_math.h"
+#include "core/portable_math.h"
 #include "scanners/noise/pulse_noise.h"
 
 namespace standpoint {

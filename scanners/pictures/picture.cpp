@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 #include <stb/stb_image.h>
 
-#include "scanners/math/portable_math.h"
+#include "core/portable_math.h"
 
 namespace standpoint {
 

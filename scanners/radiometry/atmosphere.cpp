@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-#include "scanners/math/portable_math.h"
+#include "core/portable_math.h"
 
 namespace standpoint {
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/portable_math.h"
 #include "core/units.h"
-#include "scanners/math/portable_math.h"
 #include "scanners/radiometry/radiometry.h"
 
 namespace standpoint {

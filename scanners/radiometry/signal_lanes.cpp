@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scanners/math/portable_math.h"
+#include "core/portable_math.h"
 #include "scanners/math/target_clones.h"
 
 namespace standpoint {

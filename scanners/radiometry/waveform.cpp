@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <span>
 
-#include "scanners/math/portable_math.h"
+#include "core/portable_math.h"
 
 namespace standpoint {
 

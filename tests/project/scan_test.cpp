@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "core/portable_math.h"
 #include "pointclouds/e57/crc32c.h"
 #include "pointclouds/formats.h"
 #include "project/storage/project_files.h"
-#include "scanners/math/portable_math.h"
 #include "tests/project/support.h"
 
 namespace standpoint {

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scanners/math/portable_math.h"
+#include "core/portable_math.h"
 
 namespace standpoint {
 namespace {

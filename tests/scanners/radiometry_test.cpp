@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/portable_math.h"
 #include "core/units.h"
-#include "scanners/math/portable_math.h"
 #include "scanners/radiometry/signal_lanes.h"
 #include "tests/scanners/scenes.h"
 
