@@ -78,7 +78,7 @@ void scanToE57(benchmark::State& state) {
     header.products.resize(scene->environment().products.size());
     header.materials = {"unassigned"};
     if (!writer->begin(header)) return state.SkipWithError("begin");
-    const auto count = scan(*scene, {}, instrument, settings, {{0}, {pose}}, {.threads = 2}, *writer, progress);
+    const auto count = scan(*scene, {}, instrument, settings, pose, {.threads = 2}, *writer, progress);
     if (!count || !writer->end() || !writer->close()) return state.SkipWithError("scan");
     pulses += count->pulses;
   }
@@ -141,11 +141,11 @@ void wholeFootprintInEveryBeam(benchmark::State& state) {
   std::uint64_t pulses = 0;
   ScanOptions options{.threads = static_cast<int>(state.range(0))};
   options.channels.truth = true;
-  const auto once = scan(*scene, {}, instrument, settings, {{0}, {Pose{}}}, options, sink, progress);
+  const auto once = scan(*scene, {}, instrument, settings, Pose{}, options, sink, progress);
   if (!once || sink.mixed < once->pulses) return state.SkipWithError("a beam met one surface alone");
   options.channels.truth = false;
   for (auto _ : state) {
-    const auto count = scan(*scene, {}, instrument, settings, {{0}, {Pose{}}}, options, sink, progress);
+    const auto count = scan(*scene, {}, instrument, settings, Pose{}, options, sink, progress);
     if (!count) return state.SkipWithError("scan");
     pulses += count->pulses;
   }

@@ -43,9 +43,12 @@ ColumnHits::ColumnHits(const ScanPlan& plan)
     : plan_(plan),
       facets_(plan.settings.rows + kPacket, kNoFacet),
       ranges_(plan.settings.rows + kPacket, static_cast<float>(plan.farthest_m)) {
-  if (plan.moves()) return;
+  if (plan.moves()) {
+    moving_ = std::make_unique<MovingColumn>(plan);
+    return;
+  }
   // As the packets have it.
-  seen_ = std::make_unique<SeenFaces>(at(plan.trajectory, 0).translation.cast<float>().cast<double>());
+  seen_ = std::make_unique<SeenFaces>(plan.start.translation.cast<float>().cast<double>());
   rays_.one_origin = true;
   rays_.seen = seen_.get();
 }
@@ -53,14 +56,14 @@ ColumnHits::ColumnHits(const ScanPlan& plan)
 // Clockwise seen from above.
 void ColumnHits::begin(std::uint32_t column) {
   column_ = column;
+  if (moving_) return moving_->begin(column);
   double sine = 0, cosine = 0;
   portable::sinCos(plan_.azimuth_rad(column), sine, cosine);
   ahead_ = {cosine, -sine, 0};
   lateral_ = {-sine, -cosine, 0};
-  const Pose pose = at(plan_.trajectory, 0);
+  const Pose& pose = plan_.start;
   still_ = {pose.translation, pose.rotation * ahead_, pose.rotation * lateral_,
             pose.rotation * Eigen::Vector3d::UnitZ()};
-  if (plan_.moves()) return;
   std::fill_n(lanes_.origin_x, kPacket, still_.origin.x());
   std::fill_n(lanes_.origin_y, kPacket, still_.origin.y());
   std::fill_n(lanes_.origin_z, kPacket, still_.origin.z());
@@ -75,43 +78,52 @@ void ColumnHits::trace(std::uint32_t column) {
 void ColumnHits::traceRows(std::uint32_t first_row) {
   const int count = static_cast<int>(std::min<std::uint32_t>(kPacket, plan_.settings.rows - first_row));
   axes(first_row);
-  if (plan_.moves()) roundOrigins(lanes_, rays_);
+  if (moving_) roundOrigins(lanes_, rays_);
   roundDirections(lanes_, rays_);
   plan_.scene.intersect(rays_, count, static_cast<float>(plan_.farthest_m), facets_.data() + first_row,
                         ranges_.data() + first_row);
+  if (moving_)
+    for (int k = 0; k < count; ++k)
+      if (!moving_->pulse(first_row + static_cast<std::uint32_t>(k)).measured)
+        facets_[first_row + static_cast<std::uint32_t>(k)] = kNoFacet;
 }
 
 const AxisLanes& ColumnHits::axes(std::uint32_t first_row) {
-  if (!plan_.moves()) {
+  if (!moving_) {
     turn(plan_.cosine.data() + first_row, plan_.sine.data() + first_row, still_.ahead.data(), still_.up.data(), lanes_);
     return lanes_;
   }
   for (std::uint32_t k = 0; k < std::min<std::uint32_t>(kPacket, plan_.settings.rows - first_row); ++k) {
-    const RayLine line = axis(first_row + k);
-    lanes_.origin_x[k] = line.origin.x(), lanes_.direction_x[k] = line.direction.x();
-    lanes_.origin_y[k] = line.origin.y(), lanes_.direction_y[k] = line.direction.y();
-    lanes_.origin_z[k] = line.origin.z(), lanes_.direction_z[k] = line.direction.z();
+    const Eigen::Vector3d &origin = moving_->origin(first_row + k), &direction = moving_->direction(first_row + k);
+    lanes_.origin_x[k] = origin.x(), lanes_.direction_x[k] = direction.x();
+    lanes_.origin_y[k] = origin.y(), lanes_.direction_y[k] = direction.y();
+    lanes_.origin_z[k] = origin.z(), lanes_.direction_z[k] = direction.z();
   }
   return lanes_;
 }
 
-ColumnHits::Axes ColumnHits::axesAt(std::uint32_t row) const {
-  if (!plan_.moves()) return still_;
-  const Pose pose = at(plan_.trajectory, plan_.clock.time_s(column_, plan_.elevation_rad(row)));
-  return {pose.translation, pose.rotation * ahead_, pose.rotation * lateral_, pose.rotation * Eigen::Vector3d::UnitZ()};
+RayLine ColumnHits::axis(std::uint32_t row) const {
+  if (moving_) return {moving_->origin(row), moving_->direction(row)};
+  return {still_.origin, plan_.cosine[row] * still_.ahead + plan_.sine[row] * still_.up};
 }
 
-RayLine ColumnHits::axis(std::uint32_t row) const {
-  const auto of = [&](const Axes& axes) -> RayLine {
-    return {axes.origin, plan_.cosine[row] * axes.ahead + plan_.sine[row] * axes.up};
-  };
-  return plan_.moves() ? of(axesAt(row)) : of(still_);
+std::uint32_t ColumnHits::measured(std::uint32_t first_row, std::uint32_t rows) const {
+  std::uint32_t lanes = (1U << rows) - 1;
+  if (moving_)
+    for (std::uint32_t k = 0; k < rows; ++k)
+      if (!moving_->pulse(first_row + k).measured) lanes &= ~(1U << k);
+  return lanes;
 }
 
 Beam ColumnHits::beam(std::uint32_t row) const {
-  const Axes axes = axesAt(row);
-  return {axes.origin, plan_.cosine[row] * axes.ahead + plan_.sine[row] * axes.up, axes.across,
-          plan_.cosine[row] * axes.up - plan_.sine[row] * axes.ahead};
+  if (!moving_)
+    return {still_.origin, plan_.cosine[row] * still_.ahead + plan_.sine[row] * still_.up, still_.across,
+            plan_.cosine[row] * still_.up - plan_.sine[row] * still_.ahead};
+  const Eigen::Quaterniond turn = moving_->localFromDevice(row).rotation;
+  const double sine = moving_->sines()[row], cosine = moving_->cosines()[row];
+  Eigen::Vector3d upward = -sine * moving_->ahead(row);
+  upward.z() = cosine;
+  return {moving_->origin(row), moving_->direction(row), turn * moving_->lateral(row), turn * upward};
 }
 
 }  // namespace standpoint

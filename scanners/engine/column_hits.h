@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scanners/engine/footprint.h"
+#include "scanners/engine/moving_column.h"
 #include "scanners/engine/scan_plan.h"
 
 namespace standpoint {
@@ -31,7 +32,14 @@ class ColumnHits {
   Beam beam(std::uint32_t row) const;
   // For other rays from about where the axes begin; null of a scanner that moves.
   SeenFaces* seen() const { return seen_.get(); }
-  // Horizontal unit vectors of the scanner's frame.
+  const MovingColumn* moving() const { return moving_.get(); }  // null of a scanner that stands
+  // Those of `rows` rows from one on whose pulses are measured, as bits.
+  std::uint32_t measured(std::uint32_t first_row, std::uint32_t rows) const;
+  std::uint32_t pulses() const { return moving_ ? moving_->measured() : plan_.settings.rows; }
+  // Of the directions in the scanner's frame, from a row on.
+  const double* sines(std::uint32_t row) const { return (moving_ ? moving_->sines() : plan_.sine.data()) + row; }
+  const double* cosines(std::uint32_t row) const { return (moving_ ? moving_->cosines() : plan_.cosine.data()) + row; }
+  // Of a scanner that stands: horizontal unit vectors of its frame.
   const Eigen::Vector3d& ahead() const { return ahead_; }
   const Eigen::Vector3d& lateral() const { return lateral_; }
 
@@ -39,7 +47,6 @@ class ColumnHits {
   struct Axes {
     Eigen::Vector3d origin, ahead, across, up;
   };
-  Axes axesAt(std::uint32_t row) const;
   void begin(std::uint32_t column);
   void traceRows(std::uint32_t first_row);
 
@@ -49,6 +56,7 @@ class ColumnHits {
   Axes still_;                       // of a scanner that does not move
   AxisLanes lanes_;                  // of the rows looked at last
   std::unique_ptr<SeenFaces> seen_;
+  std::unique_ptr<MovingColumn> moving_;
   RayPacket rays_{};
   std::vector<std::uint64_t> facets_;
   std::vector<float> ranges_;

@@ -38,25 +38,29 @@ ColumnTracer::ColumnTracer(const ScanPlan& plan, const EdgeMap* edges, const Edg
   std::fill_n(held_, kPacket, kOverwritten);
 }
 
-void ColumnTracer::trace(std::uint32_t from, std::uint32_t to, PointBlock& block) {
+std::uint64_t ColumnTracer::trace(std::uint32_t from, std::uint32_t to, PointBlock& block) {
+  std::uint64_t pulses = 0;
   writer_.begin(block);
   for (std::uint32_t c = from; c < to; ++c) {
     column_.trace(c);
     traceColumn();
+    pulses += column_.pulses();
   }
   writer_.end();
+  return pulses;
 }
 
 void ColumnTracer::traceColumn() {
-  points_.begin(column_.column(), column_.ahead(), column_.lateral());
-  writer_.beginColumn(column_.column());
+  points_.begin(column_);
+  writer_.beginColumn(column_);
   if (edges_ != nullptr) edges_->mark(column_, facets_, found_);
   if (corners_ != nullptr) corners_->mark(column_, facets_, found_corners_);
   for (std::uint32_t first = 0; first < plan_.settings.rows; first += kPacket) traceRows(first);
+  writer_.endColumn();
 }
 
 void ColumnTracer::traceRows(std::uint32_t first_row) {
-  returns_.begin(plan_, first_row);
+  returns_.begin(first_row, column_.sines(first_row), column_.cosines(first_row));
   const Surfaces met = setSurfaces(first_row);
   const std::uint32_t edges = traceEdges(first_row);
   std::uint32_t present = 0;
@@ -134,7 +138,7 @@ ColumnTracer::Surfaces ColumnTracer::setSurfaces(std::uint32_t first_row) {
 // Of the sixteen rows from `first_row` on those whose beams meet several surfaces. They are among `wide_`, in order.
 std::uint32_t ColumnTracer::traceEdges(std::uint32_t first_row) {
   const std::uint32_t rows = std::min<std::uint32_t>(kPacket, plan_.settings.rows - first_row);
-  const std::uint32_t all = plan_.everyBeamWide() ? (1U << rows) - 1 : 0;
+  const std::uint32_t all = plan_.everyBeamWide() ? column_.measured(first_row, rows) : 0;
   const std::uint32_t marked = edges_ != nullptr ? found_.rows(first_row) : all;
   if (marked == 0) return 0;
   wide_.clear();
@@ -190,14 +194,15 @@ void ColumnTracer::gatherWide(const WideBeam& wide) {
 
 // Rows of which something may come back that is not on the beam's own way.
 std::uint32_t ColumnTracer::straying(std::uint32_t first_row, std::uint32_t rows) const {
-  if (plan_.scatterers) return (1U << rows) - 1;
+  const std::uint32_t measured = column_.measured(first_row, rows);
+  if (plan_.scatterers) return measured;
   std::uint32_t lanes = 0;
   if (!plan_.halo && plan_.interference <= 0) return lanes;
   for (std::uint32_t k = 0; k < rows; ++k) {
     const bool wings = plan_.halo && plan_.halo->reaches(column_.column(), first_row + k);
     if (wings || (plan_.interference > 0 && struck(first_row + k))) lanes |= 1U << k;
   }
-  return lanes;
+  return lanes & measured;
 }
 
 // Does another instrument's light come in while this pulse is listened for?
@@ -285,11 +290,8 @@ void ColumnTracer::light(ReturnLanes& r, int count) {
               static_cast<double>(r.place_z[k] + kOff_m * r.normal_z[k])},
              day.towards());
   plan_.scene.intersect(rays, count, std::numeric_limits<float>::infinity(), shade, ranges);
-  const Eigen::Quaterniond rotation = at(plan_.trajectory, 0).rotation;
   for (int k = 0; k < count; ++k) {
-    Eigen::Vector3d direction = r.cosine[k] * column_.ahead();
-    direction.z() = r.sine[k];
-    r.signal.background[k] = day.ofDirection(rotation * direction);
+    r.signal.background[k] = day.ofDirection(column_.axis(r.row[k]).direction);
     if (shade[k] != kNoFacet && !plan_.passes(*facets_.of(shade[k]).optics)) continue;
     r.signal.background[k] += day.ofSurface(r.signal.diffuse[k], {r.normal_x[k], r.normal_y[k], r.normal_z[k]});
   }

@@ -25,7 +25,8 @@ class ColumnTracer {
  public:
   // `edges`: null where no beam is wide, or each is; `corners`: null where they are not lit.
   ColumnTracer(const ScanPlan& plan, const EdgeMap* edges, const EdgeMap* corners);
-  void trace(std::uint32_t from, std::uint32_t to, PointBlock& block);
+  // How many pulses were sent.
+  std::uint64_t trace(std::uint32_t from, std::uint32_t to, PointBlock& block);
 
  private:
   // A return of a pulse that is not its first.

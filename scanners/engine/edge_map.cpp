@@ -168,7 +168,7 @@ EdgeMap::EdgeMap(const ScanPlan& plan, Edges wanted) : plan_(plan) {
     const auto count = static_cast<std::uint32_t>(plan.scene.edges(plan.scene.placed(k).mesh).size());
     for (std::uint32_t from = 0; from < count; from += kPart) parts.push_back({k, from, std::min(count, from + kPart)});
   }
-  const Pose pose = at(plan.trajectory, 0);
+  const Pose& pose = plan.start;
   const Eigen::Affine3d local_from_scanner(Eigen::Translation3d(pose.translation) * pose.rotation);
   const Eigen::Affine3d scanner_from_local = local_from_scanner.inverse();
   tbb::enumerable_thread_specific<std::vector<Piece>> found;

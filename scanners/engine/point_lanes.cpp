@@ -13,11 +13,6 @@ namespace standpoint {
 
 namespace {
 
-Pose relative(const Pose& from, const Pose& to) {
-  const Eigen::Quaterniond back = from.rotation.conjugate();
-  return {back * to.rotation, back * (to.translation - from.translation)};
-}
-
 STANDPOINT_INLINE float risen(const PointLanes::Ramp& ramp, float octaves) {
   const float up = octaves - ramp.from;
   const float on = up > 0 ? up : 0;
@@ -80,7 +75,7 @@ STANDPOINT_CLONES bool suspicious(const ReturnLanes& r, float weak, float satura
 
 }  // namespace
 
-PointLanes::PointLanes(const ScanPlan& plan) : plan_(plan), start_(at(plan.trajectory, 0)) {
+PointLanes::PointLanes(const ScanPlan& plan) : plan_(plan) {
   if (plan.column_noise) along_.resize(plan.column_noise->paddedRows());
   figures_.jitter_rad = plan.jitter_rad;
   const SystematicErrors& errors = plan.errors;
@@ -114,14 +109,18 @@ void PointLanes::setOffsets() {
   }
 }
 
-void PointLanes::begin(std::uint32_t column, const Eigen::Vector3d& ahead, const Eigen::Vector3d& lateral) {
-  column_ = column;
-  const double face = plan_.clock.behind(column) ? -1 : 1;
+// Of a scanner that moves, points are first placed as if all pulses went along x, since each goes another way.
+void PointLanes::begin(const ColumnHits& hits) {
+  const std::uint32_t column = column_ = hits.column();
+  moving_ = hits.moving();
+  const double face = !plan_.pattern && plan_.clock.behind(column) ? -1 : 1;
+  const Eigen::Vector3d ahead = moving_ != nullptr ? Eigen::Vector3d(Eigen::Vector3d::UnitX()) : hits.ahead();
+  const Eigen::Vector3d lateral = moving_ != nullptr ? Eigen::Vector3d(Eigen::Vector3d::UnitY()) : hits.lateral();
   figures_.ahead_x = ahead.x(), figures_.ahead_y = ahead.y();
   figures_.lateral_x = lateral.x(), figures_.lateral_y = lateral.y();
   figures_.lateral_rad = face * plan_.errors.collimation_rad;
   figures_.trunnion_rad = face * plan_.errors.trunnion_rad;
-  figures_.azimuth_rad = plan_.errors.azimuthError_rad(plan_.azimuth_rad(column));
+  figures_.azimuth_rad = plan_.pattern ? 0 : plan_.errors.azimuthError_rad(plan_.azimuth_rad(column));
   figures_.lift_rad = face * plan_.errors.index_rad;
   if (!plan_.column_noise) return;
   plan_.column_noise->along(column, along_.data());
@@ -163,7 +162,7 @@ std::uint32_t PointLanes::receive(ReturnLanes& returns, int count) const {
     for (int k = 0; k < kReturnLanes; ++k) cyclic_m[k] = plan_.errors.cyclic_m(returns.range_m[k]);
   place(figures_, cyclic_m, returns);
   if (plan_.unambiguous_m > 0) foldBack(returns);
-  if (plan_.moves()) moveBack(returns, count);
+  if (moving_ != nullptr) moveBack(returns, count);
   const std::uint32_t lanes = detected(returns, count);
   return plan_.flags == PointFilters{} && plan_.drops == PointFilters{} ? lanes : filtered(returns, lanes);
 }
@@ -210,9 +209,12 @@ void PointLanes::foldBack(ReturnLanes& returns) const {
 
 void PointLanes::moveBack(ReturnLanes& returns, int count) const {
   for (int k = 0; k < count; ++k) {
-    const double time = plan_.clock.time_s(column_, plan_.elevation_rad(returns.row[k]));
-    const Eigen::Vector3d seen = Eigen::Vector3f(returns.x_m[k], returns.y_m[k], returns.z_m[k]).cast<double>();
-    const Eigen::Vector3f point = (relative(start_, at(plan_.trajectory, time)) * seen).cast<float>();
+    const std::uint32_t row = returns.row[k];
+    if (row >= plan_.settings.rows) continue;
+    Eigen::Vector3d seen = static_cast<double>(returns.x_m[k]) * moving_->ahead(row) +
+                           static_cast<double>(returns.y_m[k]) * moving_->lateral(row);
+    seen.z() = static_cast<double>(returns.z_m[k]);
+    const Eigen::Vector3f point = moving_->placed(row, seen).cast<float>();
     returns.x_m[k] = point.x(), returns.y_m[k] = point.y(), returns.z_m[k] = point.z();
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "scanners/engine/column_hits.h"
 #include "scanners/engine/return_lanes.h"
 
 namespace standpoint {
@@ -9,12 +10,12 @@ namespace standpoint {
 class PointLanes {
  public:
   explicit PointLanes(const ScanPlan& plan);
-  void begin(std::uint32_t column, const Eigen::Vector3d& ahead, const Eigen::Vector3d& lateral);
+  void begin(const ColumnHits& column);
   // Range noise along the column and the mirror's wobble of the rows from a multiple of sixteen on, a lane each.
   void drawRows(std::uint32_t first_row, ReturnLanes& returns) const;
   // The same for one more return of a pulse, which has a lane in `first`.
   void drawFurther(const ReturnLanes& first, int pulse, NoiseChannel channel, ReturnLanes& returns, int lane) const;
-  // From what is met to the points, in the scanner's frame at the start of the scan; the lanes detected of the first
+  // From what is met to the points, in the scanner's frame, or that of a motion; the lanes detected of the first
   // `count` are the bits of the result.
   std::uint32_t receive(ReturnLanes& returns, int count) const;
 
@@ -50,7 +51,7 @@ class PointLanes {
   std::uint32_t column_ = 0;
   Figures figures_;
   std::vector<float> along_;
-  Pose start_;
+  const MovingColumn* moving_ = nullptr;
 };
 
 }  // namespace standpoint

@@ -22,9 +22,32 @@ void PointWriter::begin(PointBlock& block) {
   room_ = block.size();
 }
 
-void PointWriter::beginColumn(std::uint32_t column) {
-  column_ = column;
+void PointWriter::beginColumn(const ColumnHits& column) {
+  column_ = column.column();
+  moving_ = column.moving();
+  column_begin_ = size_;
   makeRoom(plan_.settings.rows);
+}
+
+// A pattern's pulses are traced channel by channel and written in the order of their firings.
+void PointWriter::endColumn() {
+  if (!plan_.pattern || size_ == column_begin_) return;
+  const PointBlock& block = *block_;
+  const std::uint32_t first = moving_->firing(0), channels = plan_.pattern->channels();
+  order_.assign(plan_.pattern->firingsPerBlock() + 1, 0);
+  for (std::size_t i = column_begin_; i < size_; ++i) ++order_[block.column[i] - first + 1];
+  for (std::size_t k = 1; k < order_.size(); ++k) order_[k] += order_[k - 1];
+  places_in_order_.resize(size_ - column_begin_);
+  for (std::size_t i = column_begin_; i < size_; ++i)
+    places_in_order_[order_[block.column[i] - first]++] = static_cast<std::uint32_t>(i);
+  if (channels == 1) return;
+  forEachColumn([this](auto& column) {
+    using Value = typename std::decay_t<decltype(column)>::value_type;
+    thread_local std::vector<Value> values;
+    values.clear();
+    for (const std::uint32_t i : places_in_order_) values.push_back(column[i]);
+    std::copy(values.begin(), values.end(), column.begin() + static_cast<std::ptrdiff_t>(column_begin_));
+  });
 }
 
 void PointWriter::end() { resize(size_); }
@@ -33,27 +56,33 @@ void PointWriter::makeRoom(std::size_t points) {
   if (size_ + points > room_) resize(std::max(size_ + points, size_ + plan_.settings.rows));
 }
 
-void PointWriter::resize(std::size_t size) {
-  room_ = size;
+template <class Change>
+void PointWriter::forEachColumn(Change change) {
   PointBlock& block = *block_;
-  for (auto* column : {&block.x_m, &block.y_m, &block.z_m, &block.intensity}) column->resize(size);
-  for (auto* column : {&block.row, &block.column, &block.product, &block.material}) column->resize(size);
+  for (auto* column : {&block.x_m, &block.y_m, &block.z_m, &block.intensity}) change(*column);
+  for (auto* column : {&block.row, &block.column, &block.product, &block.material}) change(*column);
   if (plan_.settings.imaging)
-    for (auto* column : {&block.red, &block.green, &block.blue}) column->resize(size);
+    for (auto* column : {&block.red, &block.green, &block.blue}) change(*column);
   const ScanChannels& channels = plan_.options.channels;
-  if (channels.time) block.time_s.resize(size);
+  if (channels.time) change(block.time_s);
   if (channels.returns)
-    for (auto* column : {&block.return_number, &block.return_count}) column->resize(size);
+    for (auto* column : {&block.return_number, &block.return_count}) change(*column);
   if (!channels.truth) return;
   PointTruth& truth = block.truth;
   for (auto* column : {&truth.x_m, &truth.y_m, &truth.z_m, &truth.range_m, &truth.incidence_rad, &truth.received_db})
-    column->resize(size);
-  truth.flags.resize(size);
+    change(*column);
+  change(truth.flags);
+}
+
+void PointWriter::resize(std::size_t size) {
+  room_ = size;
+  forEachColumn([size](auto& column) { column.resize(size); });
 }
 
 void PointWriter::write(const ReturnLanes& lanes, std::uint32_t detected) {
   const ScanChannels& channels = plan_.options.channels;
-  if (detected == kAllLanes && !channels.time && !channels.returns && !channels.truth) return writeAll(lanes);
+  if (detected == kAllLanes && moving_ == nullptr && !channels.time && !channels.returns && !channels.truth)
+    return writeAll(lanes);
   places_.clear();
   for (std::uint32_t left = detected; left != 0; left &= left - 1) places_.push_back({&lanes, std::countr_zero(left)});
   write(places_);
@@ -82,20 +111,24 @@ void PointWriter::write(const std::vector<Place>& places) {
     const std::size_t i = size_++;
     block.x_m[i] = lanes.x_m[k], block.y_m[i] = lanes.y_m[k], block.z_m[i] = lanes.z_m[k];
     block.intensity[i] = lanes.signal.intensity[k];
-    block.row[i] = lanes.row[k];
-    block.column[i] = column_;
+    block.row[i] = moving_ != nullptr ? moving_->pulse(lanes.row[k]).channel : lanes.row[k];
+    block.column[i] = moving_ != nullptr ? moving_->firing(lanes.row[k]) : column_;
     block.product[i] = lanes.product[k], block.material[i] = lanes.material[k];
     if (plan_.settings.imaging)
       block.red[i] = lanes.red[k], block.green[i] = lanes.green[k], block.blue[i] = lanes.blue[k];
-    if (channels.time) block.time_s[i] = plan_.clock.time_s(column_, plan_.elevation_rad(lanes.row[k]));
+    if (channels.time) block.time_s[i] = time_s(lanes.row[k]);
     if (channels.returns) block.return_number[i] = place.return_number, block.return_count[i] = place.return_count;
     if (channels.truth) writeTruth(lanes, k, i, block.truth);
   }
 }
 
+double PointWriter::time_s(std::uint32_t row) const {
+  return moving_ != nullptr ? moving_->pulse(row).time_s : plan_.clock.time_s(column_, plan_.elevation_rad(row));
+}
+
 void PointWriter::writeTruth(const ReturnLanes& lanes, int lane, std::size_t i, PointTruth& truth) const {
   const Eigen::Vector3f met(lanes.place_x[lane], lanes.place_y[lane], lanes.place_z[lane]);
-  const Eigen::Vector3d place = start_.rotation.conjugate() * (met.cast<double>() - start_.translation);
+  const Eigen::Vector3d place = plan_.start.rotation.conjugate() * (met.cast<double>() - plan_.start.translation);
   truth.x_m[i] = static_cast<float>(place.x());
   truth.y_m[i] = static_cast<float>(place.y());
   truth.z_m[i] = static_cast<float>(place.z());

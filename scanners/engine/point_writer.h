@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "scanners/engine/column_hits.h"
 #include "scanners/engine/return_lanes.h"
 
 namespace standpoint {
@@ -11,9 +12,10 @@ namespace standpoint {
 // end: a block that is used again has entries for most of its points already.
 class PointWriter {
  public:
-  explicit PointWriter(const ScanPlan& plan) : plan_(plan), start_(at(plan.trajectory, 0)) {}
+  explicit PointWriter(const ScanPlan& plan) : plan_(plan) {}
   void begin(PointBlock& block);
-  void beginColumn(std::uint32_t column);
+  void beginColumn(const ColumnHits& column);
+  void endColumn();
   // One point in each lane, those of a pulse in order of its returns.
   struct Place {
     const ReturnLanes* lanes;
@@ -26,16 +28,21 @@ class PointWriter {
   void end();
 
  private:
+  template <class Change>
+  void forEachColumn(Change change);
   void resize(std::size_t size);
   void makeRoom(std::size_t points);
   void writeAll(const ReturnLanes& lanes);
+  double time_s(std::uint32_t row) const;  // of its pulse
   void writeTruth(const ReturnLanes& lanes, int lane, std::size_t i, PointTruth& truth) const;
 
   const ScanPlan& plan_;
-  Pose start_;  // of the scanner at time 0
   std::uint32_t column_ = 0;
+  const MovingColumn* moving_ = nullptr;
   PointBlock* block_ = nullptr;
   std::size_t size_ = 0, room_ = 0;  // points written, and that the block has entries for
+  std::size_t column_begin_ = 0;     // points before this column
+  std::vector<std::uint32_t> order_, places_in_order_;
   std::vector<Place> places_;
 };
 

@@ -56,8 +56,7 @@ Result<PulseWaveform> pulseWaveform(const RayScene& scene, const MaterialAssignm
   one.azimuth_from_rad = request.azimuth_rad, one.azimuth_to_rad = request.azimuth_rad + kStep_rad;
   one.elevation_from_rad = request.elevation_rad - kStep_rad / 2;
   one.elevation_to_rad = request.elevation_rad + kStep_rad / 2;
-  const Trajectory still{{0}, {local_from_scanner}};
-  const ScanPlan plan(*embree, assignment, instrument, one, still, options);
+  const ScanPlan plan(*embree, assignment, instrument, one, local_from_scanner, nullptr, options);
   FacetCache facets(plan);
   const auto ends = endsOf(plan, facets);
   EndPowers end_powers(plan.receiver);

@@ -14,6 +14,7 @@
 #include "core/points.h"
 #include "core/progress.h"
 #include "core/result.h"
+#include "scanners/engine/scan_motion.h"
 #include "scanners/engine/scan_quality.h"
 #include "scanners/instruments/instrument.h"
 #include "scanners/radiometry/atmosphere.h"
@@ -75,14 +76,26 @@ struct ScanCount {
   std::uint64_t pulses = 0, returns = 0, points = 0;
 };
 
-// Scans from `local_from_scanner` (a function of time; one sample for a tripod) and streams the points to `sink`, which
-// has been begun with `header`. Blocks arrive in column order whatever the number of threads; the same arguments give
-// the same bytes. Points carry labels always (material = materials.size() where none is assigned) and colour when the
-// settings take images; of one pulse that meets several surfaces the label is that of the strongest. Of a scanner that
-// moves, points are in the frame it had at time 0. Received power: physics.md §2.1 (x = ρ_eq(θ)/R² · η_opt · air),
-// detection §2.7, noise §3, beam and edges §4.1–4.4, panes and mirrors §4.6–4.7, saturation §4.9.
+// Scans from a tripod at `local_from_scanner` and streams the points, in the scanner's frame, to `sink`, which has been
+// begun. Blocks arrive in column order whatever the number of threads; the same arguments give the same bytes. Points
+// carry labels always (material = materials.size() where none is assigned) and colour when the settings take images; of
+// one pulse that meets several surfaces the label is that of the strongest. Received power: physics.md §2.1
+// (x = ρ_eq(θ)/R² · η_opt · air), detection §2.7, noise §3, beam and edges §4.1–4.4, panes and mirrors §4.6–4.7,
+// saturation §4.9.
 Result<ScanCount> scan(const RayScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,
-                       const ScanSettings& settings, const Trajectory& local_from_scanner, const ScanOptions& options,
+                       const ScanSettings& settings, const Pose& local_from_scanner, const ScanOptions& options,
                        PointSink& sink, Progress& progress);
+
+// The same on the way: by the pattern of an instrument that moves (resolveMovingSettings), or by a tripod's grid that
+// is carried. Points are in the motion's frame, in the order of their pulses; `row` is the channel and `column` the
+// number of the firing modulo 2^32 (of a grid, its own). The columns of `options` are blocks of the pattern: of
+// whatever begins and ends anywhere the points are those that the whole has. Halos of reflectors and light from corners
+// are not there.
+Result<ScanCount> scan(const RayScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,
+                       const ScanSettings& settings, const ScanMotion& motion, const ScanOptions& options,
+                       PointSink& sink, Progress& progress);
+
+// How many blocks of the pattern a motion has.
+std::uint32_t blocksOf(const Instrument& instrument, const ScanSettings& settings, double seconds);
 
 }  // namespace standpoint

@@ -45,7 +45,7 @@ ReflectorHalo::ReflectorHalo(const ScanPlan& plan) {
   if (std::none_of(materials.begin(), materials.end(), [](const PhysicalMaterial& m) { return m.retro_gain > 0; }))
     return;
   const Environment& environment = plan.scene.environment();
-  const Pose pose = at(plan.trajectory, 0);
+  const Pose& pose = plan.start;
   columns_.resize(plan.settings.columns);
   for (std::uint32_t i = 0; i < environment.instances.size(); ++i) {
     const Instance& instance = environment.instances[i];

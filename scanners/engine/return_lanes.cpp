@@ -20,10 +20,10 @@ ReturnLanes::ReturnLanes() : signal{} {
   std::fill_n(signal.known_x, kReturnLanes, -1.0F);
 }
 
-void ReturnLanes::begin(const ScanPlan& plan, std::uint32_t first_row) {
+void ReturnLanes::begin(std::uint32_t first_row, const double* sines, const double* cosines) {
   for (std::uint32_t k = 0; k < kReturnLanes; ++k) row[k] = first_row + k;
-  std::copy_n(plan.cosine.data() + first_row, kReturnLanes, cosine);
-  std::copy_n(plan.sine.data() + first_row, kReturnLanes, sine);
+  std::copy_n(cosines, kReturnLanes, cosine);
+  std::copy_n(sines, kReturnLanes, sine);
   if (!marked) return;
   marked = false;
   std::fill_n(signal.gain, kReturnLanes, 1.0F);

@@ -37,8 +37,8 @@ struct alignas(64) ReturnLanes {
   bool marked = false;  // a lane holds what only echoes and flags have
 
   ReturnLanes();
-  // The rows from `first_row` on, a lane each.
-  void begin(const ScanPlan& plan, std::uint32_t first_row);
+  // The rows from `first_row` on, a lane each, with the sines and cosines of their elevations.
+  void begin(std::uint32_t first_row, const double* sines, const double* cosines);
   // `scale`: of the diffuse reflectance.
   void setOptics(int lane, const Optics& of, float scale);
   // The surface that the lanes `from` to `to` meet, but for where they do.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <exception>
 #include <optional>
 
@@ -21,16 +22,29 @@ namespace {
 constexpr std::uint32_t kPulsesPerBlock = 1U << 17U;
 constexpr std::uint32_t kFirstColumns = 4;  // of the first block: whoever watches shall see points soon
 
-Result<void> checkArguments(const ScanSettings& settings, const Trajectory& trajectory) {
+bool finite(const Pose& pose) { return pose.translation.allFinite() && pose.rotation.coeffs().allFinite(); }
+
+Result<void> checkMotion(const ScanMotion& motion) {
+  if (!std::isfinite(motion.from_s) || !std::isfinite(motion.to_s) || motion.to_s <= motion.from_s)
+    return failure(ErrorKind::usage, "the scan must end after it begins", "trajectory");
+  const PoseFunction& solved = motion.solved_pose != nullptr ? *motion.solved_pose : motion.true_pose;
+  for (const double time_s : {motion.from_s, motion.to_s})
+    if (!finite(motion.true_pose.pose(time_s)) || !finite(solved.pose(time_s)))
+      return failure(ErrorKind::usage, "a pose of the trajectory is not finite", "trajectory");
+  for (const Mounting& mounting : {motion.truth, motion.assumed})
+    if (!finite(mounting.body_from_device) || !std::isfinite(mounting.clock_ahead_s))
+      return failure(ErrorKind::usage, "the device's place on what carries it is not finite", "trajectory");
+  return {};
+}
+
+Result<void> checkArguments(const ScanSettings& settings, const MaterialAssignment& assignment) {
   if (settings.columns == 0 || settings.rows == 0)
     return failure(ErrorKind::usage, "the grid has no columns or no rows", "settings");
-  if (trajectory.pose.empty() || trajectory.pose.size() != trajectory.time_s.size())
-    return failure(ErrorKind::usage, "a trajectory requires one pose per time", "trajectory");
-  for (const auto& pose : trajectory.pose)
-    if (!pose.translation.allFinite() || !pose.rotation.coeffs().allFinite())
-      return failure(ErrorKind::usage, "a pose of the trajectory is not finite", "trajectory");
-  if (!std::is_sorted(trajectory.time_s.begin(), trajectory.time_s.end()))
-    return failure(ErrorKind::usage, "trajectory times must increase", "trajectory");
+  const auto count = static_cast<std::int32_t>(assignment.materials.size());
+  const auto outside = [count](const auto& assigned) { return assigned.material >= count; };
+  if (std::any_of(assignment.surfaces.begin(), assignment.surfaces.end(), outside) ||
+      std::any_of(assignment.faces.begin(), assignment.faces.end(), outside))
+    return failure(ErrorKind::internal, "an assigned material is out of range", "material assignment");
   return {};
 }
 
@@ -70,6 +84,7 @@ class Pipeline {
  private:
   struct Work {
     std::uint32_t from = 0, to = 0;  // columns
+    std::uint64_t pulses = 0;
     std::shared_ptr<PointBlock> block;
   };
 
@@ -87,7 +102,7 @@ class Pipeline {
   }
 
   Work trace(Work work) {
-    if (!progress_.cancelled()) tracers_.local().trace(work.from, work.to, *work.block);
+    if (!progress_.cancelled()) work.pulses = tracers_.local().trace(work.from, work.to, *work.block);
     return work;
   }
 
@@ -99,7 +114,7 @@ class Pipeline {
         stop_.store(true, std::memory_order_relaxed);
         return;
       }
-    count_.pulses += std::uint64_t{work.to - work.from} * plan_.settings.rows;
+    count_.pulses += work.pulses;
     count_.returns += work.block->size();
     count_.points += work.block->size();
     progress_.advance(static_cast<double>(work.to) / plan_.settings.columns);
@@ -119,27 +134,46 @@ class Pipeline {
   ScanCount count_;
 };
 
-}  // namespace
-
-Result<ScanCount> scan(const RayScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,
-                       const ScanSettings& settings, const Trajectory& local_from_scanner, const ScanOptions& options,
-                       PointSink& sink, Progress& progress) {
+Result<ScanCount> run(const RayScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,
+                      const ScanSettings& settings, const Pose& start, const ScanMotion* motion,
+                      const ScanOptions& options, PointSink& sink, Progress& progress) {
   const auto* embree = dynamic_cast<const EmbreeScene*>(&scene);
   if (embree == nullptr)
     return failure(ErrorKind::internal, "this ray scene was not made by RayScene::build", "ray scene");
-  TRY(checkArguments(settings, local_from_scanner));
-  for (const auto& surface : assignment.surfaces)
-    if (surface.material >= static_cast<std::int32_t>(assignment.materials.size()))
-      return failure(ErrorKind::internal, "an assigned material is out of range", "material assignment");
-  for (const auto& faces : assignment.faces)
-    if (faces.material >= static_cast<std::int32_t>(assignment.materials.size()))
-      return failure(ErrorKind::internal, "an assigned material is out of range", "material assignment");
+  TRY(checkArguments(settings, assignment));
   try {
-    const ScanPlan plan(*embree, assignment, instrument, settings, local_from_scanner, options);
+    const ScanPlan plan(*embree, assignment, instrument, settings, start, motion, options);
     return Pipeline(plan, sink, progress).run(options.threads);
   } catch (const std::exception& exception) {  // TBB and memory
     return failure(ErrorKind::internal, exception.what(), "scan");
   }
+}
+
+}  // namespace
+
+Result<ScanCount> scan(const RayScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,
+                       const ScanSettings& settings, const Pose& local_from_scanner, const ScanOptions& options,
+                       PointSink& sink, Progress& progress) {
+  if (instrument.moving) return failure(ErrorKind::usage, "this instrument moves: it scans on a way", instrument.id);
+  if (!finite(local_from_scanner)) return failure(ErrorKind::usage, "the scanner's pose is not finite", "pose");
+  return run(scene, assignment, instrument, settings, local_from_scanner, nullptr, options, sink, progress);
+}
+
+std::uint32_t blocksOf(const Instrument& instrument, const ScanSettings& settings, double seconds) {
+  constexpr std::uint64_t kMost = 0xFFFFFFFEU;
+  return static_cast<std::uint32_t>(std::min(kMost, ScanPattern(*instrument.moving, settings).blocksUntil(seconds)));
+}
+
+Result<ScanCount> scan(const RayScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,
+                       const ScanSettings& settings, const ScanMotion& motion, const ScanOptions& options,
+                       PointSink& sink, Progress& progress) {
+  TRY(checkMotion(motion));
+  ScanSettings blocks = settings;
+  if (instrument.moving) {
+    blocks.rows = ScanPattern(*instrument.moving, settings).pulsesPerBlock();
+    blocks.columns = blocksOf(instrument, settings, motion.to_s - motion.from_s);
+  }
+  return run(scene, assignment, instrument, blocks, motion.local_from_points, &motion, options, sink, progress);
 }
 
 }  // namespace standpoint

@@ -41,13 +41,15 @@ double ScanPlan::elevation_rad(std::uint32_t row) const {
 }
 
 ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignment_, const Instrument& instrument_,
-                   const ScanSettings& settings_, const Trajectory& trajectory_, const ScanOptions& options_)
+                   const ScanSettings& settings_, const Pose& start_, const ScanMotion* motion_,
+                   const ScanOptions& options_)
     : scene(scene_),
       assignment(assignment_),
       triangles(scene_.environment(), assignment_),
       instrument(instrument_),
       settings(settings_),
-      trajectory(trajectory_),
+      start(start_),
+      motion(motion_),
       options(options_),
       clock(instrument_, settings_) {
   const Effects effects = options.effects;
@@ -64,7 +66,12 @@ ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignme
   saturation = effects.has(Effect::saturation)
                    ? std::pow(10.0F, static_cast<float>(instrument.saturation.level_db) / 10)
                    : std::numeric_limits<float>::infinity();
+  if (instrument.moving) pattern.emplace(*instrument.moving, settings);
   if (effects.has(Effect::bias)) errors = SystematicErrors::drawn(instrument, {options.seed, options.station_key});
+  if (pattern) {  // it has no trunnion: where its beams go is calibrated, or is the boresight's error
+    errors.collimation_rad = errors.trunnion_rad = errors.index_rad = 0;
+    errors.azimuth_rad = errors.elevation_rad = {};
+  }
   farthest_m = farthest_reported_m = settings.max_range_m;
   if (effects.has(Effect::ambiguity) && settings.unambiguous_m > 0) {
     unambiguous_m = settings.unambiguous_m;
@@ -76,8 +83,7 @@ ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignme
   if (effects.has(Effect::multipath) && options.quality != ScanQuality::preview && !moves())
     field_of_view_rad = instrument.waveform.field_of_view_rad;
   if (effects.has(Effect::interference)) interference = options.interference;
-  if (effects.has(Effect::sun) && options.sun)
-    daylight.emplace(scene, instrument, *options.sun, at(trajectory, 0).translation);
+  if (effects.has(Effect::sun) && options.sun) daylight.emplace(scene, instrument, *options.sun, start.translation);
   receiver = receiverOf(instrument, effects, extinction_per_m(weather, instrument.wavelength_nm));
   receiver.fluctuation = fluctuationOf(
       instrument, effects, detectionThreshold(settings, 0) * instrument.detection_softness, settings.passes);
@@ -85,17 +91,17 @@ ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignme
   std::vector<double> elevations;
   for (std::uint32_t row = 0; row < settings.rows; ++row) elevations.push_back(elevation_rad(row));
   const RandomKey key{options.seed, options.station_key};
-  if (effects.has(Effect::striping)) column_noise.emplace(instrument, settings.columns, elevations, key);
+  if (effects.has(Effect::striping) && !pattern) column_noise.emplace(instrument, settings.columns, elevations, key);
   if (effects.has(Effect::range_noise)) white_fraction = column_noise ? static_cast<double>(column_noise->white()) : 1;
   if (weather.rain_mm_h > 0 || weather.snow_mm_h > 0 || weather.fog_mor_m > 0 || weather.dust_mor_m > 0)
     scatterers.emplace(instrument, weather, drop_threshold, settings.max_range_m, key, settings.passes,
                        effects.has(Effect::near_range));
-  for (std::uint32_t row = 0; row < settings.rows + kPacket; ++row) {
+  for (std::uint32_t row = 0; row < settings.rows + kPacket; ++row) {  // of a pattern it means nothing
     double row_sine = 0, row_cosine = 0;
     portable::sinCos(elevation_rad(row), row_sine, row_cosine);
     sine.push_back(row_sine), cosine.push_back(row_cosine);
   }
-  if (effects.has(Effect::halo)) {
+  if (effects.has(Effect::halo) && !moves()) {
     halo.emplace(*this);
     if (halo->empty()) halo.reset();
   }

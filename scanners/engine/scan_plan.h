@@ -17,6 +17,7 @@
 #include "scanners/engine/surface_paint.h"
 #include "scanners/noise/correlated_noise.h"
 #include "scanners/noise/systematic_errors.h"
+#include "scanners/patterns/scan_pattern.h"
 #include "scanners/radiometry/radiometry.h"
 #include "scanners/radiometry/scatterers.h"
 #include "scanners/radiometry/signal_lanes.h"
@@ -43,7 +44,9 @@ struct ScanPlan {
   AssignedTriangles triangles;  // what single faces are assigned
   const Instrument& instrument;
   const ScanSettings& settings;
-  const Trajectory& trajectory;
+  Pose start;                          // local_from_scanner; of a scanner that moves local_from_points
+  const ScanMotion* motion = nullptr;  // null: it stands
+  std::optional<ScanPattern> pattern;  // of an instrument that moves; else it has a grid
   ScanOptions options;
   PulseClock clock;
   SystematicErrors errors;
@@ -74,7 +77,7 @@ struct ScanPlan {
   std::vector<std::array<std::uint8_t, 3>> colours;       // sRGB of each surface: what the camera sees, unshaded
 
   ScanPlan(const EmbreeScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,
-           const ScanSettings& settings, const Trajectory& trajectory, const ScanOptions& options);
+           const ScanSettings& settings, const Pose& start, const ScanMotion* motion, const ScanOptions& options);
 
   double azimuth_rad(std::uint32_t column) const;
   double elevation_rad(std::uint32_t row) const;
@@ -87,7 +90,7 @@ struct ScanPlan {
     const double measured = folded(range_m);
     return measured >= nearest_reported_m && measured <= farthest_reported_m;
   }
-  bool moves() const { return trajectory.pose.size() > 1; }
+  bool moves() const { return motion != nullptr; }
   bool passes(const Optics& surface) const { return surface.transparent && options.effects.has(Effect::panes); }
   bool mirrors(const Optics& surface) const {
     return (surface.smooth && options.effects.has(Effect::mirrors)) ||

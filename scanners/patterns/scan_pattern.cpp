@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scanners/math/portable_math.h"
+#include "core/portable_math.h"
 
 namespace standpoint {
 

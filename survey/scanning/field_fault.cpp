@@ -97,8 +97,6 @@ std::uint32_t columnAt(double fraction, std::uint32_t columns) {
   return static_cast<std::uint32_t>(std::clamp(std::llround(fraction * columns), 0LL, static_cast<long long>(columns)));
 }
 
-Trajectory standing(const Pose& pose) { return {{0}, {pose}}; }
-
 }  // namespace
 
 Result<FieldFault> fieldFaultFrom(const std::vector<std::string>& pairs) {
@@ -189,13 +187,13 @@ Result<ScanCount> scanWithFieldFault(const RayScene& scene, const MaterialAssign
     Person passer_by(sink, {kPasserBy_m, azimuth(*field_fault.passer_by_at_fraction)}, person);
     return scanWithFieldFault(scene, assignment, instrument, settings, pose, options, others, passer_by, progress);
   }
-  if (!field_fault.any()) return scan(scene, assignment, instrument, settings, standing(pose), options, sink, progress);
+  if (!field_fault.any()) return scan(scene, assignment, instrument, settings, pose, options, sink, progress);
   ScanSettings noisier = settings;
   noisier.noise_factor *= field_fault.noise_factor;
   ScanOptions part = options;
   part.end_column = std::min(options.end_column, columnAt(field_fault.until_fraction, settings.columns));
   if (!field_fault.tripod_moved_at_fraction)
-    return scan(scene, assignment, instrument, noisier, standing(pose), part, sink, progress);
+    return scan(scene, assignment, instrument, noisier, pose, part, sink, progress);
   const auto push =
       std::clamp(columnAt(*field_fault.tripod_moved_at_fraction, settings.columns), part.first_column, part.end_column);
   ScanOptions after = part;
@@ -208,7 +206,7 @@ Result<ScanCount> scanWithFieldFault(const RayScene& scene, const MaterialAssign
   for (const bool late : {false, true}) {
     const auto& options_of_part = late ? after : part;
     if (options_of_part.first_column >= options_of_part.end_column) continue;
-    const auto some = scan(scene, assignment, instrument, noisier, standing(late ? moved : pose), options_of_part,
+    const auto some = scan(scene, assignment, instrument, noisier, late ? moved : pose, options_of_part,
                            late ? static_cast<PointSink&>(truth) : sink, progress);
     if (!some) return some;
     count.pulses += some->pulses;

@@ -18,14 +18,15 @@ using namespace testing;
 
 constexpr Effects kBeamsAlone = Effects::none().with(Effect::footprint);
 
-Scanned dotted(const SceneBuilder& scene, const Instrument& instrument, const ScanSettings& settings,
-               const Trajectory& trajectory) {
+// `way`: a pose, or a motion.
+template <class Way>
+Scanned dotted(const SceneBuilder& scene, const Instrument& instrument, const ScanSettings& settings, const Way& way) {
   PointsKept sink;
   Progress progress;
   ScanOptions options{1, kBeamsAlone};
   options.channels.truth = true;
   const auto count =
-      scan(*scene.build(), allOf(*scene.environment(), 0.5), instrument, settings, trajectory, options, sink, progress);
+      scan(*scene.build(), allOf(*scene.environment(), 0.5), instrument, settings, way, options, sink, progress);
   EXPECT_TRUE(count);
   return {std::move(sink.all), count.value_or(ScanCount{})};
 }
@@ -63,7 +64,7 @@ TEST(ThinThings, SendBackTheirShareOfTheBeam) {
   const double window_deg = 1.2 * radius / 10 / kRadPerDeg;
   constexpr std::uint32_t kColumns = 21, kRows = 3000;
   const auto settings = window(instrument, -window_deg, window_deg, -1, 1, kColumns, kRows);
-  const auto result = dotted(scene, instrument, settings, {{0}, {Pose{}}});
+  const auto result = dotted(scene, instrument, settings, Pose{});
   std::array<double, kColumns> share{};
   for (std::size_t i = 0; i < result.points.size(); ++i) {
     const double x = std::pow(10.0, static_cast<double>(result.points.truth.received_db[i]) / 10);
@@ -95,8 +96,10 @@ TEST(Edges, AreWhereverABeamMeetsSeveralSurfaces) {
                 Eigen::Affine3d(Eigen::Translation3d(-5, 0.3, 0) * Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitX())));
     ScanSettings settings = window(instrument, -180, 180, -60, 90, 700, 300);
     const auto turned = Pose{Eigen::Quaterniond(Eigen::AngleAxisd(0.2, Eigen::Vector3d(0.6, 0.8, 0))), {0.1, 0.2, 0.3}};
-    const auto found = dotted(scene, instrument, settings, {{0}, {turned}});
-    const auto all = dotted(scene, instrument, settings, {{0, 1e6}, {turned, turned}});
+    const auto found = dotted(scene, instrument, settings, turned);
+    const ConstantPose stays(turned);
+    const auto all =
+        dotted(scene, instrument, settings, ScanMotion{.true_pose = stays, .to_s = 1e6, .local_from_points = turned});
     ASSERT_EQ(found.count.pulses, all.count.pulses);
     std::vector<std::int64_t> place(std::size_t{settings.columns} * settings.rows, -1);
     for (std::size_t i = 0; i < found.points.size(); ++i)

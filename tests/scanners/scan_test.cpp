@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/motion/pose_spline.h"
 #include "core/units.h"
 #include "tests/scanners/scenes.h"
 
@@ -147,7 +148,7 @@ TEST(Scan, ColumnByColumnIsTheSameAsTheWhole) {
     for (std::uint32_t from = 0; from < settings.columns; from += width) {
       options.first_column = from;
       options.end_column = from + width;
-      ASSERT_TRUE(scan(*rays, assignment, instrument, settings, {{0}, {Pose{}}}, options, sink, progress));
+      ASSERT_TRUE(scan(*rays, assignment, instrument, settings, Pose{}, options, sink, progress));
     }
     EXPECT_TRUE(same(whole.points, sink.all)) << width;
     EXPECT_EQ(whole.points.truth.flags, sink.all.truth.flags);
@@ -228,10 +229,12 @@ TEST(Scan, OfAMovingScannerIsSetRightByItsTrajectory) {
   const auto instrument = testing::instrument("leica-rtc360");
   const auto settings = dome(instrument, 300, 150);
   const Pose end{Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ())), {1.5, -0.5, 0.1}};
-  const Trajectory path{{0, settings.scan_seconds}, {Pose{}, end}};
+  const auto path = PoseChords::through({{0, settings.scan_seconds}, {Pose{}, end}});
+  ASSERT_TRUE(path);
+  const ScanMotion motion{.true_pose = *path, .to_s = settings.scan_seconds};
   PointsKept sink;
   Progress progress;
-  ASSERT_TRUE(scan(*scene.build(), allOf(*scene.environment(), 0.5), instrument, settings, path, {1, Effects::none()},
+  ASSERT_TRUE(scan(*scene.build(), allOf(*scene.environment(), 0.5), instrument, settings, motion, {1, Effects::none()},
                    sink, progress));
   ASSERT_EQ(sink.all.size(), 300U * 150U);
   double differs = 0;
@@ -251,7 +254,7 @@ TEST(Scan, HandsOnBoundedBlocksInOrderOfColumns) {
   PointsKept sink;
   Progress progress;
   const auto settings = dome(instrument, 2000, 400);
-  ASSERT_TRUE(scan(*scene.build(), {}, instrument, settings, {{0}, {Pose{}}}, {}, sink, progress));
+  ASSERT_TRUE(scan(*scene.build(), {}, instrument, settings, Pose{}, {}, sink, progress));
   EXPECT_LE(sink.largest_block, 1U << 17U);
   for (std::size_t i = 1; i < sink.all.size(); ++i)
     ASSERT_TRUE(std::pair(sink.all.column[i - 1], sink.all.row[i - 1]) <
@@ -275,8 +278,7 @@ TEST(Scan, StopsAtTheFirstErrorOfItsSink) {
   const auto instrument = testing::instrument("leica-rtc360");
   FullDisk sink;
   Progress progress;
-  const auto count =
-      scan(*scene.build(), {}, instrument, dome(instrument, 4000, 400), {{0}, {Pose{}}}, {}, sink, progress);
+  const auto count = scan(*scene.build(), {}, instrument, dome(instrument, 4000, 400), Pose{}, {}, sink, progress);
   ASSERT_FALSE(count);
   EXPECT_EQ(count.error().kind, ErrorKind::file_system);
   EXPECT_EQ(sink.blocks, 3);
@@ -305,25 +307,29 @@ TEST(Scan, StopsSoonWhenCancelled) {
   const auto settings = *resolveSettings(instrument, {{"resolution", "3mm"}});
   Progress progress;
   Impatient sink(progress);
-  const auto count = scan(*scene.build(), {}, instrument, settings, {{0}, {Pose{}}}, {}, sink, progress);
+  const auto count = scan(*scene.build(), {}, instrument, settings, Pose{}, {}, sink, progress);
   ASSERT_FALSE(count);
   EXPECT_EQ(count.error().kind, ErrorKind::cancelled);
   EXPECT_LT(sink.blocks, 40) << "of what was under way then; there are hundreds";
 }
 
-TEST(Scan, RefusesATrajectoryThatIsNone) {
+TEST(Scan, RefusesAWayThatIsNone) {
   const auto scene = room();
   const auto rays = scene.build();
   const auto instrument = testing::instrument("leica-rtc360");
+  const auto settings = dome(instrument, 10, 10);
   Pose nowhere;
   nowhere.translation.x() = std::nan("");
-  for (const Trajectory& path :
-       {Trajectory{}, Trajectory{{0, 1}, {Pose{}}}, Trajectory{{1, 0}, {Pose{}, Pose{}}}, Trajectory{{0}, {nowhere}}}) {
-    PointsKept sink;
-    Progress progress;
-    EXPECT_EQ(scan(*rays, {}, instrument, dome(instrument, 10, 10), path, {}, sink, progress).error().kind,
-              ErrorKind::usage);
-  }
+  const ConstantPose somewhere{Pose{}}, lost{nowhere};
+  PointsKept sink;
+  Progress progress;
+  EXPECT_EQ(scan(*rays, {}, instrument, settings, nowhere, {}, sink, progress).error().kind, ErrorKind::usage);
+  for (const ScanMotion& motion :
+       {ScanMotion{.true_pose = somewhere}, ScanMotion{.true_pose = somewhere, .from_s = 2, .to_s = 1},
+        ScanMotion{.true_pose = somewhere, .to_s = std::nan("")}, ScanMotion{.true_pose = lost, .to_s = 1},
+        ScanMotion{.true_pose = somewhere, .solved_pose = &lost, .to_s = 1},
+        ScanMotion{.true_pose = somewhere, .assumed = {nowhere}, .to_s = 1}})
+    EXPECT_EQ(scan(*rays, {}, instrument, settings, motion, {}, sink, progress).error().kind, ErrorKind::usage);
 }
 
 }  // namespace

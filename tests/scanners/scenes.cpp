@@ -161,7 +161,7 @@ Scanned scanned(const RayScene& scene, const MaterialAssignment& assignment, con
                 const ScanSettings& settings, const ScanOptions& options, const Pose& pose) {
   PointsKept sink;
   Progress progress;
-  const auto count = scan(scene, assignment, instrument, settings, {{0}, {pose}}, options, sink, progress);
+  const auto count = scan(scene, assignment, instrument, settings, pose, options, sink, progress);
   if (!count) throw std::runtime_error(describe(count.error()));
   return {std::move(sink.all), *count};
 }

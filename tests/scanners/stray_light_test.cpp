@@ -245,7 +245,7 @@ TEST(StrayLight, IsTheSameForAnyNumberOfThreads) {
   Progress progress;
   for (std::uint32_t from = 0; from < settings.columns; ++from) {
     options.first_column = from, options.end_column = from + 1;
-    ASSERT_TRUE(scan(*rays, assignment, instrument, settings, {{0}, {Pose{}}}, options, parts, progress));
+    ASSERT_TRUE(scan(*rays, assignment, instrument, settings, Pose{}, options, parts, progress));
   }
   EXPECT_EQ(one.x_m, parts.all.x_m);
   EXPECT_EQ(one.truth.flags, parts.all.truth.flags);
