@@ -23,12 +23,11 @@ std::array<std::uint32_t, 4> interferenceDraw(const ScanOptions& options, std::u
 
 }  // namespace
 
-ColumnTracer::ColumnTracer(const ScanPlan& plan, const EdgeMap* edges, const EdgeMap* corners)
+ColumnTracer::ColumnTracer(const ScanPlan& plan, const Edges& edges)
     : plan_(plan),
       facets_(plan),
       paths_(plan, facets_),
       edges_(edges),
-      corners_(corners),
       corner_light_(plan, facets_),
       column_(plan),
       wide_(plan, facets_, column_.seen()),
@@ -53,8 +52,9 @@ std::uint64_t ColumnTracer::trace(std::uint32_t from, std::uint32_t to, PointBlo
 void ColumnTracer::traceColumn() {
   points_.begin(column_);
   writer_.beginColumn(column_);
-  if (edges_ != nullptr) edges_->mark(column_, facets_, found_);
-  if (corners_ != nullptr) corners_->mark(column_, facets_, found_corners_);
+  if (edges_.map != nullptr) edges_.map->mark(column_, facets_, found_);
+  if (edges_.tree != nullptr) edges_.tree->mark(column_, facets_, found_);
+  if (edges_.corners != nullptr) edges_.corners->mark(column_, facets_, found_corners_);
   for (std::uint32_t first = 0; first < plan_.settings.rows; first += kPacket) traceRows(first);
   writer_.endColumn();
 }
@@ -74,7 +74,7 @@ void ColumnTracer::traceRows(std::uint32_t first_row) {
   }
   const std::uint32_t rows = std::min<std::uint32_t>(kPacket, plan_.settings.rows - first_row);
   const std::uint32_t stray = straying(first_row, rows);
-  const std::uint32_t corners = corners_ != nullptr ? found_corners_.rows(first_row) : 0;
+  const std::uint32_t corners = edges_.corners != nullptr ? found_corners_.rows(first_row) : 0;
   const std::uint32_t special = met.other | edges | corners | stray;
   present &= met.plain & ~special;
   specials_.clear(), ends_.clear(), further_.clear();
@@ -139,13 +139,12 @@ ColumnTracer::Surfaces ColumnTracer::setSurfaces(std::uint32_t first_row) {
 std::uint32_t ColumnTracer::traceEdges(std::uint32_t first_row) {
   const std::uint32_t rows = std::min<std::uint32_t>(kPacket, plan_.settings.rows - first_row);
   const std::uint32_t all = plan_.everyBeamWide() ? column_.measured(first_row, rows) : 0;
-  const std::uint32_t marked = edges_ != nullptr ? found_.rows(first_row) : all;
+  const std::uint32_t marked = edgesKnown() ? found_.rows(first_row) : all;
   if (marked == 0) return 0;
   wide_.clear();
   for (std::uint32_t left = marked; left != 0; left &= left - 1) {
     const std::uint32_t row = first_row + static_cast<std::uint32_t>(std::countr_zero(left));
-    wide_.add(column_.column(), row, column_.hit(row), column_.beam(row),
-              edges_ != nullptr ? &found_.of(row) : nullptr);
+    wide_.add(column_.column(), row, column_.hit(row), column_.beam(row), edgesKnown() ? &found_.of(row) : nullptr);
   }
   wide_.trace();
   std::uint32_t edges = 0;

@@ -7,6 +7,7 @@
 #include "scanners/engine/beam_paths.h"
 #include "scanners/engine/corner_light.h"
 #include "scanners/engine/edge_map.h"
+#include "scanners/engine/edge_tree.h"
 #include "scanners/engine/end_powers.h"
 #include "scanners/engine/plane_lanes.h"
 #include "scanners/engine/point_lanes.h"
@@ -23,8 +24,13 @@ namespace standpoint {
 // a pane or a mirror the light is followed (beam_paths.h); the receiver makes echoes of what comes back (waveform.h).
 class ColumnTracer {
  public:
-  // `edges`: null where no beam is wide, or each is; `corners`: null where they are not lit.
-  ColumnTracer(const ScanPlan& plan, const EdgeMap* edges, const EdgeMap* corners);
+  // Where edges are; both null where no beam is wide, or each is. `corners`: null where they are not lit.
+  struct Edges {
+    const EdgeMap* map = nullptr;    // of a scanner that stands
+    const EdgeTree* tree = nullptr;  // of one that moves
+    const EdgeMap* corners = nullptr;
+  };
+  ColumnTracer(const ScanPlan& plan, const Edges& edges);
   // How many pulses were sent.
   std::uint64_t trace(std::uint32_t from, std::uint32_t to, PointBlock& block);
 
@@ -51,6 +57,7 @@ class ColumnTracer {
   void traceColumn();
   void traceRows(std::uint32_t first_row);
   Surfaces setSurfaces(std::uint32_t first_row);
+  bool edgesKnown() const { return edges_.map != nullptr || edges_.tree != nullptr; }
   std::uint32_t traceEdges(std::uint32_t first_row);
   void gatherEnds(std::uint32_t row, const WideBeam* wide);
   void gatherWide(const WideBeam& wide);
@@ -68,7 +75,7 @@ class ColumnTracer {
   const ScanPlan& plan_;
   FacetCache facets_;
   BeamPaths paths_;
-  const EdgeMap *edges_, *corners_;
+  Edges edges_;
   CornerLight corner_light_;
   ColumnHits column_;
   ColumnEdges found_, found_corners_;

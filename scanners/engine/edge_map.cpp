@@ -14,19 +14,17 @@
 
 #include "core/portable_math.h"
 #include "scanners/engine/corner_light.h"
+#include "scanners/engine/edge_sight.h"
 
 namespace standpoint {
 
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kCreaseReach = 0.8;    // in w: beyond that a beam's light is too little for a bend to matter
 constexpr double kStraight_rows = 0.2;  // that a piece may be bent
 constexpr double kEven = 2e-4;          // relative, of the range along a piece
 constexpr double kMargin_rows = 0.25;   // of the beam's radius, for that
 constexpr int kMostCuts = 12;           // of a half into halves
-constexpr float kBehind_m = 0.1F;       // that an edge of a round body may be behind what the axis meets of it
-constexpr float kSteepest = 20;         // beyond it: tan of the incidence at which a surface still shows its edge
 
 // Cuts the edges that one thread deals with.
 class Cutter {
@@ -133,29 +131,6 @@ class Cutter {
   std::uint64_t edge_ = 0;
 };
 
-// How much the range changes along the plane of edge and `beside` for each metre across the edge: the plane's slope to
-// the beam. `lateral` is across both, a unit vector.
-double slopeOf(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Eigen::Vector3d& beside,
-               const Eigen::Vector3d& lateral) {
-  const Eigen::Vector3d normal = (to - from).cross(beside - from);
-  const Eigen::Vector3d middle = 0.5 * (from + to);
-  return -normal.dot(lateral) * middle.norm() / normal.dot(middle);
-}
-
-// How far out in a beam the edge matters, in w; 0: nowhere. In the scanner's frame.
-double reachOf(const ScanPlan& plan, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-               const Eigen::Vector3d& left, const Eigen::Vector3d& right) {
-  Eigen::Vector3d lateral = from.cross(to);  // the plane of edge and eye
-  const double length = lateral.norm();
-  if (!(length > 1e-12 * from.norm() * to.norm())) return kBeamEdge;  // seen end-on
-  lateral /= length;
-  if (lateral.dot(left) * lateral.dot(right) >= 0) return kBeamEdge;  // both go on to the same side: an outline
-  const double bend = std::abs(slopeOf(from, to, left, lateral) - slopeOf(from, to, right, lateral));
-  const double range = std::max(0.01, std::max(from.norm(), to.norm()));
-  const double off = bend * kCreaseReach * beamRadius(plan.instrument, range);
-  return off > edgeTolerance(plan.instrument, range) || !std::isfinite(off) ? kCreaseReach : 0;
-}
-
 }  // namespace
 
 EdgeMap::EdgeMap(const ScanPlan& plan, Edges wanted) : plan_(plan) {
@@ -193,8 +168,9 @@ EdgeMap::EdgeMap(const ScanPlan& plan, Edges wanted) : plan_(plan) {
             cutter.add(BeamEdges::kRound, from, to, kBeamEdge);
           continue;
         }
-        const double reach =
-            edge.right == kNoCorner ? kBeamEdge : reachOf(plan, from, to, corner(edge.left), corner(edge.right));
+        const double reach = edge.right == kNoCorner
+                                 ? kBeamEdge
+                                 : edgeReach(plan.instrument, from, to, corner(edge.left), corner(edge.right));
         const std::uint64_t number = std::uint64_t{parts[p].placement} << 32U | i;
         if (reach > 0) cutter.add(round ? BeamEdges::kRound : number, from, to, reach);
       }
@@ -316,7 +292,7 @@ void EdgeMap::markPiece(const Piece& piece, const ColumnHits& hits, FacetCache& 
     const float dx = x0 + along * across, dy = y - along * up;
     if (dx * dx + dy * dy > radius * radius) continue;
     const float range = 1 / (piece.nearness[0] + along * nearer);
-    if (range <= hits.ranges_m(row)[0] + kBehind_m ||
+    if (range <= hits.ranges_m(row)[0] + kBehindHit_m ||
         visible(range, scale > 0 ? dx / scale : 0, -dy, row, hits, facets))
       found.add(row, piece.edge);
     else
@@ -324,23 +300,14 @@ void EdgeMap::markPiece(const Piece& piece, const ColumnHits& hits, FacetCache& 
   }
 }
 
-// An edge farther off than what the axis meets, `column` and `row` beside it: is it seen all the same, since the
-// surface runs away from the scanner, or is glass?
+// `column` and `row`: of the edge, beside the row's axis.
 bool EdgeMap::visible(float range_m, float column, float row, std::uint32_t at_row, const ColumnHits& hits,
                       FacetCache& facets) const {
-  const NearestHit hit = hits.hit(at_row);
-  if (hit.facet == kNoFacet) return true;
-  const MetFacet& met = facets.of(hit.facet);
-  if (plan_.passes(*met.optics)) return true;
-  const auto range = static_cast<double>(range_m);
-  const double aside = kBeamEdge * beamRadius(plan_.instrument, range);
-  if (range - static_cast<double>(hit.range_m) > static_cast<double>(kSteepest) * aside) return false;
   const Beam beam = hits.beam(at_row);
   const Eigen::Vector3d direction =
       beam.direction + static_cast<double>(column) * plan_.columnStep_rad() * plan_.cosine[at_row] * beam.across +
       static_cast<double>(row) * plan_.rowStep_rad() * beam.upward;
-  const double on_plane = (met.facet.offset - met.facet.normal.dot(beam.origin)) / met.facet.normal.dot(direction);
-  return on_plane < 0 || range <= on_plane + edgeTolerance(plan_.instrument, range);
+  return edgeShows(plan_, facets, hits.hit(at_row), beam.origin, direction, range_m);
 }
 
 }  // namespace standpoint

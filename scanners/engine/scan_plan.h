@@ -102,10 +102,10 @@ struct ScanPlan {
   std::uint64_t surfaceKey(std::uint32_t product, std::uint32_t surface) const {
     return product_keys[product] ^ surface_keys[surface];
   }
-  // Whether beams have a width, and whether that of each is looked at: for reference, and of a scanner that moves.
+  // Whether beams have a width, and whether that of each is looked at.
   bool wideBeams() const { return options.effects.has(Effect::footprint) && options.quality != ScanQuality::preview; }
   bool forReference() const { return options.quality == ScanQuality::reference; }
-  bool everyBeamWide() const { return wideBeams() && (forReference() || moves()); }
+  bool everyBeamWide() const { return wideBeams() && forReference(); }
   // Of the part of the grid that is asked for.
   std::uint32_t endColumn() const { return std::min(options.end_column, settings.columns); }
   std::uint32_t nothingLabel() const { return static_cast<std::uint32_t>(scene.environment().products.size()); }

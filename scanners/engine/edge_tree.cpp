@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scanners/engine/edge_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "scanners/engine/edge_sight.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr std::size_t kLeaf = 4;
+constexpr double kNearest_m = 1e-3;
+
+// Where an edge runs in a beam: through two places of a plane at unit distance, and 1 / range there.
+struct InBeam {
+  double across[2], upward[2], nearness[2];
+};
+
+// Nothing of what is behind the scanner.
+bool inBeam(const Beam& beam, Eigen::Vector3d from, Eigen::Vector3d to, InBeam& in) {
+  from -= beam.origin, to -= beam.origin;
+  double from_ahead = beam.direction.dot(from), to_ahead = beam.direction.dot(to);
+  if (from_ahead < kNearest_m && to_ahead < kNearest_m) return false;
+  if (from_ahead < kNearest_m || to_ahead < kNearest_m) {
+    const double cut = (kNearest_m - from_ahead) / (to_ahead - from_ahead);
+    (from_ahead < kNearest_m ? from : to) = from + cut * (to - from);
+    (from_ahead < kNearest_m ? from_ahead : to_ahead) = kNearest_m;
+  }
+  in.across[0] = beam.across.dot(from) / from_ahead, in.across[1] = beam.across.dot(to) / to_ahead;
+  in.upward[0] = beam.upward.dot(from) / from_ahead, in.upward[1] = beam.upward.dot(to) / to_ahead;
+  in.nearness[0] = 1 / from_ahead, in.nearness[1] = 1 / to_ahead;
+  return true;
+}
+
+}  // namespace
+
+EdgeTree::EdgeTree(const ScanPlan& plan) : plan_(plan) {
+  std::vector<Placed> edges;
+  for (std::uint32_t placement = 0; placement < plan.scene.placementCount(); ++placement) {
+    const auto count = static_cast<std::uint32_t>(plan.scene.edges(plan.scene.placed(placement).mesh).size());
+    for (std::uint32_t i = 0; i < count; ++i) {
+      Placed& placed = edges.emplace_back();
+      placed.edge = std::uint64_t{placement} << 32U | i;
+      for (const Eigen::Vector3d& end : plan.scene.edgeEnds(placed.edge)) {
+        constexpr float kRounding = 1e-6F;
+        const Eigen::Vector3f at = end.cast<float>();
+        const Eigen::Vector3f margin = at.cwiseAbs() * kRounding;
+        placed.box.extend(at - margin), placed.box.extend(at + margin);
+      }
+    }
+  }
+  if (!edges.empty()) build(edges, 0, edges.size());
+}
+
+// Halves by the middles along the longer side, in an order that does not depend on the library's.
+void EdgeTree::build(std::vector<Placed>& edges, std::size_t from, std::size_t to) {
+  const std::size_t at = nodes_.size();
+  nodes_.emplace_back();
+  Eigen::AlignedBox3f box, middles;
+  for (std::size_t i = from; i < to; ++i) box.extend(edges[i].box), middles.extend(edges[i].box.center());
+  nodes_[at].box = box;
+  if (to - from <= kLeaf) {
+    nodes_[at].first_edge = static_cast<std::uint32_t>(edges_.size());
+    for (std::size_t i = from; i < to; ++i) edges_.push_back(edges[i].edge);
+    nodes_[at].end_edge = static_cast<std::uint32_t>(edges_.size());
+    return;
+  }
+  int side = 0;
+  middles.sizes().maxCoeff(&side);
+  const std::size_t middle = from + (to - from) / 2;
+  const auto begin = edges.begin() + static_cast<std::ptrdiff_t>(from);
+  std::nth_element(begin, edges.begin() + static_cast<std::ptrdiff_t>(middle),
+                   edges.begin() + static_cast<std::ptrdiff_t>(to), [side](const Placed& a, const Placed& b) {
+                     const float one = a.box.min()[side] + a.box.max()[side];
+                     const float other = b.box.min()[side] + b.box.max()[side];
+                     return one != other ? one < other : a.edge < b.edge;
+                   });
+  build(edges, from, middle);
+  nodes_[at].second = static_cast<std::uint32_t>(nodes_.size());
+  build(edges, middle, to);
+}
+
+// By the sphere about the box.
+bool EdgeTree::Cone::meets(const Eigen::AlignedBox3f& box) const {
+  const Eigen::Vector3d off = box.center().cast<double>() - apex;
+  const double radius = 0.5 * static_cast<double>(box.sizes().norm()) * 1.000001 + aside_m;
+  const double square = off.squaredNorm(), far = reach_m + radius;
+  if (square > far * far) return false;
+  const double along = off.dot(axis);
+  const double across = std::sqrt(std::max(0.0, square - along * along));
+  if (across * cosine - along * sine <= radius) return along * cosine + across * sine >= -radius;
+  return square <= radius * radius;
+}
+
+EdgeTree::Cone EdgeTree::coneOf(const ColumnHits& hits, std::uint32_t first_row, std::uint32_t lanes,
+                                FacetCache& facets) const {
+  Cone cone;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::uint32_t left = lanes; left != 0; left &= left - 1)
+    sum += hits.axis(first_row + static_cast<std::uint32_t>(std::countr_zero(left))).direction;
+  cone.apex = hits.axis(first_row + static_cast<std::uint32_t>(std::countr_zero(lanes))).origin;
+  cone.axis = sum / std::max(1e-9, sum.norm());
+  cone.aside_m = kBeamEdge * plan_.instrument.exit_diameter_m / 2;
+  double spread = 0;
+  for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+    const std::uint32_t row = first_row + static_cast<std::uint32_t>(std::countr_zero(left));
+    const RayLine axis = hits.axis(row);
+    cone.cosine = std::min(cone.cosine, axis.direction.dot(cone.axis));
+    spread = std::max(spread, (axis.origin - cone.apex).norm());
+    cone.reach_m = std::max(cone.reach_m, farthestEdge_m(plan_, facets, hits.hit(row)));
+  }
+  cone.aside_m += spread;
+  const double half = kBeamEdge * plan_.instrument.divergence_rad / 2 + 1e-6;  // sin(a + b) ≤ sin a + sin b
+  cone.sine = std::min(1.0, std::sqrt(std::max(0.0, 1 - cone.cosine * cone.cosine)) + half);
+  cone.cosine = cone.cosine > 0 ? std::sqrt(1 - cone.sine * cone.sine) : -1;
+  return cone;
+}
+
+void EdgeTree::mark(const ColumnHits& hits, FacetCache& facets, ColumnEdges& found) const {
+  const std::uint32_t rows = plan_.settings.rows;
+  found.begin(rows);
+  if (nodes_.empty()) return;
+  for (std::uint32_t first = 0; first < rows; first += kPacket) {
+    const std::uint32_t lanes = hits.measured(first, std::min<std::uint32_t>(kPacket, rows - first));
+    if (lanes == 0) continue;
+    const Cone cone = coneOf(hits, first, lanes, facets);
+    std::array<std::uint32_t, 64> open{};
+    std::size_t count = 1;
+    while (count > 0) {
+      const std::uint32_t at = open[--count];
+      const Node& node = nodes_[at];
+      if (!cone.meets(node.box)) continue;
+      if (node.second == 0) {
+        for (std::uint32_t i = node.first_edge; i < node.end_edge; ++i)
+          markEdge(edges_[i], hits, first, lanes, facets, found);
+      } else {
+        open[count++] = node.second, open[count++] = at + 1;
+      }
+    }
+  }
+}
+
+void EdgeTree::markEdge(std::uint64_t edge, const ColumnHits& hits, std::uint32_t first_row, std::uint32_t lanes,
+                        FacetCache& facets, ColumnEdges& found) const {
+  const auto placement = static_cast<std::uint32_t>(edge >> 32U);
+  const Instance& instance = plan_.scene.placed(placement);
+  const MeshEdge& of = plan_.scene.edges(instance.mesh)[edge & 0xFFFFFFFFU];
+  const auto corner = [&](std::uint32_t k) -> Eigen::Vector3d {
+    return instance.world_from_mesh * plan_.scene.environment().meshes[instance.mesh]->positions[k].cast<double>();
+  };
+  const Eigen::Vector3d from = corner(of.from), to = corner(of.to);
+  double reach = -1;  // about the same for all of them
+  for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+    const std::uint32_t row = first_row + static_cast<std::uint32_t>(std::countr_zero(left));
+    const Beam beam = hits.beam(row);
+    InBeam in;
+    if (!inBeam(beam, from, to, in)) continue;
+    const double across = in.across[1] - in.across[0], upward = in.upward[1] - in.upward[0];
+    const double square = across * across + upward * upward;
+    const double along =
+        square > 0 ? std::clamp(-(in.across[0] * across + in.upward[0] * upward) / square, 0.0, 1.0) : 0;
+    const double x = in.across[0] + along * across, y = in.upward[0] + along * upward;
+    const double range = 1 / (in.nearness[0] + along * (in.nearness[1] - in.nearness[0]));
+    const double off = std::sqrt(x * x + y * y) * range, radius = beamRadius(plan_.instrument, range);
+    if (off > kBeamEdge * radius) continue;
+    if (reach < 0)
+      reach = of.right == kNoCorner ? kBeamEdge
+                                    : edgeReach(plan_.instrument, from - beam.origin, to - beam.origin,
+                                                corner(of.left) - beam.origin, corner(of.right) - beam.origin);
+    if (off > reach * radius) continue;
+    const auto range_m = static_cast<float>(range);
+    const NearestHit hit = hits.hit(row);
+    if (range_m <= hit.range_m + kBehindHit_m ||
+        edgeShows(plan_, facets, hit, beam.origin, beam.direction + x * beam.across + y * beam.upward, range_m))
+      found.add(row, plan_.scene.isBall(placement) ? BeamEdges::kRound : edge);
+    else
+      found.addHidden(row, range_m);
+  }
+}
+
+}  // namespace standpoint
