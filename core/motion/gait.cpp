@@ -3,16 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/motion/rotation_vector.h"
+#include "core/units.h"
 
 namespace standpoint {
 
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kKnot_s = 0.05;
+constexpr double kStrideKnot_s = 0.05;
 constexpr double kWalkRatio_ms = 0.384;  // step length over step frequency
 constexpr double kUnevenness = 0.025;    // of the step frequency
 constexpr double kWalking_mps = 0.3;     // from here on a gait is whole
@@ -23,8 +22,8 @@ struct Wave {
 };
 Wave waveOf(double radians) {
   Wave wave{};
-  const double turns = radians / kTurn;
-  portable::sinCos(kTurn * (turns - std::floor(turns)), wave.sine, wave.cosine);
+  const double turns = radians / kRadPerTurn;
+  portable::sinCos(kRadPerTurn * (turns - std::floor(turns)), wave.sine, wave.cosine);
   return wave;
 }
 
@@ -62,10 +61,10 @@ void CarriedPose::walk(const MotionKey& key) {
   fourth_rad_ = between_degrees(0, 360, 4);
   const BandNoise unevenness(key, 0.05, 0.3);
   const double first = path_->first_s(), last = path_->last_s();
-  const auto count = static_cast<std::size_t>(std::ceil((last - first) / kKnot_s));
+  const auto count = static_cast<std::size_t>(std::ceil((last - first) / kStrideKnot_s));
   double turns = 0, before = 0;
   for (std::size_t i = 0; i <= count; ++i) {
-    const double time = i == count ? last : first + static_cast<double>(i) * kKnot_s;
+    const double time = i == count ? last : first + static_cast<double>(i) * kStrideKnot_s;
     const double speed = velocity(*path_, time).linear_mps.norm();
     const double frequency = 0.5 * std::sqrt(speed / kWalkRatio_ms) * (1 + kUnevenness * unevenness.at(time));
     if (i > 0) turns += 0.5 * (before + frequency) * (time - stride_.back().at);
@@ -81,12 +80,12 @@ void CarriedPose::addGait(double time_s, std::array<double, 6>& parts) const {
   const auto [turns, speed_or_less] = between(stride_[i], stride_[i + 1], time_s);
   const double speed = std::max(speed_or_less, 0.0), whole = gait_ * faded(speed / kWalking_mps);
   if (whole <= 0) return;
-  const double phase = kTurn * (turns - std::floor(turns));
+  const double phase = kRadPerTurn * (turns - std::floor(turns));
   const Wave one = waveOf(phase), two = waveOf(2 * phase), second = waveOf(2 * phase + second_rad_),
              fourth = waveOf(4 * phase + fourth_rad_);
   const double up_m = 0.5 * (0.027 + 0.023 * (speed - 0.7));
   const double across_m = 0.5 * std::max(0.0, 0.070 - 0.034 * (speed - 0.7));
-  const double along_m = 0.07 * speed / (kTurn * std::sqrt(speed / kWalkRatio_ms));
+  const double along_m = 0.07 * speed / (kRadPerTurn * std::sqrt(speed / kWalkRatio_ms));
   parts[0] += whole * along_m * second.sine;
   parts[1] += whole * across_m * one.sine;
   parts[2] += whole * up_m * (two.cosine + 0.25 * fourth.cosine);

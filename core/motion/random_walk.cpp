@@ -3,16 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/portable_math.h"
 #include "core/random.h"
+#include "core/units.h"
 
 namespace standpoint {
 
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 std::array<std::uint32_t, 4> blockOf(const MotionKey& key, std::uint32_t level, std::uint32_t index) {
   return philox({key.seed, key.trajectory}, index, level, static_cast<std::uint32_t>(key.process) + key.component);
@@ -23,7 +21,7 @@ std::array<std::uint32_t, 4> blockOf(const MotionKey& key, std::uint32_t level, 
 double normalNumber(const MotionKey& key, std::uint32_t level, std::uint32_t index) {
   const auto block = blockOf(key, level, index);
   double sine, cosine;
-  portable::sinCos(kTurn * uniform(block[1]), sine, cosine);
+  portable::sinCos(kRadPerTurn * uniform(block[1]), sine, cosine);
   return std::sqrt(-2 * portable::log(uniform(block[0]))) * cosine;
 }
 
@@ -113,7 +111,7 @@ double BandNoise::at(double time_s) const {
   for (int i = 0; i < kCount; ++i) {
     const double turns = hertz_[i] * time_s + phase_turns_[i];
     double sine, cosine;
-    portable::sinCos(kTurn * (turns - std::floor(turns)), sine, cosine);
+    portable::sinCos(kRadPerTurn * (turns - std::floor(turns)), sine, cosine);
     sum += cosine;
   }
   return sum * std::sqrt(2.0 / kCount);
@@ -124,9 +122,9 @@ double BandNoise::integral(double time_s) const {
   for (int i = 0; i < kCount; ++i) {
     const double turns = hertz_[i] * time_s + phase_turns_[i];
     double sine, cosine, sine_at_0;
-    portable::sinCos(kTurn * (turns - std::floor(turns)), sine, cosine);
-    portable::sinCos(kTurn * phase_turns_[i], sine_at_0, cosine);
-    sum += (sine - sine_at_0) / (kTurn * hertz_[i]);
+    portable::sinCos(kRadPerTurn * (turns - std::floor(turns)), sine, cosine);
+    portable::sinCos(kRadPerTurn * phase_turns_[i], sine_at_0, cosine);
+    sum += (sine - sine_at_0) / (kRadPerTurn * hertz_[i]);
   }
   return sum * std::sqrt(2.0 / kCount);
 }

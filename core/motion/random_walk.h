@@ -11,7 +11,7 @@ namespace standpoint {
 // from the channels of a scan's own noise (scanners/noise), whose generator is the same.
 enum class MotionProcess : std::uint32_t {
   drift = 0x4D000000,        // six: position along, across and up, roll, pitch, heading
-  scale = 0x4D000100,        // one
+  first_error = 0x4D000100,  // seven
   within_scan = 0x4D000200,  // six
   constraint = 0x4D000300,   // six, by the constraint's two knots
   gait = 0x4D000400,         // one

@@ -8,6 +8,7 @@
 
 #include "core/motion/rotation_vector.h"
 #include "core/motion/time_law.h"
+#include "core/units.h"
 
 namespace standpoint {
 
@@ -164,10 +165,9 @@ Grid gridOf(const Curve& curve, std::span<const Waypoint> waypoints, const std::
     while (leg + 2 < ways.size() && way >= ways[leg + 1]) ++leg;
     const auto place = curve.at(way);
     if (place.tangent.head<2>().norm() > 1e-6)
-      ahead = 2 * std::numbers::pi * portable::turnOf(place.tangent.y(), place.tangent.x());
+      ahead = kRadPerTurn * portable::turnOf(place.tangent.y(), place.tangent.x());
     double heading = waypoints[leg].look_rad.value_or(ahead);
-    if (!raw.empty())
-      heading -= 2 * std::numbers::pi * std::floor((heading - raw.back()) / (2 * std::numbers::pi) + 0.5);
+    if (!raw.empty()) heading -= kRadPerTurn * std::floor((heading - raw.back()) / kRadPerTurn + 0.5);
     raw.push_back(heading);
     const double speed = std::max(place.tangent.norm(), 1e-3);
     curvature.push_back(place.tangent.cross(place.bend).norm() / (speed * speed * speed));

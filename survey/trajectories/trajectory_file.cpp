@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/motion/rotation_vector.h"
+#include "core/units.h"
 #include "pointclouds/files/line_reader.h"
 #include "pointclouds/files/number_line.h"
 #include "survey/trajectories/formats.h"
@@ -66,7 +67,7 @@ Result<TrajectoryFrame> mapFrame(const Georeference& georeference) {
   const MapConversion& map = *georeference.map_from_file;
   if (map.factors != Eigen::Vector3d::Ones())
     return failure(ErrorKind::unusable, "the model's place on the map has other scales along its axes");
-  const double yaw = 2 * std::numbers::pi * portable::turnOf(map.x_axis_ordinate, map.x_axis_abscissa);
+  const double yaw = kRadPerTurn * portable::turnOf(map.x_axis_ordinate, map.x_axis_abscissa);
   return TrajectoryFrame{
       {unitRotation(rotationOf({0, 0, yaw})), mapFromFile(map, georeference.shift_m)}, map.scale, georeference.crs};
 }
