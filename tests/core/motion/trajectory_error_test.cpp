@@ -18,7 +18,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr int kSeeds = 500;
+constexpr int kDrawn = 500;
 
 ErrorProfile drifting(double drift_mm, double heading_deg = 0) {
   ErrorProfile profile;
@@ -58,7 +58,7 @@ std::vector<KnotError> errorsOf(std::span<const ErrorKnot> knots, const ErrorPro
 
 // Root mean squares over the seeds, of each knot: along x, y, z (m), then the rotation (rad).
 std::vector<std::array<double, 6>> spread(std::span<const ErrorKnot> knots, const ErrorProfile& p,
-                                          const std::vector<MotionConstraint>& constraints, int seeds = kSeeds) {
+                                          const std::vector<MotionConstraint>& constraints, int seeds = kDrawn) {
   std::vector<std::array<double, 6>> sum(knots.size());
   for (int seed = 0; seed < seeds; ++seed) {
     const auto errors = errorsOf(knots, p, constraints, seed);
@@ -171,7 +171,7 @@ TEST(TrajectoryError, TiltsAsGravityAllowsAndDriftsUpAndDownThroughThat) {
   const auto knots = *errorKnots(*straight(200));
   const auto sigma = spread(knots, p, {});
   for (const std::size_t i : {std::size_t{0}, knots.size() / 2, knots.size() - 1})
-    for (const int k : {3, 4}) EXPECT_NEAR(sigma[i][k] / kRadPerDeg, 0.03, 0.03 * 5 / std::sqrt(2.0 * kSeeds));
+    for (const int k : {3, 4}) EXPECT_NEAR(sigma[i][k] / kRadPerDeg, 0.03, 0.03 * 5 / std::sqrt(2.0 * kDrawn));
   EXPECT_LT(sigma.back()[5], 1e-12);
   // 20 s of correlation are 18 m of way: about 0.03° √(2 · 18 m · 200 m).
   EXPECT_NEAR(1000 * sigma.back()[2], 1000 * p.tilt_rad * std::sqrt(2 * 18.0 * (200 - 18)), 8);
@@ -187,9 +187,9 @@ TEST(TrajectoryError, WithGnssStaysWhatItsClassSays) {
   }
   double product = 0;  // slowly varying: over 60 s of τ = 120 s it keeps e^-1/2
   const std::size_t later = knotAtWay(knots, 54);
-  for (int seed = 0; seed < kSeeds; ++seed) {
+  for (int seed = 0; seed < kDrawn; ++seed) {
     const auto errors = errorsOf(knots, profile("survey-mms"), {}, seed);
-    product += errors[0].position_m.dot(errors[later].position_m) / kSeeds;
+    product += errors[0].position_m.dot(errors[later].position_m) / kDrawn;
   }
   const double seconds = knots[later].time_s;
   EXPECT_NEAR(product / (2 * 0.02 * 0.02 + 0.03 * 0.03), std::exp(-seconds / 120), 0.1);

@@ -13,8 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kPi = std::numbers::pi;
-
 Waypoint to(double x, double y, double z = 0, double stop_s = 0) { return {{x, y, z}, stop_s, {}}; }
 
 WalkedPath walked(const std::vector<Waypoint>& waypoints, const PathLimits& limits = {}) {
@@ -106,7 +104,7 @@ TEST(WalkPath, StandsWhereItIsToldAndAsLong) {
 
 TEST(WalkPath, LooksAheadOrWhereItIsTold) {
   std::vector<Waypoint> waypoints = {to(0, 0), to(6, 0), to(6, 6), to(0, 6)};
-  waypoints[1].look_rad = kPi;
+  waypoints[1].look_rad = std::numbers::pi;
   const WalkedPath path = walked(waypoints);
   const auto yawAt = [&](const Vector3d& place) {
     double nearest = 100, yaw = 0;
@@ -120,8 +118,8 @@ TEST(WalkPath, LooksAheadOrWhereItIsTold) {
     return yaw;
   };
   EXPECT_NEAR(yawAt({3, 0, 0}), 0, 0.01);
-  EXPECT_NEAR(std::abs(yawAt({6, 3, 0})), kPi, 0.01);
-  EXPECT_NEAR(std::abs(yawAt({3, 6, 0})), kPi, 0.01);
+  EXPECT_NEAR(std::abs(yawAt({6, 3, 0})), std::numbers::pi, 0.01);
+  EXPECT_NEAR(std::abs(yawAt({3, 6, 0})), std::numbers::pi, 0.01);
 }
 
 TEST(WalkPath, ClimbsStairsAndComesBackTheWayItWent) {
@@ -129,7 +127,7 @@ TEST(WalkPath, ClimbsStairsAndComesBackTheWayItWent) {
   EXPECT_NEAR(path.poses.pose(path.reached_s[2]).translation.z(), 3.8, 0.002);
   EXPECT_LT(path.poses.last_s(), 60);
   const Worst worst = worstOf(path.poses);
-  EXPECT_LT(worst.turn, 1.1 * kPi / 3);
+  EXPECT_LT(worst.turn, 1.1 * std::numbers::pi / 3);
 }
 
 TEST(WalkPath, NamesTheWaypointThatIsWrong) {
