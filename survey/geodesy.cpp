@@ -118,4 +118,60 @@ Result<MapFactors> geographic(const std::string& code, const Eigen::Vector3d& ma
   return result;
 }
 
+struct MapProjection::Transformation {
+  std::string crs;
+  double metres_per_unit;
+  Context context;
+  Pj map_from_wgs84;  // degrees, longitude first; eastings first
+};
+
+MapProjection::MapProjection(std::unique_ptr<Transformation> transformation)
+    : transformation_(std::move(transformation)) {}
+MapProjection::MapProjection(MapProjection&&) noexcept = default;
+MapProjection::~MapProjection() = default;
+
+Result<MapProjection> MapProjection::of(const std::string& code) {
+  TRY_ASSIGN(const auto found, findCrs(code));
+  if (!found.projected)
+    return failure(ErrorKind::usage, fmt::format("{} is not a projected coordinate reference system", code), "--crs");
+  auto result = std::make_unique<Transformation>();
+  result->crs = code;
+  result->metres_per_unit = found.metres_per_unit;
+  result->context = quietContext();
+  const Pj crs = findPj(result->context.get(), code), wgs84(proj_create(result->context.get(), "EPSG:4326"));
+  const Pj raw(proj_create_crs_to_crs_from_pj(result->context.get(), wgs84.get(), crs.get(), nullptr, nullptr));
+  if (raw) result->map_from_wgs84.reset(proj_normalize_for_visualization(result->context.get(), raw.get()));
+  if (!result->map_from_wgs84)
+    return failure(ErrorKind::unusable, fmt::format("PROJ has no transformation from {} to WGS84", code), "--crs");
+  return MapProjection(std::move(result));
+}
+
+Result<Eigen::Vector2d> MapProjection::map(const Geographic& geographic) const {
+  const auto& t = *transformation_;
+  const double latitude = geographic.latitude_rad / kRadPerDeg, longitude = geographic.longitude_rad / kRadPerDeg;
+  const PJ_COORD out = proj_trans(t.map_from_wgs84.get(), PJ_FWD, proj_coord(longitude, latitude, 0, 0));
+  if (!std::isfinite(out.xy.x) || !std::isfinite(out.xy.y))
+    return failure(ErrorKind::unusable,
+                   fmt::format("latitude {:.4f}°, longitude {:.4f}° is outside the area of use of {}", latitude,
+                               longitude, t.crs));
+  return Eigen::Vector2d(out.xy.x, out.xy.y) * t.metres_per_unit;
+}
+
+Result<MapProjection::Geographic> MapProjection::geographic(const Eigen::Vector2d& map_m) const {
+  const auto& t = *transformation_;
+  const Eigen::Vector2d units = map_m / t.metres_per_unit;
+  const PJ_COORD out = proj_trans(t.map_from_wgs84.get(), PJ_INV, proj_coord(units.x(), units.y(), 0, 0));
+  if (!std::isfinite(out.lp.lam) || !std::isfinite(out.lp.phi) || std::abs(out.lp.phi) > 90)
+    return failure(ErrorKind::unusable,
+                   fmt::format("({:.3f}, {:.3f}) is outside the area of use of {}", map_m.x(), map_m.y(), t.crs));
+  return Geographic{out.lp.phi * kRadPerDeg, out.lp.lam * kRadPerDeg};
+}
+
+Result<double> MapProjection::northDirection_rad(const Geographic& at) const {
+  constexpr double kStep_rad = 1e-6;  // 6 m
+  TRY_ASSIGN(const Eigen::Vector2d south, map({at.latitude_rad - kStep_rad, at.longitude_rad}));
+  TRY_ASSIGN(const Eigen::Vector2d north, map({at.latitude_rad + kStep_rad, at.longitude_rad}));
+  return std::atan2(north.y() - south.y(), north.x() - south.x());
+}
+
 }  // namespace standpoint

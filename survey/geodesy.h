@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <string>
 
 #include "core/georeference.h"
@@ -37,5 +37,27 @@ struct MapFactors {
 };
 // From map coordinates (easting, northing, height) of a projected CRS to WGS84, through PROJ.
 Result<MapFactors> geographic(const std::string& crs, const Eigen::Vector3d& map_m);
+
+// Between WGS84 and a projected CRS, for many points of one thread. Heights are not touched.
+class MapProjection {
+ public:
+  static Result<MapProjection> of(const std::string& crs);
+  MapProjection(MapProjection&&) noexcept;
+  ~MapProjection();
+
+  struct Geographic {
+    double latitude_rad = 0, longitude_rad = 0;
+  };
+  // Eastings and northings in metres; an error of kind unusable outside the area of use.
+  Result<Eigen::Vector2d> map(const Geographic& geographic) const;
+  Result<Geographic> geographic(const Eigen::Vector2d& map_m) const;
+  // The direction of true north there: counter-clockwise from east in the map, so π/2 where grid north is true.
+  Result<double> northDirection_rad(const Geographic& geographic) const;
+
+ private:
+  struct Transformation;
+  explicit MapProjection(std::unique_ptr<Transformation> transformation);
+  std::unique_ptr<Transformation> transformation_;
+};
 
 }  // namespace standpoint

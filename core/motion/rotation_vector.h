@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Geometry>
 
 #include "core/portable_math.h"
+#include "core/units.h"
 
 namespace standpoint {
 
@@ -30,7 +30,7 @@ inline Eigen::Vector3d rotationVector(const Eigen::Quaterniond& q) {
   const double sign = q.w() < 0 ? -1 : 1;
   const double sine = q.vec().norm();
   if (sine < 1e-150) return 2 * sign * q.vec();  // whose square may be no number any more
-  const double angle = 4 * std::numbers::pi * portable::turnOf(sine, sign * q.w());
+  const double angle = 2 * kRadPerTurn * portable::turnOf(sine, sign * q.w());
   return q.vec() * (sign * angle / sine);
 }
 
@@ -57,14 +57,13 @@ inline Eigen::Quaterniond rotationOf(const EulerAngles& angles) {
 
 // Roll and yaw from -π to π, pitch from -π/2 to π/2; where the nose points straight up or down, roll is 0.
 inline EulerAngles eulerAngles(const Eigen::Quaterniond& q) {
-  constexpr double kTurn = 2 * std::numbers::pi;
   const double w = q.w(), x = q.x(), y = q.y(), z = q.z();
   const double sine = 2 * (w * y - x * z);
   const double across = 2 * (y * z + w * x), up = 1 - 2 * (x * x + y * y);  // of the bottom row
   const double cosine = std::sqrt(across * across + up * up);
-  if (cosine < 1e-9) return {0, kTurn * portable::turnOf(sine, cosine), 2 * kTurn * portable::turnOf(z, w)};
-  return {kTurn * portable::turnOf(across, up), kTurn * portable::turnOf(sine, cosine),
-          kTurn * portable::turnOf(2 * (x * y + w * z), 1 - 2 * (y * y + z * z))};
+  if (cosine < 1e-9) return {0, kRadPerTurn * portable::turnOf(sine, cosine), 2 * kRadPerTurn * portable::turnOf(z, w)};
+  return {kRadPerTurn * portable::turnOf(across, up), kRadPerTurn * portable::turnOf(sine, cosine),
+          kRadPerTurn * portable::turnOf(2 * (x * y + w * z), 1 - 2 * (y * y + z * z))};
 }
 
 }  // namespace standpoint

@@ -14,13 +14,11 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double kPi = std::numbers::pi;
-
-Quaterniond yaw(double degrees) { return rotationOf({0, 0, degrees * kPi / 180}); }
+Quaterniond yaw(double degrees) { return rotationOf({0, 0, degrees * std::numbers::pi / 180}); }
 
 // A body that goes up and down by 20 mm at 1.9 Hz, and nods and turns with it.
 Pose gaitAt(double t) {
-  const double wave = std::sin(2 * kPi * 1.9 * t);
+  const double wave = std::sin(2 * std::numbers::pi * 1.9 * t);
   return {rotationOf({0, 0.02 * wave, 0.5 * t}), {t, 0, 0.020 * wave}};
 }
 
@@ -152,7 +150,8 @@ TEST(Velocity, IsThatOfBodyAndFrame) {
   const auto spline = PoseSpline::through(sampled(gaitAt, 100, 4));
   const Velocity v = velocity(*spline, 2.003);
   EXPECT_NEAR(v.linear_mps.x(), 1, 1e-8);
-  EXPECT_NEAR(v.linear_mps.z(), 0.020 * 2 * kPi * 1.9 * std::cos(2 * kPi * 1.9 * 2.003), 1e-5);
+  EXPECT_NEAR(v.linear_mps.z(), 0.020 * 2 * std::numbers::pi * 1.9 * std::cos(2 * std::numbers::pi * 1.9 * 2.003),
+              1e-5);
   EXPECT_NEAR(v.angular_radps.z(), 0.5, 1e-5);
   EXPECT_EQ(velocity(*spline, 9).linear_mps.norm(), 0);
   EXPECT_EQ(velocity(ConstantPose(gaitAt(1)), 9).angular_radps.norm(), 0);

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/motion/random_walk.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/portable_math.h"
+#include "core/random.h"
+#include "core/units.h"
+
+namespace standpoint {
+
+namespace {
+
+std::array<std::uint32_t, 4> blockOf(const MotionKey& key, std::uint32_t level, std::uint32_t index) {
+  return philox({key.seed, key.trajectory}, index, level, static_cast<std::uint32_t>(key.process) + key.component);
+}
+
+}  // namespace
+
+double normalNumber(const MotionKey& key, std::uint32_t level, std::uint32_t index) {
+  const auto block = blockOf(key, level, index);
+  double sine, cosine;
+  portable::sinCos(kRadPerTurn * uniform(block[1]), sine, cosine);
+  return std::sqrt(-2 * portable::log(uniform(block[0]))) * cosine;
+}
+
+double uniformNumber(const MotionKey& key, std::uint32_t level, std::uint32_t index) {
+  return uniform(blockOf(key, level, index)[0]);
+}
+
+double RandomWalk::middle(double low, double high, int level, std::uint32_t knot) const {
+  const double width = std::ldexp(1.0, level);
+  return 0.5 * (low + high) + 0.5 * std::sqrt(width) * normalNumber(key_, static_cast<std::uint32_t>(level), knot);
+}
+
+double RandomWalk::at(std::uint32_t knot) const {
+  std::uint32_t low = 0;
+  double at_low = 0, at_high = 1024 * normalNumber(key_, kLevels, 0);
+  if (knot >= kLastKnot) return at_high;
+  for (int level = kLevels; knot != low; --level) {
+    const std::uint32_t middle_knot = low + (1U << static_cast<unsigned>(level - 1));
+    const double at_middle = middle(at_low, at_high, level, middle_knot);
+    if (knot < middle_knot) {
+      at_high = at_middle;
+    } else {
+      low = middle_knot;
+      at_low = at_middle;
+    }
+  }
+  return at_low;
+}
+
+void RandomWalk::fill(std::uint32_t low, int level, double at_low, double at_high, std::vector<double>& knots) const {
+  knots[low] = at_low;
+  if (level == 0) return;
+  const std::uint32_t middle_knot = low + (1U << static_cast<unsigned>(level - 1));
+  if (low + 1 >= knots.size()) return;
+  const double at_middle = middle(at_low, at_high, level, middle_knot);
+  fill(low, level - 1, at_low, at_middle, knots);
+  if (middle_knot < knots.size()) fill(middle_knot, level - 1, at_middle, at_high, knots);
+}
+
+std::vector<double> RandomWalk::first(std::uint32_t count) const {
+  std::vector<double> knots(std::min(count, kLastKnot + 1));
+  const double last = 1024 * normalNumber(key_, kLevels, 0);
+  if (!knots.empty()) fill(0, kLevels, 0, last, knots);
+  if (knots.size() > kLastKnot) knots.back() = last;
+  return knots;
+}
+
+GaussMarkov::GaussMarkov(const MotionKey& key, double step_per_tau) : key_(key) {
+  for (int level = 0; level <= RandomWalk::kLevels; ++level)
+    correlation_[level] = portable::exp(-std::min(700.0, std::ldexp(step_per_tau, level)));
+}
+
+// The middle of two knots r apart from each has the mean r (low + high)/(1 + r²) and the variance (1 - r²)/(1 + r²).
+double GaussMarkov::at(std::uint32_t knot) const {
+  std::uint32_t low = 0;
+  const double whole = correlation_[RandomWalk::kLevels];
+  double at_low = normalNumber(key_, RandomWalk::kLevels + 1, 0);
+  double at_high = whole * at_low + std::sqrt(1 - whole * whole) * normalNumber(key_, RandomWalk::kLevels, 0);
+  if (knot >= RandomWalk::kLastKnot) return at_high;
+  for (int level = RandomWalk::kLevels; knot != low; --level) {
+    const std::uint32_t middle_knot = low + (1U << static_cast<unsigned>(level - 1));
+    const double r = correlation_[level - 1], square = r * r;
+    const double at_middle =
+        (r * (at_low + at_high) +
+         std::sqrt((1 - square) * (1 + square)) * normalNumber(key_, static_cast<std::uint32_t>(level), middle_knot)) /
+        (1 + square);
+    if (knot < middle_knot) {
+      at_high = at_middle;
+    } else {
+      low = middle_knot;
+      at_low = at_middle;
+    }
+  }
+  return at_low;
+}
+
+BandNoise::BandNoise(const MotionKey& key, double lowest_hz, double highest_hz) {
+  for (int i = 0; i < kCount; ++i) {
+    const auto index = static_cast<std::uint32_t>(i);
+    hertz_[i] = lowest_hz + (i + uniformNumber(key, 0, index)) * (highest_hz - lowest_hz) / kCount;
+    phase_turns_[i] = uniformNumber(key, 1, index);
+  }
+}
+
+double BandNoise::at(double time_s) const {
+  double sum = 0;
+  for (int i = 0; i < kCount; ++i) {
+    const double turns = hertz_[i] * time_s + phase_turns_[i];
+    double sine, cosine;
+    portable::sinCos(kRadPerTurn * (turns - std::floor(turns)), sine, cosine);
+    sum += cosine;
+  }
+  return sum * std::sqrt(2.0 / kCount);
+}
+
+double BandNoise::integral(double time_s) const {
+  double sum = 0;
+  for (int i = 0; i < kCount; ++i) {
+    const double turns = hertz_[i] * time_s + phase_turns_[i];
+    double sine, cosine, sine_at_0;
+    portable::sinCos(kRadPerTurn * (turns - std::floor(turns)), sine, cosine);
+    portable::sinCos(kRadPerTurn * phase_turns_[i], sine_at_0, cosine);
+    sum += (sine - sine_at_0) / (kRadPerTurn * hertz_[i]);
+  }
+  return sum * std::sqrt(2.0 / kCount);
+}
+
+}  // namespace standpoint
