@@ -75,12 +75,32 @@ struct ControlPoint {
   double sigma_m = 0;
 };
 
+// A place that somebody clicked for a path to pass.
+struct Waypoint {
+  Eigen::Vector3d floor_m = Eigen::Vector3d::Zero();  // on the walkable surface, local frame; stairs by their heights
+  double stop_s = 0;                                  // how long the carrier stands there
+  std::optional<double> look_rad =
+      {};  // heading from here to the next one, counter-clockwise from x; else it looks ahead
+};
+
+// A way along which a scanner is carried: through waypoints, or as a file has it.
+struct CarriedTrajectory {
+  std::string name;
+  std::string carrier = "hand";  // id of core/motion/carriers.h
+  std::vector<Waypoint> waypoints;
+  double height_m = 0, speed_mps = 0;  // of the body above the floor, and at most; 0: the carrier's own
+  std::uint64_t seed = 1;              // of gait and shaking
+  std::string file, format;            // instead of waypoints: as the user gave it, and the format's id
+  std::vector<Scan> scans;
+};
+
 // A surveying job: what the crew sets up and stores.
 struct Job {
   std::string name;
   std::vector<Station> stations;
   std::vector<Target> targets;
   std::vector<ControlPoint> control_points;
+  std::vector<CarriedTrajectory> trajectories;
 };
 
 }  // namespace standpoint

@@ -11,14 +11,6 @@
 
 namespace standpoint {
 
-// A place that somebody clicked for a path to pass.
-struct Waypoint {
-  Eigen::Vector3d floor_m = Eigen::Vector3d::Zero();  // on the walkable surface, local frame; stairs by their heights
-  double stop_s = 0;                                  // how long the carrier stands there
-  std::optional<double> look_rad =
-      {};  // heading from here to the next one, counter-clockwise from x; else it looks ahead
-};
-
 // How fast what carries a scanner may move. The defaults are those of somebody who surveys on foot and are not sourced.
 struct PathLimits {
   double height_m = 1.3;  // of the body's origin above the floor

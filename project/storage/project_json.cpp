@@ -65,6 +65,39 @@ Scan scanFrom(const json& j) {
   return s;
 }
 
+json trajectoryToJson(const CarriedTrajectory& t) {
+  json row = {{"name", t.name}, {"carrier", t.carrier}, {"seed", t.seed}};
+  if (t.file.empty()) {
+    json& waypoints = row["waypoints"] = json::array();
+    for (const Waypoint& w : t.waypoints) {
+      json& place = waypoints.emplace_back(json{{"floor", toJson(w.floor_m)}});
+      if (w.stop_s > 0) place["stop_s"] = w.stop_s;
+      if (w.look_rad) place["look_rad"] = *w.look_rad;
+    }
+    if (t.height_m > 0) row["height_m"] = t.height_m;
+    if (t.speed_mps > 0) row["speed_mps"] = t.speed_mps;
+  } else {
+    row["file"] = t.file;
+    row["format"] = t.format;
+  }
+  json& scans = row["scans"] = json::array();
+  for (const auto& scan : t.scans) scans.push_back(scanToJson(scan));
+  return row;
+}
+
+CarriedTrajectory trajectoryFrom(const json& j) {
+  CarriedTrajectory t{.name = j.at("name"), .carrier = j.at("carrier")};
+  t.seed = j.at("seed");
+  for (const auto& place : j.value("waypoints", json::array())) {
+    Waypoint& w = t.waypoints.emplace_back(Waypoint{vectorFrom(place.at("floor")), place.value("stop_s", 0.0)});
+    if (place.contains("look_rad")) w.look_rad = place.at("look_rad").get<double>();
+  }
+  t.height_m = j.value("height_m", 0.0), t.speed_mps = j.value("speed_mps", 0.0);
+  t.file = j.value("file", ""), t.format = j.value("format", "");
+  for (const auto& scan : j.at("scans")) t.scans.push_back(scanFrom(scan));
+  return t;
+}
+
 json jobToJson(const Job& job) {
   json stations = json::array();
   for (const auto& s : job.stations) {
@@ -80,10 +113,12 @@ json jobToJson(const Job& job) {
   json controls = json::array();
   for (const auto& c : job.control_points)
     controls.push_back({{"name", c.name}, {"position", toJson(c.position)}, {"sigma_m", c.sigma_m}});
-  return {{"name", job.name},
-          {"stations", stations},
-          {"targets", targetsToJson(job.targets)},
-          {"control_points", controls}};
+  json part = {{"name", job.name},
+               {"stations", stations},
+               {"targets", targetsToJson(job.targets)},
+               {"control_points", controls}};
+  for (const auto& t : job.trajectories) part["trajectories"].push_back(trajectoryToJson(t));
+  return part;
 }
 
 Job jobFrom(const json& j) {
@@ -98,6 +133,7 @@ Job jobFrom(const json& j) {
   job.targets = targetsFrom(j.at("targets"));
   for (const auto& c : j.at("control_points"))
     job.control_points.push_back({c.at("name"), vectorFrom(c.at("position")), c.at("sigma_m")});
+  for (const auto& t : j.value("trajectories", json::array())) job.trajectories.push_back(trajectoryFrom(t));
   return job;
 }
 

@@ -42,7 +42,7 @@ Result<void> chooseOutput(ScanRequest& request, const fs::path& output) {
                                  fmt::join(names, ", ")),
                      "--output");
     }
-    request.one_file = request.format->many_scans || request.stations.size() == 1;
+    request.one_file = request.format->many_scans || request.stations.size() <= 1;
     return checkFolderOf(output, "--output");
   }
   request.format = cloudFormatFor("x.e57");
@@ -73,6 +73,20 @@ Result<void> choosePanorama(ScanRequest& request, const ScanVerbOptions& options
                    "--panorama-size");
   request.instrument.camera.columns = columns;
   request.panorama_columns = columns;
+  return {};
+}
+
+// What a scanner that is carried has not.
+Result<void> checkCarried(const ScanVerbOptions& options) {
+  const auto refuse = [](const char* what, const char* option) {
+    return failure(ErrorKind::usage, fmt::format("{} belongs to stations; leave it out with --trajectory", what),
+                   option);
+  };
+  if (!options.stations.names.empty()) return refuse("a choice of stations", "--stations");
+  if (options.panorama || options.panorama_columns) return refuse("a panorama", "--panorama");
+  if (options.field_fault.any()) return refuse("a field fault", "--field-fault");
+  if (options.compensator == Switch::off) return refuse("a compensator", "--compensator");
+  if (options.resume) return refuse("an earlier run to resume", "--resume");
   return {};
 }
 
@@ -195,11 +209,38 @@ std::span<const Choice<ScanQuality>> choices(ScanQuality) {
   return kQualities;
 }
 
+std::span<const Choice<TrajectoryError>> choices(TrajectoryError) {
+  using E = TrajectoryError;
+  static constexpr std::array kErrors = {Choice<E>{"instrument", E::of_instrument},
+                                         Choice<E>{"none", E::none},
+                                         Choice<E>{"wearable", E::wearable},
+                                         Choice<E>{"handheld", E::handheld},
+                                         Choice<E>{"poor", E::poor},
+                                         Choice<E>{"survey-mms", E::survey_mms},
+                                         Choice<E>{"uav", E::uav},
+                                         Choice<E>{"mems", E::mems}};
+  return kErrors;
+}
+
+std::span<const Choice<Deskew>> choices(Deskew) {
+  static constexpr std::array kDeskews = {Choice<Deskew>{"pulse", Deskew::pulse},
+                                          Choice<Deskew>{"firing", Deskew::firing},
+                                          Choice<Deskew>{"turn", Deskew::turn}, Choice<Deskew>{"none", Deskew::none}};
+  return kDeskews;
+}
+
 const Fields<ScanVerbOptions>& scanFields() {
   using O = ScanVerbOptions;
   static const std::string effects = "effects to leave out: " + effectList();
   static const Fields<O> fields = {
       {"stations", &O::stations, "all, or names separated by commas"},
+      {"trajectory", &O::trajectory,
+       "instead of stations: the name or file of a trajectory, for an instrument that is carried"},
+      {"trajectory-error", &O::trajectory_error,
+       "how the trajectory is known: with the error of the instrument's kind, none, or that of a profile"},
+      {"closures", &O::closures, "off: places that the trajectory comes back to are not recognised"},
+      {"anchors", &O::anchors, "on: scanned stations within 3 m of the trajectory hold it"},
+      {"deskew", &O::deskew, "pose by which points are placed: that of each pulse, firing, or an even turn; none"},
       {"instrument", &O::instrument, "id or file of the instrument, such as leica-rtc360", {.required = true}},
       {"set", &O::settings, "settings in the device's own words, such as resolution=12mm"},
       {"seed", &O::seed, "seed of the noise", {.minimum = 0, .maximum = 9007199254740991.0}},
@@ -232,7 +273,8 @@ const Fields<ScanVerbOptions>& scanFields() {
        {.choices = {"scaled", "spherical", "points", "pdrf8"}}},
       {"threads", &O::threads, "0 = all; the result is the same", {.minimum = 0, .maximum = 1024}},
       {"resume", &O::resume, "continue a run that was cancelled or crashed; keep its finished stations"},
-      {"shard", &O::shard, "i/n: only every n-th station from the i-th, for a batch on several machines"},
+      {"shard", &O::shard,
+       "i/n: only every n-th station from the i-th, or the i-th part of a trajectory, for a batch on several machines"},
       {"output",
        &O::output,
        "a folder, or a file (.e57, .ptx, .las, .pcd, …); an E57, PTX or LAS holds all stations",
@@ -243,7 +285,10 @@ const Fields<ScanVerbOptions>& scanFields() {
 Result<ScanRequest> scanRequestFrom(const Document& document, const ScanVerbOptions& options) {
   ScanRequest request;
   TRY_ASSIGN(request.instrument, instrumentNamed(options.instrument));
-  TRY_ASSIGN(request.settings, resolveSettings(request.instrument, options.settings));
+  const bool carried = !options.trajectory.empty();
+  if (carried) TRY(checkCarried(options));
+  TRY_ASSIGN(request.settings, carried ? resolveMovingSettings(request.instrument, options.settings)
+                                       : resolveSettings(request.instrument, options.settings));
   request.instrument.camera = request.settings.camera;
   if (const auto most = chosenEffect(request.instrument, request.settings.values, "most_returns"))
     request.instrument.waveform.max_returns = static_cast<int>(*most);
@@ -262,10 +307,12 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const ScanVerbOpti
   TRY(choosePanorama(request, options));
   const bool truth = options.truth;
   request.options.channels = {
-      .time = truth, .returns = truth || request.instrument.waveform.max_returns > 1, .truth = truth};
+      .time = truth || carried, .returns = truth || request.instrument.waveform.max_returns > 1, .truth = truth};
   request.options.threads = options.threads;
-  TRY_ASSIGN(auto stations, stationsFrom(*document.job, options.stations));
-  request.stations = options.shard ? shardOf(stations, *options.shard) : std::move(stations);
+  if (!carried) {
+    TRY_ASSIGN(auto stations, stationsFrom(*document.job, options.stations));
+    request.stations = options.shard ? shardOf(stations, *options.shard) : std::move(stations);
+  }
   TRY(chooseOutput(request, options.output));
   request.as = options.as;
   TRY_ASSIGN(const auto writer, writerOf(*request.format, request.as));

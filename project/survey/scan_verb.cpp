@@ -7,11 +7,12 @@
 #include "core/random.h"
 #include "pointclouds/formats.h"
 #include "project/answers.h"
+#include "project/survey/moving_scan.h"
+#include "project/survey/scan_header.h"
 #include "project/survey/scan_preparation.h"
 #include "project/survey/scan_request.h"
 #include "project/survey/survey_verbs.h"
 #include "scanners/camera/panorama.h"
-#include "survey/geodesy.h"
 #include "survey/scanning/empty_scan.h"
 #include "survey/scanning/scan_identity.h"
 #include "survey/scanning/scan_parts.h"
@@ -21,57 +22,6 @@ namespace standpoint {
 namespace {
 
 namespace fs = std::filesystem;
-
-// The simulation's clock is not the wall clock, so that the same job gives the same bytes: the first station starts on
-// 2026-01-01 09:00:00 UTC, in seconds since 1980-01-06 without leap seconds.
-constexpr double kFirstStart_gps_s = 1451293200.0;
-
-// ", ideal", ", without striping, footprint", or nothing.
-std::string withoutText(Effects effects) {
-  if (effects == Effects::none()) return ", ideal";
-  std::string text;
-  for (const auto& [effect, name, description] : effectNames())
-    if (!effects.has(effect)) text += (text.empty() ? ", without " : ", ") + std::string(name);
-  return text;
-}
-
-ScanHeader headerOf(const Document& document, const ScanWorld& world, const Station& station, const Pose& believed,
-                    const std::string& guid, const ScanRequest& request, double start_gps_s) {
-  const auto& g = *document.georeference;
-  ScanHeader h;
-  h.name = station.name;
-  h.guid = guid;
-  h.sensor_vendor = request.instrument.maker;
-  h.sensor_model = request.instrument.model;
-  h.sensor_serial = "simulated";
-  std::vector<std::string> words;
-  for (const auto& [key, value] : request.settings.values) words.push_back(key + "=" + value);
-  h.description =
-      fmt::format("Simulated by Standpoint: {} {}, {}, seed {}{}", request.instrument.maker, request.instrument.model,
-                  fmt::join(words, " "), request.options.seed, withoutText(request.options.effects));
-  if (request.options.quality != ScanQuality::standard)
-    h.description += request.options.quality == ScanQuality::preview ? ", preview quality" : ", reference quality";
-  for (const auto& note : request.notes) h.description += "; " + note;
-  h.file_from_scanner = believed;
-  h.file_from_scanner.translation += g.shift_m;
-  h.rows = request.settings.rows;
-  h.columns = request.settings.columns;
-  h.has_colour = request.settings.imaging;
-  h.has_labels = true;
-  h.has_time = request.options.channels.time;
-  h.has_returns = request.options.channels.returns;
-  h.has_truth = request.options.channels.truth;
-  h.acquisition_start_gps_s = start_gps_s;
-  h.acquisition_seconds = request.settings.scan_seconds + request.settings.imaging_seconds;
-  if (!g.crs.empty() && !g.map_from_file)
-    if (const auto crs = findCrs(g.crs)) h.coordinate_metadata = crs->wkt;
-  for (const auto& p : world.environment->products) h.products.push_back({p.id, p.global_id, p.ifc_class, p.name});
-  h.products.push_back({"", "", "Nothing", "no surface"});  // the label of a drop, or of the receiver's own noise
-  if (request.field_fault.anybody()) h.products.push_back(personLabel());
-  for (const auto& m : world.assignment.materials) h.materials.push_back(m.id);
-  h.materials.emplace_back("unassigned");  // the label of a point whose surface has no material
-  return h;
-}
 
 ScanAnswerRow scanRow(const Station& station, const ScanCount& count, double seconds, const ScanRequest& request,
                       const fs::path& file) {
@@ -244,7 +194,7 @@ class ScanRun {
     const double start = kFirstStart_gps_s + static_cast<double>(request_.stations[k]) *
                                                  (request_.settings.scan_seconds + request_.settings.imaging_seconds);
     const auto& station = job_.stations[request_.stations[k]];
-    auto made = headerOf(document_, world_, station, believed_[k], guid, request_, start);
+    auto made = scanHeader(document_, world_, station.name, believed_[k], guid, request_, start);
     if (company_believes_ && made.has_truth) {
       made.true_file_from_scanner = station.true_pose;
       made.true_file_from_scanner->translation += document_.georeference->shift_m;
@@ -365,6 +315,7 @@ Result<Answered<ScanAnswer>> runScan(const Document& document, const ScanVerbOpt
 
 Result<Answered<ScanAnswer>> runScan(const Document& document, const ScanVerbOptions& options,
                                      const ScanSurroundings& company, Progress& progress) {
+  if (!options.trajectory.empty()) return runMovingScan(document, options, company, progress);
   TRY_ASSIGN(auto request, scanRequestFrom(document, options));
   Answered<ScanAnswer> outcome{document};
   std::vector<Pose> believed;

@@ -242,8 +242,19 @@ std::span<const Choice<Switch>> choices(Switch);
 
 std::span<const Choice<ScanQuality>> choices(ScanQuality);
 
+// How the trajectory of a carried scanner is known: with the error that its kind of instrument has, with none, or with
+// that of a profile (core/motion/error_profiles.h).
+enum class TrajectoryError { of_instrument, none, wearable, handheld, poor, survey_mms, uav, mems };
+std::span<const Choice<TrajectoryError>> choices(TrajectoryError);
+std::span<const Choice<Deskew>> choices(Deskew);
+
 struct ScanVerbOptions {
   StationNames stations;
+  std::string trajectory;  // instead of stations: its name, or a file
+  TrajectoryError trajectory_error = TrajectoryError::of_instrument;
+  Switch closures = Switch::on;
+  Switch anchors = Switch::off;
+  Deskew deskew = Deskew::pulse;
   std::string instrument;  // id
   KeyValues settings;      // in the device's own words
   std::uint64_t seed = 1;
@@ -283,5 +294,35 @@ struct ScanAnswer {
 };
 const AnswerFields<ScanAnswer>& answerFields(const ScanAnswer*);
 Result<Answered<ScanAnswer>> runScan(const Document& document, const ScanVerbOptions& options, Progress& progress);
+
+struct TrajectoryOptions {
+  std::optional<std::string> add, rename, remove, write;
+  std::string name;                  // the new one, for `rename`
+  std::vector<std::string> through;  // waypoints of what is added: "X,Y[,Z][:STOP]"
+  std::filesystem::path file;        // or where it is
+  std::string format;                // of the file, in or out; empty: as it looks
+  std::string carrier;               // id; empty: hand
+  std::optional<double> height_m, speed_mps;
+  std::uint64_t seed = 1;
+  std::filesystem::path output;  // for `write`
+  double rate_hz = 200;
+};
+const Fields<TrajectoryOptions>& trajectoryFields();
+
+struct TrajectoryRow {
+  std::string name, carrier;
+  std::uint64_t waypoints = 0;
+  std::optional<double> length_m, seconds, mean_mps;  // nothing: it cannot be made, as the report says
+  std::filesystem::path file;
+  std::uint64_t scans = 0;
+};
+const AnswerFields<TrajectoryRow>& answerFields(const TrajectoryRow*);
+struct TrajectoryAnswer {
+  std::vector<TrajectoryRow> trajectories;
+  std::optional<std::filesystem::path> file;  // that was written
+};
+const AnswerFields<TrajectoryAnswer>& answerFields(const TrajectoryAnswer*);
+Result<Answered<TrajectoryAnswer>> runTrajectory(const Document& document, const TrajectoryOptions& options,
+                                                 Progress& progress);
 
 }  // namespace standpoint

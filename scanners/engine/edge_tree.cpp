@@ -18,6 +18,17 @@ constexpr double kNearest_m = 1e-3;
 // Where an edge runs in a beam: through two places of a plane at unit distance, and 1 / range there.
 struct InBeam {
   double across[2], upward[2], nearness[2];
+
+  // How far from the one to the other it comes nearest to the axis, of the whole.
+  double nearestAlong() const {
+    const double x = across[1] - across[0], y = upward[1] - upward[0], square = x * x + y * y;
+    return square > 0 ? std::clamp(-(across[0] * x + upward[0] * y) / square, 0.0, 1.0) : 0;
+  }
+  double squaredOff() const {
+    const double along = nearestAlong();
+    const double x = across[0] + along * (across[1] - across[0]), y = upward[0] + along * (upward[1] - upward[0]);
+    return x * x + y * y;
+  }
 };
 
 // Nothing of what is behind the scanner.
@@ -39,49 +50,47 @@ bool inBeam(const Beam& beam, Eigen::Vector3d from, Eigen::Vector3d to, InBeam& 
 }  // namespace
 
 EdgeTree::EdgeTree(const ScanPlan& plan) : plan_(plan) {
-  std::vector<Placed> edges;
   for (std::uint32_t placement = 0; placement < plan.scene.placementCount(); ++placement) {
     const auto count = static_cast<std::uint32_t>(plan.scene.edges(plan.scene.placed(placement).mesh).size());
     for (std::uint32_t i = 0; i < count; ++i) {
-      Placed& placed = edges.emplace_back();
-      placed.edge = std::uint64_t{placement} << 32U | i;
-      for (const Eigen::Vector3d& end : plan.scene.edgeEnds(placed.edge)) {
-        constexpr float kRounding = 1e-6F;
-        const Eigen::Vector3f at = end.cast<float>();
-        const Eigen::Vector3f margin = at.cwiseAbs() * kRounding;
-        placed.box.extend(at - margin), placed.box.extend(at + margin);
-      }
+      const std::uint64_t edge = std::uint64_t{placement} << 32U | i;
+      const auto ends = plan.scene.edgeEnds(edge);
+      edges_.push_back({ends[0].cast<float>(), ends[1].cast<float>(), edge});
     }
   }
-  if (!edges.empty()) build(edges, 0, edges.size());
+  if (!edges_.empty()) build(0, edges_.size());
+}
+
+// With what single precision has lost.
+Eigen::AlignedBox3f EdgeTree::Placed::box() const {
+  constexpr float kRounding = 1e-6F;
+  const Eigen::Vector3f margin = kRounding * from.cwiseAbs().cwiseMax(to.cwiseAbs());
+  return {from.cwiseMin(to) - margin, from.cwiseMax(to) + margin};
 }
 
 // Halves by the middles along the longer side, in an order that does not depend on the library's.
-void EdgeTree::build(std::vector<Placed>& edges, std::size_t from, std::size_t to) {
+void EdgeTree::build(std::size_t from, std::size_t to) {
   const std::size_t at = nodes_.size();
   nodes_.emplace_back();
   Eigen::AlignedBox3f box, middles;
-  for (std::size_t i = from; i < to; ++i) box.extend(edges[i].box), middles.extend(edges[i].box.center());
+  for (std::size_t i = from; i < to; ++i) box.extend(edges_[i].box()), middles.extend(edges_[i].from + edges_[i].to);
   nodes_[at].box = box;
   if (to - from <= kLeaf) {
-    nodes_[at].first_edge = static_cast<std::uint32_t>(edges_.size());
-    for (std::size_t i = from; i < to; ++i) edges_.push_back(edges[i].edge);
-    nodes_[at].end_edge = static_cast<std::uint32_t>(edges_.size());
+    nodes_[at].first_edge = static_cast<std::uint32_t>(from), nodes_[at].end_edge = static_cast<std::uint32_t>(to);
     return;
   }
   int side = 0;
   middles.sizes().maxCoeff(&side);
   const std::size_t middle = from + (to - from) / 2;
-  const auto begin = edges.begin() + static_cast<std::ptrdiff_t>(from);
-  std::nth_element(begin, edges.begin() + static_cast<std::ptrdiff_t>(middle),
-                   edges.begin() + static_cast<std::ptrdiff_t>(to), [side](const Placed& a, const Placed& b) {
-                     const float one = a.box.min()[side] + a.box.max()[side];
-                     const float other = b.box.min()[side] + b.box.max()[side];
+  const auto begin = edges_.begin();
+  std::nth_element(begin + static_cast<std::ptrdiff_t>(from), begin + static_cast<std::ptrdiff_t>(middle),
+                   begin + static_cast<std::ptrdiff_t>(to), [side](const Placed& a, const Placed& b) {
+                     const float one = a.from[side] + a.to[side], other = b.from[side] + b.to[side];
                      return one != other ? one < other : a.edge < b.edge;
                    });
-  build(edges, from, middle);
+  build(from, middle);
   nodes_[at].second = static_cast<std::uint32_t>(nodes_.size());
-  build(edges, middle, to);
+  build(middle, to);
 }
 
 // By the sphere about the box.
@@ -96,18 +105,17 @@ bool EdgeTree::Cone::meets(const Eigen::AlignedBox3f& box) const {
   return square <= radius * radius;
 }
 
-EdgeTree::Cone EdgeTree::coneOf(const ColumnHits& hits, std::uint32_t first_row, std::uint32_t lanes,
-                                FacetCache& facets) const {
-  Cone cone;
+void EdgeTree::setCone(const ColumnHits& hits, FacetCache& facets, Packet& packet) const {
+  Cone& cone = packet.cone = {};
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (std::uint32_t left = lanes; left != 0; left &= left - 1)
-    sum += hits.axis(first_row + static_cast<std::uint32_t>(std::countr_zero(left))).direction;
-  cone.apex = hits.axis(first_row + static_cast<std::uint32_t>(std::countr_zero(lanes))).origin;
+  for (std::uint32_t left = packet.lanes; left != 0; left &= left - 1)
+    sum += hits.axis(packet.first_row + static_cast<std::uint32_t>(std::countr_zero(left))).direction;
+  cone.apex = hits.axis(packet.first_row + static_cast<std::uint32_t>(std::countr_zero(packet.lanes))).origin;
   cone.axis = sum / std::max(1e-9, sum.norm());
   cone.aside_m = kBeamEdge * plan_.instrument.exit_diameter_m / 2;
   double spread = 0;
-  for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
-    const std::uint32_t row = first_row + static_cast<std::uint32_t>(std::countr_zero(left));
+  for (std::uint32_t left = packet.lanes; left != 0; left &= left - 1) {
+    const std::uint32_t row = packet.first_row + static_cast<std::uint32_t>(std::countr_zero(left));
     const RayLine axis = hits.axis(row);
     cone.cosine = std::min(cone.cosine, axis.direction.dot(cone.axis));
     spread = std::max(spread, (axis.origin - cone.apex).norm());
@@ -117,35 +125,57 @@ EdgeTree::Cone EdgeTree::coneOf(const ColumnHits& hits, std::uint32_t first_row,
   const double half = kBeamEdge * plan_.instrument.divergence_rad / 2 + 1e-6;  // sin(a + b) ≤ sin a + sin b
   cone.sine = std::min(1.0, std::sqrt(std::max(0.0, 1 - cone.cosine * cone.cosine)) + half);
   cone.cosine = cone.cosine > 0 ? std::sqrt(1 - cone.sine * cone.sine) : -1;
-  return cone;
+  const Eigen::Vector3d across = cone.axis.unitOrthogonal();
+  packet.middle = {cone.apex, cone.axis, across, cone.axis.cross(across)};
+}
+
+// In the plane at unit distance that the cone is a disc of.
+bool EdgeTree::mayHold(const Packet& packet, const Placed& edge) const {
+  const Cone& cone = packet.cone;
+  if (cone.cosine < 0.1) return true;
+  InBeam in;
+  const Eigen::Vector3d from = edge.from.cast<double>(), to = edge.to.cast<double>();
+  if (!inBeam(packet.middle, from, to, in)) return false;
+  const double nearest = std::max(in.nearness[0], in.nearness[1]);
+  const double rounding = 1e-6 * (from.cwiseAbs().maxCoeff() + to.cwiseAbs().maxCoeff());
+  const double radius = cone.sine / cone.cosine + 2 * (cone.aside_m + rounding) * nearest;
+  return in.squaredOff() <= radius * radius;
 }
 
 void EdgeTree::mark(const ColumnHits& hits, FacetCache& facets, ColumnEdges& found) const {
   const std::uint32_t rows = plan_.settings.rows;
   found.begin(rows);
   if (nodes_.empty()) return;
-  for (std::uint32_t first = 0; first < rows; first += kPacket) {
-    const std::uint32_t lanes = hits.measured(first, std::min<std::uint32_t>(kPacket, rows - first));
-    if (lanes == 0) continue;
-    const Cone cone = coneOf(hits, first, lanes, facets);
+  Packet packet;
+  for (packet.first_row = 0; packet.first_row < rows; packet.first_row += kPacket) {
+    packet.lanes = hits.measured(packet.first_row, std::min<std::uint32_t>(kPacket, rows - packet.first_row));
+    if (packet.lanes == 0) continue;
+    setCone(hits, facets, packet);
+    packet.has_beams = false;
     std::array<std::uint32_t, 64> open{};
     std::size_t count = 1;
     while (count > 0) {
       const std::uint32_t at = open[--count];
       const Node& node = nodes_[at];
-      if (!cone.meets(node.box)) continue;
-      if (node.second == 0) {
-        for (std::uint32_t i = node.first_edge; i < node.end_edge; ++i)
-          markEdge(edges_[i], hits, first, lanes, facets, found);
-      } else {
+      if (!packet.cone.meets(node.box)) continue;
+      if (node.second != 0) {
         open[count++] = node.second, open[count++] = at + 1;
+        continue;
       }
+      for (std::uint32_t i = node.first_edge; i < node.end_edge; ++i)
+        if (mayHold(packet, edges_[i])) markEdge(edges_[i].edge, hits, packet, facets, found);
     }
   }
 }
 
-void EdgeTree::markEdge(std::uint64_t edge, const ColumnHits& hits, std::uint32_t first_row, std::uint32_t lanes,
-                        FacetCache& facets, ColumnEdges& found) const {
+void EdgeTree::markEdge(std::uint64_t edge, const ColumnHits& hits, Packet& packet, FacetCache& facets,
+                        ColumnEdges& found) const {
+  if (!packet.has_beams)
+    for (std::uint32_t left = packet.lanes; left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
+      packet.beams[lane] = hits.beam(packet.first_row + lane);
+    }
+  packet.has_beams = true;
   const auto placement = static_cast<std::uint32_t>(edge >> 32U);
   const Instance& instance = plan_.scene.placed(placement);
   const MeshEdge& of = plan_.scene.edges(instance.mesh)[edge & 0xFFFFFFFFU];
@@ -154,16 +184,15 @@ void EdgeTree::markEdge(std::uint64_t edge, const ColumnHits& hits, std::uint32_
   };
   const Eigen::Vector3d from = corner(of.from), to = corner(of.to);
   double reach = -1;  // about the same for all of them
-  for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
-    const std::uint32_t row = first_row + static_cast<std::uint32_t>(std::countr_zero(left));
-    const Beam beam = hits.beam(row);
+  for (std::uint32_t left = packet.lanes; left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
+    const std::uint32_t row = packet.first_row + lane;
+    const Beam& beam = packet.beams[lane];
     InBeam in;
     if (!inBeam(beam, from, to, in)) continue;
-    const double across = in.across[1] - in.across[0], upward = in.upward[1] - in.upward[0];
-    const double square = across * across + upward * upward;
-    const double along =
-        square > 0 ? std::clamp(-(in.across[0] * across + in.upward[0] * upward) / square, 0.0, 1.0) : 0;
-    const double x = in.across[0] + along * across, y = in.upward[0] + along * upward;
+    const double along = in.nearestAlong();
+    const double x = in.across[0] + along * (in.across[1] - in.across[0]);
+    const double y = in.upward[0] + along * (in.upward[1] - in.upward[0]);
     const double range = 1 / (in.nearness[0] + along * (in.nearness[1] - in.nearness[0]));
     const double off = std::sqrt(x * x + y * y) * range, radius = beamRadius(plan_.instrument, range);
     if (off > kBeamEdge * radius) continue;

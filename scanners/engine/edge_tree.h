@@ -36,18 +36,28 @@ class EdgeTree {
     bool meets(const Eigen::AlignedBox3f& box) const;
   };
   struct Placed {
-    Eigen::AlignedBox3f box;
+    Eigen::Vector3f from, to;
     std::uint64_t edge = 0;  // placement << 32 | index
+    Eigen::AlignedBox3f box() const;
+  };
+  // Sixteen rows and what holds their beams.
+  struct Packet {
+    std::uint32_t first_row = 0, lanes = 0;
+    Cone cone;
+    Beam middle;
+    Beam beams[kPacket];
+    bool has_beams = false;
   };
 
-  void build(std::vector<Placed>& edges, std::size_t from, std::size_t to);
-  Cone coneOf(const ColumnHits& hits, std::uint32_t first_row, std::uint32_t lanes, FacetCache& facets) const;
-  void markEdge(std::uint64_t edge, const ColumnHits& hits, std::uint32_t first_row, std::uint32_t lanes,
-                FacetCache& facets, ColumnEdges& found) const;
+  void build(std::size_t from, std::size_t to);
+  void setCone(const ColumnHits& hits, FacetCache& facets, Packet& packet) const;
+  bool mayHold(const Packet& packet, const Placed& edge) const;
+  void markEdge(std::uint64_t edge, const ColumnHits& hits, Packet& packet, FacetCache& facets,
+                ColumnEdges& found) const;
 
   const ScanPlan& plan_;
   std::vector<Node> nodes_;
-  std::vector<std::uint64_t> edges_;
+  std::vector<Placed> edges_;
 };
 
 }  // namespace standpoint

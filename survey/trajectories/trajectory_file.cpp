@@ -34,6 +34,12 @@ constexpr TrajectoryFormat kFormats[] = {
      readHeliosArinc, writeHeliosArinc},
 };
 
+std::string extensionOf(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
 // A text by its first lines.
 Result<const TrajectoryFormat*> formatOfText(const std::filesystem::path& file) {
   TRY_ASSIGN(auto input, InputFile::open(file));
@@ -72,6 +78,11 @@ Result<TrajectoryFrame> mapFrame(const Georeference& georeference) {
       {unitRotation(rotationOf({0, 0, yaw})), mapFromFile(map, georeference.shift_m)}, map.scale, georeference.crs};
 }
 
+Result<TrajectoryFrame> fileFrame(const Georeference& georeference, std::string_view format) {
+  if (format == "sbet") return mapFrame(georeference);
+  return TrajectoryFrame{{Eigen::Quaterniond::Identity(), georeference.shift_m}};
+}
+
 std::span<const TrajectoryFormat> trajectoryFormats() { return kFormats; }
 
 const TrajectoryFormat* trajectoryFormat(std::string_view id) {
@@ -80,9 +91,16 @@ const TrajectoryFormat* trajectoryFormat(std::string_view id) {
   return found == std::end(kFormats) ? nullptr : found;
 }
 
+const TrajectoryFormat* trajectoryFormatFor(const std::filesystem::path& file) {
+  const std::string extension = extensionOf(file);
+  if (extension == ".out") return trajectoryFormat("sbet");
+  const auto* const found = std::find_if(std::begin(kFormats), std::end(kFormats),
+                                         [&](const TrajectoryFormat& f) { return f.extension == extension; });
+  return found == std::end(kFormats) ? nullptr : found;
+}
+
 Result<const TrajectoryFormat*> trajectoryFormatOf(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = extensionOf(file);
   if (extension == ".sbet" || extension == ".out") return trajectoryFormat("sbet");
   if (extension == ".tum") return trajectoryFormat("tum");
   if (extension == ".kitti") return trajectoryFormat("kitti");

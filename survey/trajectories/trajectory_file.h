@@ -25,6 +25,9 @@ struct TrajectoryFrame {
 // Of a model that states its map; an error says what is missing.
 Result<TrajectoryFrame> mapFrame(const Georeference& georeference);
 
+// Of a format's files: of SBET the map, of all others the model's own coordinates.
+Result<TrajectoryFrame> fileFrame(const Georeference& georeference, std::string_view format);
+
 struct ReadTrajectory {
   std::string format;           // its id
   Trajectory samples;           // local_from_body, the body as its format says; times as in the file, in seconds
@@ -50,5 +53,7 @@ std::span<const TrajectoryFormat> trajectoryFormats();
 const TrajectoryFormat* trajectoryFormat(std::string_view id);
 // By the extension, of texts by their first line; null when it is not known.
 Result<const TrajectoryFormat*> trajectoryFormatOf(const std::filesystem::path& file);
+// Of a file to be written, by its extension alone.
+const TrajectoryFormat* trajectoryFormatFor(const std::filesystem::path& file);
 
 }  // namespace standpoint

@@ -144,7 +144,7 @@ TEST(Edges, AreWhereverABeamMeetsSeveralSurfaces) {
     EXPECT_EQ(carried.points.size(), found.points.size()) << id;
     const Differences near = between(carried.points, found.points, settings);
     EXPECT_LE(near.others, 2U) << id;
-    EXPECT_LT(near.astray, found.points.size() / 20000) << id;
+    EXPECT_LT(near.astray, found.points.size() / 5000) << id;
   }
 }
 

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/survey/moving_scan.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/random.h"
+#include "project/survey/scan_header.h"
+#include "project/survey/scan_request.h"
+#include "survey/scanning/scan_identity.h"
+#include "survey/trajectories/carried_way.h"
+#include "survey/trajectories/trajectory_file.h"
+
+namespace standpoint {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kWritten_hz = 200;  // of trajectories beside the points: chords of a gait stray by 9 micrometres
+
+// Of the job, or of a file.
+Result<CarriedTrajectory> trajectoryNamed(const Job& job, const std::string& name) {
+  const auto found = std::find_if(job.trajectories.begin(), job.trajectories.end(),
+                                  [&](const CarriedTrajectory& t) { return t.name == name; });
+  if (found != job.trajectories.end()) return *found;
+  std::error_code code;
+  if (fs::is_regular_file(name, code)) {
+    CarriedTrajectory of_file;
+    of_file.name = fs::path(name).stem().string();
+    of_file.file = name;
+    return of_file;
+  }
+  return failure(ErrorKind::usage, fmt::format("unknown trajectory '{}', and no such file", name), "--trajectory");
+}
+
+const ErrorProfile* profileOf(const ScanRequest& request, TrajectoryError error) {
+  const auto named = [](std::string_view id) -> const ErrorProfile* {
+    return std::find_if(kErrorProfiles.begin(), kErrorProfiles.end(),
+                        [&](const ErrorProfile& p) { return p.id == id; });
+  };
+  const std::string& mount = request.instrument.moving->mount;
+  switch (error) {
+    case TrajectoryError::none: return nullptr;
+    case TrajectoryError::wearable: return named("wearable");
+    case TrajectoryError::handheld: return named("handheld");
+    case TrajectoryError::poor: return named("poor");
+    case TrajectoryError::survey_mms: return named("survey-mms");
+    case TrajectoryError::uav: return named("uav");
+    case TrajectoryError::mems: return named("mems");
+    case TrajectoryError::of_instrument: break;
+  }
+  if (request.options.effects == Effects::none()) return nullptr;
+  if (mount == "body") return named("wearable");
+  if (mount == "vehicle") return named("survey-mms");
+  if (mount == "aircraft") return named("uav");
+  return named("handheld");
+}
+
+Result<void> writeTrajectory(const PoseFunction& function, const Georeference& georeference, fs::path beside,
+                             const char* ending) {
+  beside.replace_extension(ending);
+  const TrajectoryFormat* const format = trajectoryFormat("csv");
+  TRY_ASSIGN(const auto frame, fileFrame(georeference, format->id));
+  TRY(format->write(beside, evenSamples(function, kWritten_hz), frame));
+  return {};
+}
+
+// What of the way decides the points, as a text.
+std::string wayText(const CarriedTrajectory& trajectory, const CarriedWay& way, const SolvedWay& solved,
+                    const ErrorProfile* profile) {
+  std::uint64_t hash = stableHash("standpoint way");
+  for (int k = 0; k <= 64; ++k) {
+    const double time_s = way.truth->first_s() + way.seconds() * k / 64;
+    for (const PoseFunctionPtr& function : {way.truth, solved.pose}) {
+      if (!function) continue;
+      const Pose pose = function->pose(time_s);
+      hash = stableHash(fmt::format("{} {} {} {} {} {}", pose.translation.x(), pose.translation.y(),
+                                    pose.translation.z(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z())
+                            .c_str(),
+                        hash);
+    }
+  }
+  return fmt::format("trajectory={}, {:.1f} m in {:.1f} s, {}, {:08x}", trajectory.name, way.length_m, way.seconds(),
+                     profile == nullptr ? "known exactly" : profile->id, hash & 0xFFFFFFFFU);
+}
+
+}  // namespace
+
+Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanVerbOptions& options,
+                                           const ScanSurroundings& company, Progress& progress) {
+  const auto started = std::chrono::steady_clock::now();
+  TRY_ASSIGN(auto request, scanRequestFrom(document, options));
+  TRY_ASSIGN(const auto trajectory, trajectoryNamed(*document.job, options.trajectory));
+  Answered<ScanAnswer> outcome{document};
+  Report& report = outcome.report;
+  noteDefaultRules(document, report);
+  progress.stage("Prepare " + trajectory.name, 0, 0.1);
+  TRY_ASSIGN(const auto way, carriedWay(trajectory, *document.georeference, report, progress));
+  ScanSurroundings at_hand = company;
+  if (!at_hand.preparation || !at_hand.preparation->fits(document)) {
+    TRY_ASSIGN(at_hand.preparation, prepareScan(document, nullptr, progress));
+  }
+  const RayScene& scene = *at_hand.preparation->scene;
+  findObstacles(way, scene, *document.georeference, trajectory.name, report);
+  const ErrorProfile* const profile = profileOf(request, options.trajectory_error);
+  progress.stage("Solve " + trajectory.name, 0.1, 0.15);
+  TRY_ASSIGN(const auto solved, solveWay(way, scene, document.job->stations, trajectory.name,
+                                         {.profile = profile,
+                                          .closures = options.closures == Switch::on,
+                                          .anchors = options.anchors == Switch::on,
+                                          .seed = request.options.seed,
+                                          .max_range_m = request.settings.max_range_m},
+                                         progress));
+  const PoseFunction& known = solved.pose ? *solved.pose : *way.truth;
+  request.notes.push_back(wayText(trajectory, way, solved, profile));
+  request.options.station_key = static_cast<std::uint32_t>(stableHash(trajectory.name.c_str()));
+  request.settings.scan_seconds = way.seconds();
+
+  // Upright and at whole metres near the beginning: single precision is enough for the points, and the same place
+  // whatever the error.
+  const Pose start{Eigen::Quaterniond::Identity(),
+                   way.truth->pose(way.truth->first_s()).translation.array().round().matrix()};
+  Station as_station;
+  as_station.name = trajectory.name;
+  as_station.true_pose = start;
+  const auto guid = guidOf(at_hand.preparation->fingerprint, as_station, start, request);
+  const fs::path file = fileOf(request, as_station);
+  ScanMotion motion{.true_pose = *way.truth, .solved_pose = solved.pose.get()};
+  motion.from_s = way.truth->first_s(), motion.to_s = way.truth->last_s();
+  motion.deskew = options.deskew;
+  motion.local_from_points = start;
+  if (options.shard) {
+    const std::uint64_t blocks = blocksOf(request.instrument, request.settings, way.seconds());
+    request.options.first_column =
+        static_cast<std::uint32_t>(blocks * (options.shard->index - 1) / options.shard->count);
+    request.options.end_column = static_cast<std::uint32_t>(blocks * options.shard->index / options.shard->count);
+  }
+
+  progress.stage("Scan " + trajectory.name, 0.15, 1);
+  TRY_ASSIGN(const auto writer, request.writer(file));
+  ScanHeader header =
+      scanHeader(document, at_hand.preparation->world, trajectory.name, start, guid, request, kFirstStart_gps_s);
+  header.rows = header.columns = 0;
+  TRY(writer->begin(header));
+  TRY_ASSIGN(const auto count, scan(scene, at_hand.preparation->world.assignment, request.instrument, request.settings,
+                                    motion, request.options, *writer, progress));
+  TRY(writer->end());
+  TRY(writer->close());
+  report.append(writer->report());
+  TRY(writeTrajectory(known, *document.georeference, file, ".trajectory.csv"));
+  if (options.truth) TRY(writeTrajectory(*way.truth, *document.georeference, file, ".true.csv"));
+
+  if (count.points == 0) report.warn(trajectory.name, "no surface is in range of the instrument along the trajectory");
+  if (profile != nullptr)
+    report.note(trajectory.name,
+                fmt::format("the trajectory errs by {:.1f} mm (rms), {:.1f} mm at most; {} closures "
+                            "and {} stations hold it",
+                            1e3 * solved.rms_m, 1e3 * solved.largest_m, solved.closures, solved.anchors));
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  outcome.answer.stations.push_back(
+      {trajectory.name, count.points, count.pulses, count.returns, seconds, way.seconds(), file, std::nullopt});
+  outcome.description =
+      fmt::format("Scanned along {} with {} {}", trajectory.name, request.instrument.maker, request.instrument.model);
+  Job job = *document.job;
+  for (CarriedTrajectory& of_job : job.trajectories)
+    if (of_job.name == trajectory.name && of_job.file == trajectory.file)
+      of_job.scans.push_back({.instrument = request.instrument.id,
+                              .file = file.string(),
+                              .format = request.format->name,
+                              .settings = request.settings.values,
+                              .seed = request.options.seed,
+                              .pulses = count.pulses,
+                              .points = count.points,
+                              .instrument_seconds = way.seconds()});
+  outcome.document.job = std::make_shared<const Job>(std::move(job));
+  return outcome;
+}
+
+}  // namespace standpoint

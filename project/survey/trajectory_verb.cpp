@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/motion/carriers.h"
+#include "core/output_place.h"
+#include "project/answers.h"
+#include "project/survey/survey_verbs.h"
+#include "survey/stations/station_places.h"
+#include "survey/trajectories/carried_way.h"
+#include "survey/trajectories/trajectory_file.h"
+
+namespace standpoint {
+
+namespace {
+
+auto trajectoryAt(Job& job, const std::string& name) {
+  return std::find_if(job.trajectories.begin(), job.trajectories.end(),
+                      [&](const CarriedTrajectory& t) { return t.name == name; });
+}
+
+tl::unexpected<Error> noTrajectory(const Job& job, const std::string& name) {
+  std::string names;
+  for (const auto& t : job.trajectories) names += (names.empty() ? "" : ", ") + t.name;
+  return failure(ErrorKind::usage,
+                 fmt::format("unknown trajectory '{}'; available: {}", name, names.empty() ? "none" : names));
+}
+
+Result<void> checkTrajectoryName(Job& job, const std::string& name, const char* option) {
+  if (name.empty() || name.find_first_of("/\\:,\"\n") != std::string::npos)
+    return failure(ErrorKind::usage, fmt::format("'{}' cannot be a trajectory's name", name), option);
+  if (trajectoryAt(job, name) != job.trajectories.end())
+    return failure(ErrorKind::usage, fmt::format("there is a trajectory '{}' already", name), option);
+  return {};
+}
+
+// "X,Y[,Z][:STOP]"
+struct Clicked {
+  FloorPlace place;
+  double stop_s = 0;
+};
+
+Result<Clicked> clickedFrom(const std::string& text) {
+  const auto colon = std::min(text.find(':'), text.size());
+  const auto numbers = parseNumbers(text.substr(0, colon));
+  if (!numbers || numbers->size() < 2 || numbers->size() > 3)
+    return failure(ErrorKind::usage, fmt::format("'{}' must be X,Y or X,Y,Z in metres, and may end in :SECONDS", text),
+                   "--through");
+  Clicked clicked{{(*numbers)[0], (*numbers)[1], {}}};
+  if (numbers->size() == 3) clicked.place.z_m = (*numbers)[2];
+  if (colon == text.size()) return clicked;
+  const auto stop = parseNumbers(text.substr(colon + 1));
+  if (!stop || stop->size() != 1 || (*stop)[0] < 0 || (*stop)[0] > 3600)
+    return failure(ErrorKind::usage, fmt::format("'{}' must stop from 0 to 3600 seconds", text), "--through");
+  clicked.stop_s = (*stop)[0];
+  return clicked;
+}
+
+// On the floor there, or in the air where its height is stated and no floor is.
+Result<Waypoint> waypointAt(const RayScene& scene, const Georeference& g, const Clicked& clicked, double height_m) {
+  const double x = clicked.place.x_m - g.shift_m.x(), y = clicked.place.y_m - g.shift_m.y();
+  const auto floors = floorsAt(scene, x, y, height_m);
+  const auto near = [&](double z) { return std::abs(z + g.shift_m.z() - *clicked.place.z_m) <= 0.5; };
+  if (clicked.place.z_m && std::none_of(floors.begin(), floors.end(), near))
+    return Waypoint{{x, y, *clicked.place.z_m - g.shift_m.z()}, clicked.stop_s};
+  if (floors.empty())
+    return failure(ErrorKind::unusable,
+                   fmt::format("no floor at ({}, {}) with {:.2f} m of free height; choose another place, or state its "
+                               "height as X,Y,Z",
+                               clicked.place.x_m, clicked.place.y_m, height_m + kRoomAbove_m),
+                   "--through");
+  TRY_ASSIGN(const auto floor, chosenFloor(floors, clicked.place.z_m, g.shift_m.z()));
+  return Waypoint{{x, y, floor}, clicked.stop_s};
+}
+
+Result<CarriedTrajectory> newTrajectory(const Document& document, const TrajectoryOptions& options,
+                                        Progress& progress) {
+  CarriedTrajectory made;
+  made.name = *options.add;
+  made.seed = options.seed;
+  made.carrier = options.carrier.empty() ? "hand" : options.carrier;
+  if (!options.file.empty()) {
+    if (!options.through.empty()) return failure(ErrorKind::usage, "use either waypoints or a file", "--through");
+    made.file = options.file.string();
+    made.format = options.format;
+    if (made.format.empty()) {
+      TRY_ASSIGN(const auto* format, trajectoryFormatOf(options.file));
+      if (format == nullptr)
+        return failure(ErrorKind::usage, "the format of this trajectory is not known; state it with --format",
+                       options.file.string());
+      made.format = format->id;
+    }
+    return made;
+  }
+  if (options.through.size() < 2)
+    return failure(ErrorKind::usage, "specify at least two places as X,Y or X,Y,Z, or a file", "--through");
+  const auto carrier =
+      std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == made.carrier; });
+  made.height_m = options.height_m.value_or(0), made.speed_mps = options.speed_mps.value_or(0);
+  TRY_ASSIGN(const auto scene, RayScene::build(document.environment(), progress));
+  const double height = options.height_m.value_or(carrier->limits.height_m);
+  for (const std::string& text : options.through) {
+    TRY_ASSIGN(const auto clicked, clickedFrom(text));
+    TRY_ASSIGN(const auto waypoint, waypointAt(*scene, *document.georeference, clicked, height));
+    made.waypoints.push_back(waypoint);
+  }
+  return made;
+}
+
+// Of what it takes to go it; a trajectory that cannot be made is listed with the reason.
+TrajectoryRow trajectoryRow(const CarriedTrajectory& t, const Georeference& g, Report& report, Progress& progress) {
+  TrajectoryRow row{t.name, t.file.empty() ? t.carrier : "", t.waypoints.size(), {}, {}, {}, t.file, t.scans.size()};
+  Report of_file;
+  const auto way = carriedWay(t, g, of_file, progress);
+  if (!way) {
+    report.warn(t.name, describe(way.error()));
+    return row;
+  }
+  row.length_m = way->length_m, row.seconds = way->seconds();
+  if (way->seconds() > 0) row.mean_mps = way->length_m / way->seconds();
+  return row;
+}
+
+Result<void> writeTrajectoryFile(const CarriedTrajectory& trajectory, const Georeference& g,
+                                 const TrajectoryOptions& options, Report& report, Progress& progress) {
+  const TrajectoryFormat* const format =
+      options.format.empty() ? trajectoryFormatFor(options.output) : trajectoryFormat(options.format);
+  if (format == nullptr) {
+    std::string known;
+    for (const auto& f : trajectoryFormats()) known += (known.empty() ? "" : ", ") + std::string(f.extension);
+    return failure(ErrorKind::usage,
+                   fmt::format("unsupported format '{}'; use {}", options.output.extension().string(), known),
+                   "--output");
+  }
+  TRY(checkFolderOf(options.output, "--output"));
+  TRY_ASSIGN(const auto way, carriedWay(trajectory, g, report, progress));
+  TRY_ASSIGN(const auto frame, fileFrame(g, format->id));
+  TRY_ASSIGN(const auto lost, format->write(options.output, evenSamples(*way.truth, options.rate_hz), frame));
+  report.append(lost);
+  return {};
+}
+
+}  // namespace
+
+const Fields<TrajectoryOptions>& trajectoryFields() {
+  using O = TrajectoryOptions;
+  static const Fields<O> fields = {
+      {"add", &O::add, "name of a new trajectory, with --through or --file"},
+      {"through", &O::through,
+       "places on the floor that it passes, X,Y or X,Y,Z in the model's own frame; X,Y:SECONDS stops there"},
+      {"file", &O::file, "file of a recorded trajectory, instead: CSV, SBET, TUM, KITTI, EuRoC, HELIOS++"},
+      {"format",
+       &O::format,
+       "of the file that is read or written, where its name and first lines do not say",
+       {.choices = {"csv", "sbet", "tum", "euroc", "kitti", "helios", "helios-arinc"}}},
+      {"carrier",
+       &O::carrier,
+       "what bears the scanner: pace, gait and shaking follow from it",
+       {.choices = {"hand", "backpack", "trolley", "vehicle", "uav"}}},
+      {"height",
+       &O::height_m,
+       "of the scanner above the floor; without it the carrier's",
+       {.unit = "m", .minimum = 0, .maximum = 1000}},
+      {"speed", &O::speed_mps, "at most; without it the carrier's", {.unit = "m/s", .minimum = 0.01, .maximum = 100}},
+      {"seed", &O::seed, "of gait and shaking", {.minimum = 0, .maximum = 9007199254740991.0}},
+      {"rename", &O::rename, "name of the trajectory that gets another --name"},
+      {"name", &O::name, "its new name"},
+      {"remove", &O::remove, "name of a trajectory to remove; its scans stay where they are"},
+      {"write", &O::write, "name of a trajectory to write to --output"},
+      {"output", &O::output, "file to write: .csv, .sbet, .tum, .kitti, .trj"},
+      {"rate", &O::rate_hz, "samples of that file", {.unit = "Hz", .minimum = 1, .maximum = 10000}}};
+  return fields;
+}
+
+const AnswerFields<TrajectoryRow>& answerFields(const TrajectoryRow*) {
+  using A = TrajectoryRow;
+  static const AnswerFields<A> fields = {
+      {"name", &A::name},       {"carrier", &A::carrier},   {"waypoints", &A::waypoints}, {"length_m", &A::length_m},
+      {"seconds", &A::seconds}, {"mean_mps", &A::mean_mps}, {"file", &A::file},           {"scans", &A::scans}};
+  return fields;
+}
+
+const AnswerFields<TrajectoryAnswer>& answerFields(const TrajectoryAnswer*) {
+  using A = TrajectoryAnswer;
+  static const AnswerFields<A> fields = {{"trajectories", &A::trajectories}, {"file", &A::file, kLeftOut}};
+  return fields;
+}
+
+Result<Answered<TrajectoryAnswer>> runTrajectory(const Document& document, const TrajectoryOptions& options,
+                                                 Progress& progress) {
+  progress.stage("Trajectory");
+  const int asked = static_cast<int>(options.add.has_value()) + static_cast<int>(options.rename.has_value()) +
+                    static_cast<int>(options.remove.has_value()) + static_cast<int>(options.write.has_value());
+  if (asked > 1)
+    return failure(ErrorKind::usage, "specify one of --add NAME, --rename NAME, --remove NAME, --write NAME");
+  if (!options.add && (!options.through.empty() || !options.file.empty()))
+    return failure(ErrorKind::usage, "name the new trajectory with --add NAME", "--add");
+  if (options.write.has_value() == options.output.empty())
+    return failure(ErrorKind::usage, "--write NAME and --output FILE belong together", "--output");
+  Answered<TrajectoryAnswer> outcome{document};
+  Job job = *document.job;
+  const auto& g = *document.georeference;
+  if (options.add) {
+    TRY(checkTrajectoryName(job, *options.add, "--add"));
+    TRY_ASSIGN(auto made, newTrajectory(document, options, progress));
+    TRY_ASSIGN(const auto way, carriedWay(made, g, outcome.report, progress));
+    TRY_ASSIGN(const auto scene, RayScene::build(document.environment(), progress));
+    findObstacles(way, *scene, g, made.name, outcome.report);
+    job.trajectories.push_back(std::move(made));
+    outcome.description = "Added trajectory " + *options.add;
+  } else if (options.rename || options.remove || options.write) {
+    const std::string& name = options.rename ? *options.rename : options.remove ? *options.remove : *options.write;
+    const auto at = trajectoryAt(job, name);
+    if (at == job.trajectories.end()) return noTrajectory(job, name);
+    if (options.rename) {
+      if (options.name != name) TRY(checkTrajectoryName(job, options.name, "--name"));
+      at->name = options.name;
+      outcome.description = fmt::format("Renamed trajectory {} to {}", name, options.name);
+    } else if (options.remove) {
+      job.trajectories.erase(at);
+      outcome.description = "Removed trajectory " + name;
+    } else {
+      TRY(writeTrajectoryFile(*at, g, options, outcome.report, progress));
+      outcome.answer.file = options.output;
+    }
+  }
+  for (const auto& t : job.trajectories)
+    outcome.answer.trajectories.push_back(trajectoryRow(t, g, outcome.report, progress));
+  if (options.add || options.rename || options.remove)
+    outcome.document.job = std::make_shared<const Job>(std::move(job));
+  return outcome;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "survey/trajectories/carried_way.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "core/motion/carriers.h"
+#include "core/motion/closures.h"
+#include "core/motion/degeneracy.h"
+#include "core/motion/gait.h"
+#include "core/portable_math.h"
+#include "core/random.h"
+#include "core/units.h"
+#include "survey/scene/bodies.h"
+#include "survey/trajectories/trajectory_file.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr double kSampled_hz = 200;
+constexpr double kClosure_sigma_m = 0.003, kClosure_sigma_rad = 0.02 * kRadPerDeg;
+constexpr int kDirections = 96;  // about a knot
+
+double lengthOf(const PoseFunction& path) {
+  constexpr double kStep_s = 0.05;
+  double length = 0;
+  Eigen::Vector3d before = path.pose(path.first_s()).translation;
+  const auto steps = static_cast<std::uint64_t>(std::ceil((path.last_s() - path.first_s()) / kStep_s));
+  for (std::uint64_t k = 1; k <= steps; ++k) {
+    const Eigen::Vector3d here = path.pose(std::min(path.last_s(), path.first_s() + k * kStep_s)).translation;
+    length += (here - before).norm();
+    before = here;
+  }
+  return length;
+}
+
+Result<CarriedWay> wayOfFile(const CarriedTrajectory& trajectory, const Georeference& georeference, Report& report,
+                             Progress& progress) {
+  const TrajectoryFormat* format = trajectoryFormat(trajectory.format);
+  if (format == nullptr) {
+    TRY_ASSIGN(format, trajectoryFormatOf(trajectory.file));
+  }
+  if (format == nullptr)
+    return failure(ErrorKind::usage, "the format of this trajectory is not known; state it", trajectory.file);
+  TRY_ASSIGN(const auto frame, fileFrame(georeference, format->id));
+  TRY_ASSIGN(auto read, format->read(trajectory.file, frame, progress));
+  report.append(read.report);
+  auto spline = PoseSpline::through(read.samples, read.gap_s);
+  if (!spline) return failure(spline.error().kind, spline.error().message, trajectory.file);
+  CarriedWay way;
+  way.path = way.truth = std::make_shared<const PoseSpline>(*std::move(spline));
+  way.length_m = lengthOf(*way.path);
+  return way;
+}
+
+// Even over the sphere, as the leaves of a sunflower are over its disc.
+Eigen::Vector3d directionOf(int k) {
+  constexpr double kGoldenTurn = 0.6180339887498949;
+  const double z = 1 - (2 * k + 1.0) / kDirections, turn = k * kGoldenTurn;
+  double sine = 0, cosine = 0;
+  portable::sinCos(2 * std::numbers::pi * (turn - std::floor(turn)), sine, cosine);
+  const double across = std::sqrt(1 - z * z);
+  return {across * cosine, across * sine, z};
+}
+
+void setDegeneracy(std::vector<ErrorKnot>& knots, const RayScene& scene, double max_range_m) {
+  tbb::parallel_for(std::size_t{0}, knots.size(), [&](std::size_t i) {
+    Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
+    int returned = 0;
+    for (int k = 0; k < kDirections; ++k) {
+      const auto hit = scene.intersect(knots[i].pose.translation, directionOf(k), max_range_m);
+      if (!hit) continue;
+      ++returned;
+      normals += hit->normal * hit->normal.transpose();
+    }
+    knots[i].degeneracy = degeneracy(normals, static_cast<double>(returned) / kDirections);
+  });
+}
+
+const ErrorKnot& nearestTo(const std::vector<ErrorKnot>& knots, const Eigen::Vector3d& place) {
+  return *std::min_element(knots.begin(), knots.end(), [&](const ErrorKnot& a, const ErrorKnot& b) {
+    return (a.pose.translation - place).squaredNorm() < (b.pose.translation - place).squaredNorm();
+  });
+}
+
+}  // namespace
+
+Result<CarriedWay> carriedWay(const CarriedTrajectory& trajectory, const Georeference& georeference, Report& report,
+                              Progress& progress) {
+  if (!trajectory.file.empty()) return wayOfFile(trajectory, georeference, report, progress);
+  const auto carrier =
+      std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == trajectory.carrier; });
+  if (carrier == kCarriers.end())
+    return failure(ErrorKind::usage, fmt::format("unknown carrier '{}'", trajectory.carrier), trajectory.name);
+  PathLimits limits = carrier->limits;
+  if (trajectory.height_m > 0) limits.height_m = trajectory.height_m;
+  if (trajectory.speed_mps > 0) limits.speed_mps = trajectory.speed_mps;
+  auto walked = walkPath(trajectory.waypoints, limits);
+  if (!walked) return failure(walked.error().kind, walked.error().message, trajectory.name);
+  CarriedWay way;
+  way.length_m = walked->length_m;
+  way.path = std::make_shared<const PoseSpline>(std::move(walked->poses));
+  TRY(progress.check());
+  const CarriedPose carried(way.path, *carrier, trajectory.seed,
+                            static_cast<std::uint32_t>(stableHash(trajectory.name.c_str())));
+  TRY_ASSIGN(auto spline, sampled(carried, kSampled_hz));
+  way.truth = std::make_shared<const PoseSpline>(std::move(spline));
+  return way;
+}
+
+Trajectory evenSamples(const PoseFunction& function, double rate_hz) {
+  Trajectory samples;
+  const double first = function.first_s(), last = function.last_s();
+  const auto count = static_cast<std::uint64_t>(std::ceil((last - first) * rate_hz));
+  for (std::uint64_t k = 0; k <= count; ++k) {
+    samples.time_s.push_back(k < count ? first + static_cast<double>(k) / rate_hz : last);
+    samples.pose.push_back(function.pose(samples.time_s.back()));
+  }
+  return samples;
+}
+
+void findObstacles(const CarriedWay& way, const RayScene& scene, const Georeference& georeference,
+                   const std::string& name, Report& report) {
+  constexpr double kStep_s = 0.1;
+  constexpr std::size_t kMost = 10;
+  std::size_t found = 0;
+  const double first = way.path->first_s(), last = way.path->last_s();
+  Eigen::Vector3d before = way.path->pose(first).translation;
+  const auto steps = static_cast<std::uint64_t>(std::ceil((last - first) / kStep_s));
+  for (std::uint64_t k = 1; k <= steps; ++k) {
+    const double time_s = std::min(last, first + k * kStep_s);
+    const Eigen::Vector3d here = way.path->pose(time_s).translation;
+    const double length = (here - before).norm();
+    if (length < 1e-6) continue;
+    const auto hit = scene.intersect(before, (here - before) / length, length);
+    before = here;
+    if (!hit || ++found > kMost) continue;
+    const Eigen::Vector3d at = hit->position + georeference.shift_m;
+    report.warn(name, fmt::format("goes through {} at ({:.2f}, {:.2f}, {:.2f}), after {:.1f} s",
+                                  productText(scene.environment().products[hit->product]), at.x(), at.y(), at.z(),
+                                  time_s - first));
+  }
+  if (found > kMost) report.warn(name, fmt::format("goes through {} more surfaces", found - kMost));
+}
+
+Result<SolvedWay> solveWay(const CarriedWay& way, const RayScene& scene, std::span<const Station> stations,
+                           const std::string& name, const WaySolving& solving, Progress& progress) {
+  SolvedWay solved;
+  if (solving.profile == nullptr) return solved;
+  TRY_ASSIGN(auto knots, errorKnots(*way.path));
+  setDegeneracy(knots, scene, solving.max_range_m);
+  TRY(progress.check());
+  std::vector<MotionConstraint> constraints;
+  if (solving.closures)
+    for (const LoopClosure& closure : findClosures(knots))
+      constraints.push_back({closure.time_s, closure.earlier_s, kClosure_sigma_m, kClosure_sigma_rad});
+  solved.closures = constraints.size();
+  for (const Station& station : stations) {
+    if (!solving.anchors || station.scans.empty()) continue;
+    const ErrorKnot& knot = nearestTo(knots, station.true_pose.translation);
+    if ((knot.pose.translation - station.true_pose.translation).norm() > solving.anchor_reach_m) continue;
+    constraints.push_back({knot.time_s, {}, kClosure_sigma_m, kClosure_sigma_rad});
+    ++solved.anchors;
+  }
+  TRY_ASSIGN(const auto trajectory, solveTrajectory(way.truth, knots, *solving.profile, constraints, solving.seed,
+                                                    static_cast<std::uint32_t>(stableHash(name.c_str())), progress));
+  for (const KnotError& error : trajectory.errors) {
+    solved.rms_m += error.position_m.squaredNorm() / static_cast<double>(trajectory.errors.size());
+    solved.largest_m = std::max(solved.largest_m, error.position_m.norm());
+  }
+  solved.rms_m = std::sqrt(solved.rms_m);
+  TRY_ASSIGN(auto spline, sampled(*trajectory.pose, kSampled_hz));
+  solved.pose = std::make_shared<const PoseSpline>(std::move(spline));
+  return solved;
+}
+
+}  // namespace standpoint
