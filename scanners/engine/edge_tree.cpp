@@ -6,7 +6,9 @@
 #include <bit>
 #include <cmath>
 
+#include "core/portable_math.h"
 #include "scanners/engine/edge_sight.h"
+#include "scanners/math/target_clones.h"
 
 namespace standpoint {
 
@@ -47,7 +49,41 @@ bool inBeam(const Beam& beam, Eigen::Vector3d from, Eigen::Vector3d to, InBeam& 
   return true;
 }
 
+// The beams that an edge may be in, as bits; those that it passes close by their origin are among them.
+template <class Lanes>
+STANDPOINT_INLINE std::uint32_t nearLanes(const Lanes& b, const double* from, const double* to, double exit_m,
+                                          double divergence_rad) {
+  constexpr double kSafe = 1.5, kMost = kSafe * kBeamEdge * kBeamEdge / 4;
+  std::uint64_t bits[kPacket];
+  for (int k = 0; k < kPacket; ++k) {
+    const double fx = from[0] - b.origin[0][k], fy = from[1] - b.origin[1][k], fz = from[2] - b.origin[2][k];
+    const double tx = to[0] - b.origin[0][k], ty = to[1] - b.origin[1][k], tz = to[2] - b.origin[2][k];
+    const double f = b.direction[0][k] * fx + b.direction[1][k] * fy + b.direction[2][k] * fz;
+    const double t = b.direction[0][k] * tx + b.direction[1][k] * ty + b.direction[2][k] * tz;
+    const double f_near = 1 / std::max(f, kNearest_m), t_near = 1 / std::max(t, kNearest_m);
+    const double u = (b.across[0][k] * fx + b.across[1][k] * fy + b.across[2][k] * fz) * f_near;
+    const double v = (b.upward[0][k] * fx + b.upward[1][k] * fy + b.upward[2][k] * fz) * f_near;
+    const double du = (b.across[0][k] * tx + b.across[1][k] * ty + b.across[2][k] * tz) * t_near - u;
+    const double dv = (b.upward[0][k] * tx + b.upward[1][k] * ty + b.upward[2][k] * tz) * t_near - v;
+    const double square = du * du + dv * dv, toward = -(u * du + v * dv) / std::max(square, 1e-30);
+    const double along = toward > 0 ? (toward < 1 ? toward : 1) : 0;
+    const double x = u + along * du, y = v + along * dv, nearness = f_near + along * (t_near - f_near);
+    const double exit = exit_m * nearness;
+    const bool beside = x * x + y * y <= kMost * (exit * exit + divergence_rad * divergence_rad);
+    const bool cut = (f < kNearest_m) != (t < kNearest_m);
+    bits[k] = beside || cut ? std::uint64_t{1} << static_cast<unsigned>(k) : 0;
+  }
+  std::uint64_t lanes = 0;
+  for (int k = 0; k < kPacket; ++k) lanes |= bits[k];
+  return static_cast<std::uint32_t>(lanes);
+}
+
 }  // namespace
+
+STANDPOINT_CLONES std::uint32_t EdgeTree::BeamLanes::near(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                                                          double exit_m, double divergence_rad) const {
+  return nearLanes(*this, from.data(), to.data(), exit_m, divergence_rad);
+}
 
 EdgeTree::EdgeTree(const ScanPlan& plan) : plan_(plan) {
   for (std::uint32_t placement = 0; placement < plan.scene.placementCount(); ++placement) {
@@ -173,7 +209,13 @@ void EdgeTree::markEdge(std::uint64_t edge, const ColumnHits& hits, Packet& pack
   if (!packet.has_beams)
     for (std::uint32_t left = packet.lanes; left != 0; left &= left - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
-      packet.beams[lane] = hits.beam(packet.first_row + lane);
+      const Beam& beam = packet.beams[lane] = hits.beam(packet.first_row + lane);
+      for (int i = 0; i < 3; ++i) {
+        packet.side_by_side.origin[i][lane] = beam.origin[i];
+        packet.side_by_side.direction[i][lane] = beam.direction[i];
+        packet.side_by_side.across[i][lane] = beam.across[i];
+        packet.side_by_side.upward[i][lane] = beam.upward[i];
+      }
     }
   packet.has_beams = true;
   const auto placement = static_cast<std::uint32_t>(edge >> 32U);
@@ -184,7 +226,9 @@ void EdgeTree::markEdge(std::uint64_t edge, const ColumnHits& hits, Packet& pack
   };
   const Eigen::Vector3d from = corner(of.from), to = corner(of.to);
   double reach = -1;  // about the same for all of them
-  for (std::uint32_t left = packet.lanes; left != 0; left &= left - 1) {
+  for (std::uint32_t left = packet.lanes & packet.side_by_side.near(from, to, plan_.instrument.exit_diameter_m,
+                                                                    plan_.instrument.divergence_rad);
+       left != 0; left &= left - 1) {
     const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
     const std::uint32_t row = packet.first_row + lane;
     const Beam& beam = packet.beams[lane];

@@ -40,12 +40,20 @@ class EdgeTree {
     std::uint64_t edge = 0;  // placement << 32 | index
     Eigen::AlignedBox3f box() const;
   };
+  // Beams side by side.
+  struct alignas(64) BeamLanes {
+    double origin[3][kPacket] = {}, direction[3][kPacket] = {}, across[3][kPacket] = {}, upward[3][kPacket] = {};
+    // Those that an edge may be in, as bits; where it passes close by their origin, too.
+    std::uint32_t near(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double exit_m,
+                       double divergence_rad) const;
+  };
   // Sixteen rows and what holds their beams.
   struct Packet {
     std::uint32_t first_row = 0, lanes = 0;
     Cone cone;
     Beam middle;
     Beam beams[kPacket];
+    BeamLanes side_by_side;
     bool has_beams = false;
   };
 
