@@ -104,6 +104,10 @@ std::map<std::string, std::vector<json>> samplesOfVerbs(const fs::path& folder) 
         {{"rename", "M1"}, {"name", "Width"}},
         {{"remove", "M1"}}}},
       {"scan", {{{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/32", "quality=4x"}}, {"output", scan}}}},
+      {"trajectory",
+       {{{"add", "Walk 2"}, {"through", {"4.3,1.6,0", "4.3,2.4,0"}}},
+        {{"rename", "Walk 1"}, {"name", "Ground floor"}},
+        {{"remove", "Walk 1"}}}},
       {"register", {}},  // its line names only how many stations; a run needs overlapping scans
   };
 }
@@ -134,6 +138,7 @@ TEST(UndoNames, OfEveryVerbAreInPlainWords) {
       {"materials", json::object()},
       {"bookmark", {{"add", "Door"}}},
       {"measure", {{"add", "M1"}, {"kind", "distance"}, {"points", {"1,1,0", "2,1,0"}}}},
+      {"trajectory", {{"add", "Walk 1"}, {"through", {"4.3,1.6,0", "4.5,2.2,0"}}}},
       {"scan",
        {{"instrument", "faro-focus-s350"},
         {"stations", "S1"},

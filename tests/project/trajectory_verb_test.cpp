@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "pointclouds/formats.h"
+#include "project/storage/project_files.h"
+#include "tests/pointclouds/kept_scans.h"
+#include "tests/project/support.h"
+
+namespace standpoint {
+namespace {
+
+using nlohmann::json;
+using standpoint::testing::KeptScans;
+
+// A loop in the lower room, whose inner faces are at x = 0 and 6, y = 0 and 4, z = 0 and 2.8.
+json loop(const char* name = "loop") {
+  return {{"add", name}, {"through", {"500001,5600001", "500003.5,5600001", "500003.5,5600002:1.5", "500001,5600002"}}};
+}
+
+Document withLoop() {
+  auto outcome = run("trajectory", twoStoreyDocument(), loop());
+  EXPECT_TRUE(outcome) << describe(outcome.error());
+  return outcome->document;
+}
+
+json along(const std::filesystem::path& output) {
+  return {{"trajectory", "loop"}, {"instrument", "velodyne-vlp-16"}, {"output", output.string()}};
+}
+
+KeptScans pointsOf(const std::filesystem::path& file) {
+  KeptScans kept;
+  EXPECT_TRUE(standpoint::testing::readAll(file, kept)) << file;
+  return kept;
+}
+
+// From the nearest of the room's faces.
+double offFaces(const Eigen::Vector3d& p) {
+  const double x = p.x() - 500000, y = p.y() - 5600000;
+  double off =
+      std::min({std::abs(x), std::abs(x - 6), std::abs(y), std::abs(y - 4), std::abs(p.z()), std::abs(p.z() - 2.8)});
+  const bool table = x > 3.99 && x < 5.01 && y > 2.49 && y < 3.51 && p.z() < 0.76;
+  return table ? 0 : off;
+}
+
+TEST(TrajectoryVerb, KeepsWhatWasClickedWithTheProject) {
+  const TemporaryFolder folder;
+  const Document made = withLoop();
+  Progress progress;
+  ASSERT_TRUE(saveProject(made, folder.path() / "p", progress));
+  const auto back = loadProject(folder.path() / "p", progress);
+  ASSERT_TRUE(back) << describe(back.error());
+  const auto list = run("trajectory", *back, json::object());
+  ASSERT_TRUE(list);
+  const json& row = list->answer["trajectories"][0];
+  EXPECT_EQ(row["name"], "loop");
+  EXPECT_EQ(row["waypoints"], 4);
+  EXPECT_NEAR(row["length_m"].get<double>(), 6, 0.4);
+  EXPECT_GT(row["seconds"].get<double>(), 8);
+  EXPECT_EQ(back->job->trajectories[0].waypoints[2].stop_s, 1.5);
+  EXPECT_NEAR(back->job->trajectories[0].waypoints[0].floor_m.z(), 0, 1e-6);
+}
+
+TEST(TrajectoryVerb, RenamesAndRemoves) {
+  const Document made = withLoop();
+  const auto renamed = run("trajectory", made, {{"rename", "loop"}, {"name", "ground floor"}});
+  ASSERT_TRUE(renamed);
+  EXPECT_EQ(renamed->document.job->trajectories[0].name, "ground floor");
+  const auto removed = run("trajectory", renamed->document, {{"remove", "ground floor"}});
+  ASSERT_TRUE(removed);
+  EXPECT_TRUE(removed->document.job->trajectories.empty());
+}
+
+TEST(TrajectoryVerb, WritesWhatItReadsAgain) {
+  const TemporaryFolder folder;
+  const Document made = withLoop();
+  for (const std::string name : {"w.csv", "w.tum", "w.trj"}) {
+    const auto file = (folder.path() / name).string();
+    ASSERT_TRUE(run("trajectory", made, {{"write", "loop"}, {"output", file}})) << name;
+    const auto read = run("trajectory", made, {{"add", "again"}, {"file", file}});
+    ASSERT_TRUE(read) << name << describe(read.error());
+    const json& rows = read->answer["trajectories"];
+    EXPECT_NEAR(rows[1]["seconds"].get<double>(), rows[0]["seconds"].get<double>(), 0.01) << name;
+    EXPECT_NEAR(rows[1]["length_m"].get<double>(), rows[0]["length_m"].get<double>(), 0.9) << name;  // gait
+  }
+}
+
+TEST(TrajectoryVerb, NamesWhatTheWayRunsThrough) {
+  const auto through = run("trajectory", twoStoreyDocument(),
+                           {{"add", "blind"}, {"through", {"500001,5600001", "500001,5600003", "500009,5600003,0"}}});
+  ASSERT_TRUE(through) << describe(through.error());
+  bool wall = false;
+  for (const auto& issue : through->report.issues) wall |= issue.message.find("east0") != std::string::npos;
+  EXPECT_TRUE(wall);
+}
+
+TEST(TrajectoryVerb, RefusesWhatIsNoWayWithARemedy) {
+  const TemporaryFolder folder;
+  const Document made = withLoop();
+  const auto refused = [&](const json& options, const char* words) {
+    const auto outcome = run("trajectory", made, options);
+    ASSERT_FALSE(outcome) << options;
+    EXPECT_NE(describe(outcome.error()).find(words), std::string::npos) << describe(outcome.error());
+  };
+  refused(loop(), "already");
+  refused({{"add", "a/b"}, {"through", {"500001,5600001", "500002,5600001"}}}, "cannot be a trajectory's name");
+  refused({{"add", "short"}, {"through", {"500001,5600001"}}}, "at least two places");
+  refused({{"add", "odd"}, {"through", {"500001,5600001", "north"}}}, "'north' must be X,Y");
+  refused({{"add", "odd"}, {"through", {"500001,5600001", "500002,5600001:-3"}}}, "0 to 3600 seconds");
+  refused({{"add", "out"}, {"through", {"500001,5600001", "500060,5600001"}}}, "no floor at");
+  refused({{"add", "none"}, {"file", (folder.path() / "none.tum").string()}}, "none.tum");
+  refused({{"through", {"500001,5600001", "500002,5600001"}}}, "--add NAME");
+  refused({{"remove", "x"}}, "available: loop");
+  refused({{"write", "loop"}, {"output", (folder.path() / "w.doc").string()}}, "unsupported format '.doc'");
+  refused({{"write", "loop"}}, "belong together");
+  std::ofstream(folder.path() / "back.tum") << "0 1 1 1 0 0 0 1\n2 1 1 1 0 0 0 1\n1 1 1 1 0 0 0 1\n";
+  refused({{"add", "back"}, {"file", (folder.path() / "back.tum").string()}}, "line 3");
+}
+
+TEST(MovingScanVerb, SeesTheRoomFromTheWay) {
+  const TemporaryFolder folder;
+  json options = along(folder.path() / "o.e57");
+  options["ideal"] = true;
+  const auto outcome = run("scan", withLoop(), options);
+  ASSERT_TRUE(outcome) << describe(outcome.error());
+  const json& row = outcome->answer["stations"][0];
+  EXPECT_EQ(row["station"], "loop");
+  EXPECT_GT(row["points"].get<std::uint64_t>(), 1000000U);
+  EXPECT_EQ(outcome->document.job->trajectories[0].scans.size(), 1U);
+  const auto kept = pointsOf(folder.path() / "o.e57");
+  ASSERT_EQ(kept.scans.size(), 1U);
+  const auto& scan = kept.scans[0];
+  ASSERT_EQ(scan.points.time_s.size(), scan.points.size());
+  double worst = 0;
+  for (std::size_t i = 0; i < scan.points.size(); i += 101)
+    worst = std::max(worst, offFaces(scan.header.file_from_scanner *
+                                     Eigen::Vector3d(scan.points.x_m[i], scan.points.y_m[i], scan.points.z_m[i])));
+  EXPECT_LT(worst, 2e-5);
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "o.trajectory.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "o.true.csv"));
+}
+
+// A trajectory that errs bends the walls; the truth of the points stays on them, and both trajectories tell it.
+TEST(MovingScanVerb, PlacesPointsByTheTrajectoryThatTheSurveyorKnows) {
+  const TemporaryFolder folder;
+  json options = along(folder.path() / "o.e57");
+  options["without"] = "range-noise,angle-noise,bias,footprint,chance,incidence-noise,range-offset";
+  options["trajectory-error"] = "poor";
+  options["truth"] = true;
+  const auto outcome = run("scan", withLoop(), options);
+  ASSERT_TRUE(outcome) << describe(outcome.error());
+  const auto kept = pointsOf(folder.path() / "o.e57");
+  const auto& scan = kept.scans[0];
+  double squares = 0, worst_truth = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < scan.points.size(); i += 101, ++count) {
+    const auto& t = scan.points.truth;
+    const Eigen::Vector3d point =
+        scan.header.file_from_scanner * Eigen::Vector3d(scan.points.x_m[i], scan.points.y_m[i], scan.points.z_m[i]);
+    squares += std::pow(offFaces(point), 2);
+    worst_truth =
+        std::max(worst_truth, offFaces(truePose(scan.header) * Eigen::Vector3d(t.x_m[i], t.y_m[i], t.z_m[i])));
+  }
+  EXPECT_LT(worst_truth, 2e-5);
+  EXPECT_GT(std::sqrt(squares / static_cast<double>(count)), 0.0005);
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(count)), 0.02);
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "o.true.csv"));
+}
+
+TEST(MovingScanVerb, InShardsHasThePointsOfTheWhole) {
+  const TemporaryFolder folder;
+  const Document document = withLoop();
+  ASSERT_TRUE(run("scan", document, along(folder.path() / "whole.las")));
+  std::uint64_t points = 0;
+  for (int k = 1; k <= 3; ++k) {
+    json options = along(folder.path() / ("part" + std::to_string(k) + ".las"));
+    options["shard"] = std::to_string(k) + "/3";
+    const auto part = run("scan", document, options);
+    ASSERT_TRUE(part) << describe(part.error());
+    points += part->answer["stations"][0]["points"].get<std::uint64_t>();
+  }
+  EXPECT_EQ(points, pointsOf(folder.path() / "whole.las").scans[0].points.size());
+}
+
+TEST(MovingScanVerb, GoesAlongAFile) {
+  const TemporaryFolder folder;
+  std::ofstream file(folder.path() / "walk.tum");
+  file.precision(12);
+  for (int k = 0; k <= 100; ++k) file << k * 0.01 << " " << 500001 + 0.01 * k << " 5600001 1.4 0 0 0 1\n";
+  file.close();
+  json options = along(folder.path() / "o.e57");
+  options["trajectory"] = (folder.path() / "walk.tum").string();
+  options["ideal"] = true;
+  const auto outcome = run("scan", twoStoreyDocument(), options);
+  ASSERT_TRUE(outcome) << describe(outcome.error());
+  EXPECT_NEAR(outcome->answer["stations"][0]["instrument_seconds"].get<double>(), 1, 1e-9);
+  EXPECT_GT(outcome->answer["stations"][0]["points"].get<std::uint64_t>(), 200000U);
+}
+
+TEST(MovingScanVerb, RefusesWhatBelongsToStations) {
+  const TemporaryFolder folder;
+  const Document document = withLoop();
+  const auto refused = [&](const char* key, const json& value, const char* words) {
+    json options = along(folder.path() / "o.e57");
+    options[key] = value;
+    const auto outcome = run("scan", document, options);
+    ASSERT_FALSE(outcome) << key;
+    EXPECT_NE(describe(outcome.error()).find(words), std::string::npos) << describe(outcome.error());
+  };
+  refused("instrument", "leica-rtc360", "stands on a tripod");
+  refused("trajectory", "nowhere", "unknown trajectory 'nowhere'");
+  refused("stations", "S1", "belongs to stations");
+  refused("panorama", true, "belongs to stations");
+  refused("field-fault", {"until=0.5"}, "belongs to stations");
+  refused("resume", true, "belongs to stations");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "o.e57"));
+}
+
+}  // namespace
+}  // namespace standpoint
