@@ -19,7 +19,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kStep_m = 0.25, kStep_s = 0.25, kShortest_s = 0x1p-10;
-constexpr std::size_t kMostConstraints = 400;
+constexpr std::size_t kMostConstraints = 600;
 constexpr double kLeastSigma_m = 1e-6, kLeastSigma_rad = 1e-8;
 constexpr double kShakeFrom_hz = 5, kShakeTo_hz = 20;
 

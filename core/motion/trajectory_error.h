@@ -54,7 +54,7 @@ struct SolvedTrajectory {
 //
 // Constraints are linear in these errors, and met with noise of their sigmas by the linear correction that makes an
 // exact conditional draw of them (Matheron): x - K Cᵀ (C K Cᵀ + Σ)⁻¹ (C x + ν), K being the covariance of the open
-// trajectory, which is applied along the knots and never built. O(constraints · knots + constraints³); at most 400.
+// trajectory, which is applied along the knots and never built. O(constraints · knots + constraints³); at most 600.
 // Poses are moved, points never. `truth` may carry the gait that the knots' path has not.
 Result<SolvedTrajectory> solveTrajectory(PoseFunctionPtr truth, std::span<const ErrorKnot> knots,
                                          const ErrorProfile& profile, std::span<const MotionConstraint> constraints,
