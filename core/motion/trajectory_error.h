@@ -21,7 +21,7 @@ struct ErrorKnot {
   Eigen::Matrix3d degeneracy = Eigen::Matrix3d::Identity();
 };
 // Along a path as it is without gait and shaking, which are no way. A longer path has the knots of a shorter one that
-// it begins with. An error where it has no end, or would take more than a million knots.
+// it begins with, but for the last two of that. An error where it has no end, or would take more than a million knots.
 Result<std::vector<ErrorKnot>> errorKnots(const PoseFunction& path);
 
 // What holds a trajectory: at a time it was where it had been at another one (a loop closure), or where it is known to

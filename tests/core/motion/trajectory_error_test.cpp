@@ -98,6 +98,15 @@ TEST(ErrorKnots, AreAtMostAQuarterOfAMetreAndOfASecondApart) {
   EXPECT_EQ(knots->back().time_s, path->poses.last_s());
   EXPECT_NEAR(knots->back().way_m, path->length_m, 0.02);
   EXPECT_FALSE(errorKnots(ConstantPose({})));
+  // A path that ends just after a step has no step that is as short.
+  for (const double end : {9.9999999, 10.0000001}) {
+    const auto track = PoseSpline::through(
+        {{0, end}, {{Eigen::Quaterniond::Identity(), {0, 0, 0}}, {Eigen::Quaterniond::Identity(), {end / 2, 0, 0}}}});
+    const auto of_track = *errorKnots(*track);
+    for (std::size_t i = 1; i < of_track.size(); ++i)
+      EXPECT_GT(of_track[i].time_s - of_track[i - 1].time_s, 0.12) << end << " knot " << i;
+    EXPECT_EQ(of_track.back().time_s, end);
+  }
 }
 
 TEST(TrajectoryError, M7_GrowsWithTheRootOfTheWay) {

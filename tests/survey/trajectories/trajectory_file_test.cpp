@@ -250,6 +250,9 @@ TEST_F(TrajectoryFile, WithAGapHasABreakThatIsReported) {
   ASSERT_EQ(track->report.issues.size(), 1U);
   EXPECT_EQ(track->report.issues[0].severity, Severity::warning);
   EXPECT_EQ(PoseSpline::through(track->samples, track->gap_s)->breaks().size(), 1U);
+  const auto close = read("tum", write("close.tum", text + "7.0 0 0 0 0 0 0 1\n7.0001 0 0 0 0 0 0 1\n"));
+  ASSERT_EQ(close->report.issues.size(), 2U);
+  EXPECT_THAT(close->report.issues[1].message, HasSubstr("after the one before: 1;"));
 }
 
 TEST(MapFrame, IsThatOfTheModelsPlace) {
