@@ -18,7 +18,7 @@ struct LoopClosure {
 struct ClosureRules {
   double radius_m = 2;      // within which a place is known again
   double least_way_m = 10;  // since it was left
-  double apart_m = 5;       // of way between closures
+  double apart_m = 10;      // of way between closures
 };
 
 // Where a path comes back: the knots that are nearest to an earlier one, no two of them within `apart_m` of way.

@@ -25,7 +25,9 @@ double measured(const ErrorRow& row, const std::vector<ErrorState>& states) {
 
 // Solves by Cholesky's factors, in place; a row that depends on those before it has no say. Plain loops: Eigen's blocks
 // for large matrices follow the processor's caches, and so would the last bits.
-void solveSymmetric(Eigen::MatrixXd& matrix, std::vector<double>& right) {
+using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+void solveSymmetric(Square& matrix, std::vector<double>& right) {
   const Eigen::Index n = matrix.rows();
   std::vector<bool> used(static_cast<std::size_t>(n), true);
   for (Eigen::Index j = 0; j < n; ++j) {
@@ -141,7 +143,7 @@ Result<void> ErrorChain::hold(std::vector<ErrorState>& states, std::span<const E
   const auto weightsOf = [&](const ErrorRow& row, double by, std::vector<ErrorState>& weights) {
     for (const auto& [knot, weight] : row.parts) weights[knot] += by * weight;
   };
-  Eigen::MatrixXd matrix(count, count);
+  Square matrix(count, count);
   std::vector<double> right;
   for (Eigen::Index j = 0; j < count; ++j) {
     const ErrorRow& row = rows[static_cast<std::size_t>(j)];

@@ -16,6 +16,19 @@ std::array<std::uint32_t, 4> blockOf(const MotionKey& key, std::uint32_t level, 
   return philox({key.seed, key.trajectory}, index, level, static_cast<std::uint32_t>(key.process) + key.component);
 }
 
+// cos 2πt of |t| below 2^50, absolute error below 1e-15 and that of t itself: no branch and no call, so that several go
+// side by side. By the sine of what is left to a quarter turn, at most π/2.
+inline double cosineOfTurns(double turns) {
+  constexpr double kRounding = 0x1.8p52;  // adding it leaves a whole number
+  const double rest = turns - ((turns + kRounding) - kRounding);
+  const double x = kRadPerTurn * (0.25 - std::abs(rest)), q = x * x;
+  double sum = -1.0 / 121645100408832000;  // 19!
+  for (const double inverse : {1.0 / 355687428096000, -1.0 / 1307674368000, 1.0 / 6227020800, -1.0 / 39916800,
+                               1.0 / 362880, -1.0 / 5040, 1.0 / 120, -1.0 / 6, 1.0})
+    sum = sum * q + inverse;
+  return x * sum;
+}
+
 }  // namespace
 
 double normalNumber(const MotionKey& key, std::uint32_t level, std::uint32_t index) {
@@ -107,25 +120,10 @@ BandNoise::BandNoise(const MotionKey& key, double lowest_hz, double highest_hz) 
 }
 
 double BandNoise::at(double time_s) const {
+  std::array<double, kCount> cosine;
+  for (int i = 0; i < kCount; ++i) cosine[i] = cosineOfTurns(hertz_[i] * time_s + phase_turns_[i]);
   double sum = 0;
-  for (int i = 0; i < kCount; ++i) {
-    const double turns = hertz_[i] * time_s + phase_turns_[i];
-    double sine, cosine;
-    portable::sinCos(kRadPerTurn * (turns - std::floor(turns)), sine, cosine);
-    sum += cosine;
-  }
-  return sum * std::sqrt(2.0 / kCount);
-}
-
-double BandNoise::integral(double time_s) const {
-  double sum = 0;
-  for (int i = 0; i < kCount; ++i) {
-    const double turns = hertz_[i] * time_s + phase_turns_[i];
-    double sine, cosine, sine_at_0;
-    portable::sinCos(kRadPerTurn * (turns - std::floor(turns)), sine, cosine);
-    portable::sinCos(kRadPerTurn * phase_turns_[i], sine_at_0, cosine);
-    sum += (sine - sine_at_0) / (kRadPerTurn * hertz_[i]);
-  }
+  for (const double one : cosine) sum += one;
   return sum * std::sqrt(2.0 / kCount);
 }
 

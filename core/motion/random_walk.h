@@ -63,13 +63,12 @@ class GaussMarkov {
 };
 
 // Noise of standard deviation 1 whose frequencies lie in a band: sixteen sinusoids of equal strength, one in each
-// sixteenth of the band, with frequency and phase drawn. A smooth function of time without state. It costs 0.3 µs, so
-// it is sampled before a scan, never asked for each pulse.
+// sixteenth of the band, with frequency and phase drawn. A smooth function of time without state. It costs 0.1 µs;
+// a dozen of them are sampled before a scan rather than asked for each pulse.
 class BandNoise {
  public:
   BandNoise(const MotionKey& key, double lowest_hz, double highest_hz);
   double at(double time_s) const;
-  double integral(double time_s) const;  // from time 0, in seconds
 
  private:
   static constexpr int kCount = 16;

@@ -19,7 +19,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kStep_m = 0.25, kStep_s = 0.25, kShortest_s = 0x1p-10;
-constexpr std::size_t kMostConstraints = 400;
+constexpr std::size_t kMostConstraints = 600;
 constexpr double kLeastSigma_m = 1e-6, kLeastSigma_rad = 1e-8;
 constexpr double kShakeFrom_hz = 5, kShakeTo_hz = 20;
 
@@ -157,10 +157,11 @@ Result<std::vector<ErrorKnot>> errorKnots(const PoseFunction& path) {
   knots.push_back({path.first_s(), path.pose(path.first_s()), 0});
   while (knots.back().time_s < last) {
     const ErrorKnot& before = knots.back();
-    double step = kStep_s;
+    const double left = last - before.time_s;
+    double step = left < 2 * kStep_s && left > kStep_s ? left / 2 : kStep_s;  // no step is much shorter than the others
     ErrorKnot next;
     for (;; step /= 2) {
-      next.time_s = std::min(before.time_s + step, last);
+      next.time_s = left <= step ? last : before.time_s + step;
       next.pose = path.pose(next.time_s);
       const double way = (next.pose.translation - before.pose.translation).norm();
       next.way_m = before.way_m + way;

@@ -21,7 +21,7 @@ struct ErrorKnot {
   Eigen::Matrix3d degeneracy = Eigen::Matrix3d::Identity();
 };
 // Along a path as it is without gait and shaking, which are no way. A longer path has the knots of a shorter one that
-// it begins with. An error where it has no end, or would take more than a million knots.
+// it begins with, but for the last two of that. An error where it has no end, or would take more than a million knots.
 Result<std::vector<ErrorKnot>> errorKnots(const PoseFunction& path);
 
 // What holds a trajectory: at a time it was where it had been at another one (a loop closure), or where it is known to
@@ -54,7 +54,7 @@ struct SolvedTrajectory {
 //
 // Constraints are linear in these errors, and met with noise of their sigmas by the linear correction that makes an
 // exact conditional draw of them (Matheron): x - K Cᵀ (C K Cᵀ + Σ)⁻¹ (C x + ν), K being the covariance of the open
-// trajectory, which is applied along the knots and never built. O(constraints · knots + constraints³); at most 400.
+// trajectory, which is applied along the knots and never built. O(constraints · knots + constraints³); at most 600.
 // Poses are moved, points never. `truth` may carry the gait that the knots' path has not.
 Result<SolvedTrajectory> solveTrajectory(PoseFunctionPtr truth, std::span<const ErrorKnot> knots,
                                          const ErrorProfile& profile, std::span<const MotionConstraint> constraints,

@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t kMostSamples = 10'000'000;
 constexpr std::size_t kMostNumbers = 32;
-constexpr double kGap = 10;             // of usual steps
-constexpr std::size_t kMostNamed = 20;  // breaks
+constexpr double kGap = 10, kClose = 0.01;  // of usual steps
+constexpr std::size_t kMostNamed = 20;      // breaks
 constexpr std::size_t kPiece = 1 << 20;
 
 double usualStep(const std::vector<double>& times) {
@@ -70,7 +70,8 @@ Result<void> SampleTaker::take(const TimedPose& sample, const std::string& place
 Result<ReadTrajectory> SampleTaker::finish() {
   const auto& times = read_.samples.time_s;
   if (times.size() < 2) return failure(ErrorKind::unusable, "a trajectory needs at least two samples", file_);
-  read_.gap_s = kGap * usualStep(times);
+  const double usual_s = usualStep(times);
+  read_.gap_s = kGap * usual_s;
   for (std::size_t i = 1; i < times.size(); ++i)
     if (times[i] - times[i - 1] > read_.gap_s) read_.breaks.push_back({times[i - 1], times[i]});
   for (std::size_t i = 0; i < std::min(read_.breaks.size(), kMostNamed); ++i)
@@ -78,6 +79,12 @@ Result<ReadTrajectory> SampleTaker::finish() {
                                          read_.breaks[i].from_s, read_.breaks[i].to_s));
   if (read_.breaks.size() > kMostNamed)
     read_.report.warn(file_, fmt::format("{} more breaks", read_.breaks.size() - kMostNamed));
+  std::size_t close = 0;
+  for (std::size_t i = 1; i < times.size(); ++i) close += times[i] - times[i - 1] < kClose * usual_s ? 1 : 0;
+  if (close > 0)
+    read_.report.warn(file_, fmt::format("samples less than a hundredth of the usual time after the one before: {}; "
+                                         "the curve may swing out between such",
+                                         close));
   return std::move(read_);
 }
 

@@ -97,12 +97,5 @@ TEST(BandNoise, StaysInItsBand) {
   EXPECT_LT(turns, 2 * 100 * 9);
 }
 
-TEST(BandNoise, IsTheSlopeOfItsIntegral) {
-  const BandNoise noise({9, 0, MotionProcess::gait}, 0.05, 0.3);
-  EXPECT_EQ(noise.integral(0), 0);
-  for (double t = 1; t < 50; t += 3.7)
-    EXPECT_NEAR((noise.integral(t + 1e-4) - noise.integral(t - 1e-4)) / 2e-4, noise.at(t), 1e-6);
-}
-
 }  // namespace
 }  // namespace standpoint

@@ -98,6 +98,15 @@ TEST(ErrorKnots, AreAtMostAQuarterOfAMetreAndOfASecondApart) {
   EXPECT_EQ(knots->back().time_s, path->poses.last_s());
   EXPECT_NEAR(knots->back().way_m, path->length_m, 0.02);
   EXPECT_FALSE(errorKnots(ConstantPose({})));
+  // A path that ends just after a step has no step that is as short.
+  for (const double end : {9.9999999, 10.0000001}) {
+    const auto track = PoseSpline::through(
+        {{0, end}, {{Eigen::Quaterniond::Identity(), {0, 0, 0}}, {Eigen::Quaterniond::Identity(), {end / 2, 0, 0}}}});
+    const auto of_track = *errorKnots(*track);
+    for (std::size_t i = 1; i < of_track.size(); ++i)
+      EXPECT_GT(of_track[i].time_s - of_track[i - 1].time_s, 0.12) << end << " knot " << i;
+    EXPECT_EQ(of_track.back().time_s, end);
+  }
 }
 
 TEST(TrajectoryError, M7_GrowsWithTheRootOfTheWay) {
@@ -278,11 +287,11 @@ TEST(SolvedTrajectory, ShakesWithinAScan) {
 TEST(TrajectoryError, OfTooManyConstraintsIsRefusedAndCanBeCancelled) {
   const auto knots = *errorKnots(*straight(20));
   Progress progress;
-  const std::vector<MotionConstraint> many(401);
+  const std::vector<MotionConstraint> many(601);
   const auto refused =
       solveTrajectory(std::make_shared<ConstantPose>(Pose{}), knots, drifting(2), many, 1, 0, progress);
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().message, "a trajectory has at most 400 closures and control points, not 401");
+  EXPECT_EQ(refused.error().message, "a trajectory has at most 600 closures and control points, not 601");
   progress.cancel();
   const auto cancelled = solveTrajectory(std::make_shared<ConstantPose>(Pose{}), knots, drifting(2),
                                          std::vector<MotionConstraint>(3), 1, 0, progress);
@@ -327,8 +336,8 @@ TEST(FindClosures, FindsWhereAPathComesBack) {
   EXPECT_LT(crossing[0].distance_m, 0.25);
   const auto and_back = walk({{0, 0, 0}, {30, 0, 0}, {0, 0, 0}});
   const auto several = findClosures(*errorKnots(*and_back));
-  EXPECT_GE(several.size(), 4U);
-  EXPECT_LE(several.size(), 7U);
+  EXPECT_GE(several.size(), 2U);
+  EXPECT_LE(several.size(), 4U);
   EXPECT_TRUE(findClosures(*errorKnots(*and_back), {}, [](const LoopClosure&) { return false; }).empty());
   const auto upstairs = walk({{0, 0, 0}, {20, 0, 0}, {20, 2, 3}, {0, 2, 3}});
   EXPECT_TRUE(findClosures(*errorKnots(*upstairs)).empty());

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/motion/rotation_vector.h"
+#include "core/random.h"
 #include "core/units.h"
 #include "survey/geodesy.h"
 #include "tests/temporary_folder.h"
@@ -209,6 +210,35 @@ TEST_F(TrajectoryFile, ThatIsWrongIsRefusedWithItsLineAndARemedy) {
   EXPECT_EQ(read("tum", folder_.path() / "none.tum").error().kind, ErrorKind::file_system);
 }
 
+// Whatever the bytes: samples in their order, or an error with its place.
+TEST_F(TrajectoryFile, ThatIsDamagedIsReadOrRefused) {
+  constexpr int kDamages = 200;
+  Trajectory samples = winding();
+  samples.time_s.resize(20);
+  samples.pose.resize(20);
+  for (const auto& format : trajectoryFormats()) {
+    const auto whole = folder_.path() / "whole", broken = folder_.path() / "broken";
+    ASSERT_TRUE(format.write(whole, samples, onTheMap()));
+    std::filesystem::rename(folder_.path() / "whole", folder_.path() / "whole.bytes");
+    std::ifstream in(folder_.path() / "whole.bytes", std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+    std::error_code ignored;
+    std::filesystem::rename(folder_.path() / "whole_times.txt", folder_.path() / "broken_times.txt", ignored);
+    for (std::uint32_t k = 0; k < kDamages; ++k) {
+      const auto drawn = philox({k, 0}, 0, 0, 0);
+      std::string damaged = bytes.substr(0, k % 3 == 0 ? drawn[0] % bytes.size() : bytes.size());
+      for (std::size_t i = 1; i < 3 && !damaged.empty(); ++i)
+        damaged[drawn[i] % damaged.size()] = "0 ,-e\n#n\xff"[drawn[3] % 9];
+      write("broken", damaged);
+      const auto read = format.read(broken, onTheMap(), progress_);
+      if (read)
+        EXPECT_TRUE(PoseSpline::through(read->samples, read->gap_s)) << format.id << " " << k;
+      else
+        EXPECT_FALSE(read.error().source.empty()) << format.id << " " << k;
+    }
+  }
+}
+
 TEST_F(TrajectoryFile, WithAGapHasABreakThatIsReported) {
   std::string text;
   for (int i = 0; i < 40; ++i) text += std::to_string(i < 20 ? 0.1 * i : 0.1 * i + 3) + " 0 0 0 0 0 0 1\n";
@@ -220,6 +250,9 @@ TEST_F(TrajectoryFile, WithAGapHasABreakThatIsReported) {
   ASSERT_EQ(track->report.issues.size(), 1U);
   EXPECT_EQ(track->report.issues[0].severity, Severity::warning);
   EXPECT_EQ(PoseSpline::through(track->samples, track->gap_s)->breaks().size(), 1U);
+  const auto close = read("tum", write("close.tum", text + "7.0 0 0 0 0 0 0 1\n7.0001 0 0 0 0 0 0 1\n"));
+  ASSERT_EQ(close->report.issues.size(), 2U);
+  EXPECT_THAT(close->report.issues[1].message, HasSubstr("after the one before: 1;"));
 }
 
 TEST(MapFrame, IsThatOfTheModelsPlace) {
