@@ -16,6 +16,7 @@ constexpr double kStride = 0.05;   // m
 constexpr int kMostSlides = 4;     // of one stride: into a corner and out of it
 constexpr double kCrack = 0.04;    // m, between two floors, that a foot does not notice
 constexpr double kFoot = 0.12;     // m around the axis: on this much of a floor one still stands
+constexpr double kLegs = 0.05;     // m around the axis: less than the narrowest tread that one steps on is deep
 constexpr double kUneven = 0.012;  // m that one part of a wall stands out from another: collision shapes keep to 10 mm
 constexpr int kMostPushes = 4;
 const Vector3d kStepUp(0, 0, kHighestStep);
@@ -73,6 +74,29 @@ Body Avatar::slim() const {
   return {std::max(0.5 * body.radius_m, body.radius_m - kUneven), body.height_m};
 }
 
+// The treads of a stair are higher than a step from the second on, and narrow where it winds: a body as wide as the
+// shoulders meets them, and legs do not. Other things of their height have no tread before them.
+bool Avatar::isTreadAhead(const Contact& contact) const {
+  const double up = contact.point.z() - feet_.z();
+  if (up <= kHighestStep - kUneven || up > 2 * kHighestStep + kUneven) return false;
+  for (const double share : {0.3, 0.5, 0.7, 0.9}) {
+    const Vector2d between = feet_.head<2>() + share * (contact.point - feet_).head<2>();
+    const auto ground = groundUnder({between.x(), between.y(), feet_.z()}, 0.02);
+    if (ground.kind == Under::floor && ground.height > feet_.z() + 0.05) return true;
+  }
+  return false;
+}
+
+// What the body meets on its way; over the treads of a stair that it climbs, with the trunk and the legs apart.
+std::optional<Contact> Avatar::meets(const Vector3d& from_feet, const Vector3d& to_feet) const {
+  const auto hit = sweep(upper(), from_feet + kStepUp, to_feet + kStepUp);
+  const Body trunk{body_.radius_m, body_.height_m - 2 * kHighestStep};
+  if (!hit || trunk.height_m < 2 * trunk.radius_m || !isTreadAhead(*hit)) return hit;
+  const auto above = sweep(trunk, from_feet + 2 * kStepUp, to_feet + 2 * kStepUp);
+  const auto below = sweep({std::min(kLegs, body_.radius_m), upper().height_m}, from_feet + kStepUp, to_feet + kStepUp);
+  return above && (!below || above->fraction < below->fraction) ? above : below;
+}
+
 // Beside what reaches into the body a little from aside; nothing where it stays in something.
 std::optional<Vector3d> Avatar::offWalls(Vector3d feet) const {
   for (int i = 0; i < kMostPushes; ++i) {
@@ -90,44 +114,64 @@ std::optional<Vector3d> Avatar::offWalls(Vector3d feet) const {
   return overlap(upper(), feet + kStepUp, 1e-3) ? std::nullopt : std::optional(feet);
 }
 
-// The feet go to the floor there, unless it is too high or too steep for them; or too deep, where they mind.
-bool Avatar::moveTo(const Vector3d& place, bool over_edges) {
+// The feet go to the floor there, unless it is too high or too steep for them; or too deep, where they mind. What the
+// body would meet on its way up or down is `met`.
+Avatar::Step Avatar::moveTo(const Vector3d& place, bool over_edges, Contact& met) {
   const auto ground = groundUnder(place, kHighestStep);
-  if (ground.kind == Under::steep) return false;
+  if (ground.kind == Under::steep) return Step::refused;
   if (ground.kind == Under::nothing) {
-    if (!over_edges) return false;
+    if (!over_edges) return Step::refused;
     feet_ = place;
     on_floor_ = on_floor_ && carries(place);
-    return true;
+    return Step::made;
   }
   const Vector3d feet(place.x(), place.y(), ground.height);
-  if (!sweep(upper(), place + kStepUp, feet + kStepUp)) {
-    feet_ = feet;
-  } else {
-    if (sweep(slim(), place + kStepUp, feet + kStepUp)) return false;
+  if (const auto hit = meets(place, feet)) {
+    met = *hit;
+    if (sweep(slim(), place + kStepUp, feet + kStepUp)) return Step::met;
     const auto beside = offWalls(feet);
-    if (!beside) return false;
+    if (!beside) return Step::met;
     feet_ = *beside;
+  } else {
+    feet_ = feet;
   }
   on_floor_ = true;
-  return true;
+  return Step::made;
 }
 
+namespace {
+
+// What is left of a way along what it leads into; nothing where that is level.
+Vector2d along(const Vector2d& way, const Contact& contact) {
+  const Vector2d across = contact.normal.head<2>();
+  if (across.norm() < 1e-3) return Vector2d::Zero();
+  return way - across.normalized() * std::min(0.0, way.dot(across.normalized()));
+}
+
+}  // namespace
+
 void Avatar::stride(Vector2d way_m, bool over_edges) {
+  constexpr double kClimbed = 0.02;  // m
   for (int i = 0; i < kMostSlides && way_m.norm() > 1e-6; ++i) {
-    const Vector3d from = feet_ + kStepUp, way(way_m.x(), way_m.y(), 0);
-    const auto hit = sweep(upper(), from, from + way);
-    const double fraction = hit ? hit->fraction : 1;
-    if (fraction > 0 && !moveTo(feet_ + fraction * way, over_edges)) {
+    const Vector3d way(way_m.x(), way_m.y(), 0);
+    const auto hit = meets(feet_, feet_ + way);
+    const double fraction = hit ? hit->fraction : 1, height = feet_.z();
+    Contact met;
+    if (hit && fraction == 0) {  // a body that has stretched may reach into what it stood beside
+      if (const auto beside = offWalls(feet_)) feet_ = *beside;
+    } else if (const auto step = moveTo(feet_ + fraction * way, over_edges, met); step == Step::met) {
+      const auto slid = along(way_m, met);
+      if (slid == way_m) return;
+      way_m = slid;
+      continue;
+    } else if (step == Step::refused) {
       const Vector3d over = way + kCrack * way.normalized();
-      if (!hit && !sweep(upper(), from, from + over)) moveTo(feet_ + over, false);
+      if (!hit && !meets(feet_, feet_ + over)) moveTo(feet_ + over, false, met);
       return;
     }
     if (!hit) return;
-    const Vector2d across = hit->normal.head<2>();
-    if (across.norm() < 1e-3) return;
     way_m *= 1 - fraction;
-    way_m -= across.normalized() * std::min(0.0, way_m.dot(across.normalized()));
+    if (feet_.z() < height + kClimbed) way_m = along(way_m, *hit);  // else it is below now
   }
 }
 

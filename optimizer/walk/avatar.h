@@ -59,8 +59,11 @@ class Avatar {
   Ground groundUnder(const Eigen::Vector3d& p, double below_m) const;
   bool carries(const Eigen::Vector3d& p) const;
   Body slim() const;
+  bool isTreadAhead(const Contact& contact) const;
+  std::optional<Contact> meets(const Eigen::Vector3d& from_feet, const Eigen::Vector3d& to_feet) const;
   std::optional<Eigen::Vector3d> offWalls(Eigen::Vector3d feet) const;
-  bool moveTo(const Eigen::Vector3d& place, bool over_edges);
+  enum class Step { made, refused, met };
+  Step moveTo(const Eigen::Vector3d& place, bool over_edges, Contact& met);
   void stride(Eigen::Vector2d way_m, bool over_edges);
 
   const Obstacles* obstacles_;

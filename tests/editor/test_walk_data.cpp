@@ -312,6 +312,33 @@ TEST(WalkedBuildings, WithASpiralStair) {
   walkThrough(file, 100);
 }
 
+// Its newel stands at (7.33, 3.2) and one steps on to it from the west. Somebody who holds W alone and turns with the
+// stair, a little too late or too early, leans against the railing or the newel and gets up all the same.
+TEST(WalkedBuildings, UpASpiralStairByOneKeyThoughOneLeansAgainstItsRailing) {
+  const auto file = corpus() / "webifc__AC20-FZK-Haus.ifc";
+  if (!fs::exists(file)) GTEST_SKIP() << "the shared corpus is not here";
+  const auto ground = groundOf(documentOf(file));
+  ASSERT_TRUE(ground);
+  const Eigen::Vector2d newel(7.33, 3.2);
+  for (const double outwards_deg : {-30, -10, 0, 10, 20, 35, 50})
+    for (const double beside_m : {0.45, 0.65}) {
+      Walk walk;
+      Camera camera;
+      ASSERT_TRUE(walk.start(ground, kVisitor, {Vector3d(6.3, 2.95, 0), {}}, camera));
+      double seconds = 0;
+      for (; seconds < 12 && walk.feet().z() < 2.6; seconds += kFrame_s) {
+        const Eigen::Vector2d off = walk.feet().head<2>() - newel;
+        const bool before = walk.feet().x() < 6.95 && walk.feet().z() < 0.1;
+        const Eigen::Vector2d way = before
+                                        ? Eigen::Vector2d(7.0 - walk.feet().x(), newel.y() - beside_m - walk.feet().y())
+                                        : Eigen::Vector2d(-off.y(), off.x());
+        camera.azimuth_rad = std::atan2(-way.x(), way.y()) - (before ? 0 : outwards_deg * std::numbers::pi / 180);
+        walk.go({{0, 1}}, kFrame_s, camera);
+      }
+      EXPECT_GE(walk.feet().z(), 2.6) << outwards_deg << "° outwards, stopped at " << walk.feet().transpose();
+    }
+}
+
 // The long form: STANDPOINT_WALK_ALL=1.
 TEST(WalkedBuildings, AllOfTheCorpusThatHaveRooms) {
   if (std::getenv("STANDPOINT_WALK_ALL") == nullptr) GTEST_SKIP() << "set STANDPOINT_WALK_ALL to walk through them";

@@ -75,6 +75,32 @@ TEST(Walker, DoesNotStumbleAlongAnUnevenWallOfAStair) {
   EXPECT_NEAR(walker.feet().z(), 2.72, 1e-4);
 }
 
+// As near the newel of a winding stair, where the second tread ahead is under the shoulders.
+TEST(Walker, GoesUpTreadsThatAreNarrowerThanItsBody) {
+  std::vector<CollisionShape> shapes{block({-5, -5, -0.2}, {15, 5, 0})};
+  for (int i = 0; i < 14; ++i) shapes.push_back(block({1 + 0.1 * i, -1, 0}, {8, 1, 0.177 * (i + 1)}));
+  const Obstacles obstacles(shapes);
+  for (const Vector2d way : {Vector2d(1.8, 0), Vector2d(1, 0.2), Vector2d(0.6, -0.1)}) {
+    Walker walker(obstacles, kBody, -0.2);
+    ASSERT_TRUE(walker.stand({0, 0, 0.5}));
+    for (int i = 0; i < 60 * 4; ++i) walker.go({way}, 1.0 / 60);
+    EXPECT_NEAR(walker.feet().z(), 14 * 0.177, 1e-3) << walker.feet().transpose();
+    EXPECT_NEAR(walker.height(), kBody.height_m, 1e-6);
+  }
+}
+
+TEST(Walker, IsStoppedByABenchAsByAnyThingThatIsNoStair) {
+  for (const double high : {0.31, 0.36, 0.45, 0.59, 0.8}) {
+    const Obstacles obstacles(std::vector{block({-5, -5, -0.2}, {15, 5, 0}), block({2, -1, 0}, {2.4, 1, high}),
+                                          block({-1, 1.5, 0}, {5, 2, 3})});
+    Walker walker(obstacles, kBody, -0.2);
+    ASSERT_TRUE(walker.stand({0, 0, 0.5}));
+    for (int i = 0; i < 60 * 3; ++i) walker.go({Vector2d(1.8, 0)}, 1.0 / 60);
+    EXPECT_LT(walker.feet().x(), 2) << high;
+    EXPECT_NEAR(walker.feet().z(), 0, 1e-5) << high;
+  }
+}
+
 TEST(Walker, IsAtFullSpeedAfterATenthOfASecondAndStandsAsSoon) {
   const Obstacles obstacles(stairwell());
   Walker walker(obstacles, kBody, -0.2);
