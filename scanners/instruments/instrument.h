@@ -137,12 +137,12 @@ struct MovingHead {
   double start_rad = 0;           // where a turn begins, counter-clockwise; it goes clockwise seen from above
   // All channels fire once in a firing; 0: a setting says how many firings there are.
   double firing_s = 0, first_channel_s = 0, channel_s = 0;
-  std::vector<double> azimuth_offsets_rad;    // of the channels, as the turn goes; repeated; empty = none
-  std::vector<double> channel_heights_m;      // of the channels' beam origins along the head's axis; empty = 0
-  double beam_radius_m = 0;                   // about the axis, from which ranges are measured
-  std::vector<double> tilts_rad;              // of each head about the device's y: forward; empty = upright
-  std::vector<double> forward_m, up_m;        // of each head in the device; empty = 0
-  double cloud_accuracy_m = 0;                // of a whole cloud with the maker's trajectory, 1 σ; 0 = not stated
+  std::vector<double> azimuth_offsets_rad;  // of the channels, as the turn goes; repeated; empty = none
+  std::vector<double> channel_heights_m;    // of the channels' beam origins along the head's axis; empty = 0
+  double beam_radius_m = 0;                 // about the axis, from which ranges are measured
+  std::vector<double> tilts_rad;            // of each head about the device's y: forward; empty = upright
+  std::vector<double> forward_m, up_m;      // of each head in the device; empty = 0
+  double cloud_accuracy_m = 0;              // of a whole cloud with the maker's trajectory, 1 σ; 0 = not stated
 };
 
 // An instrument from scanners/instruments/<id>.json: data, no code.

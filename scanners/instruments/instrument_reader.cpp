@@ -156,7 +156,8 @@ class InstrumentReader : FigureReader {
   }
 
   // A figure for each, or none for all.
-  std::vector<double> forEach(Group& group, const char* key, const Domain& domain, std::size_t count, const char* what) {
+  std::vector<double> forEach(Group& group, const char* key, const Domain& domain, std::size_t count,
+                              const char* what) {
     if (!group.fields.has(key)) return {};
     auto list = figures(group, key, domain, 1024);
     if (list.size() != count) fail(std::string("/moving/") + key, std::string("must have one figure for each ") + what);
@@ -165,8 +166,8 @@ class InstrumentReader : FigureReader {
 
   void readHeads(Group& group, MovingHead& head) {
     const auto heads = static_cast<std::size_t>(head.heads);
-    head.channel_heights_m = forEach(group, "channel_heights_mm", {-500, 500, 1e-3},
-                                     head.channel_elevations_rad.size(), "channel");
+    head.channel_heights_m =
+        forEach(group, "channel_heights_mm", {-500, 500, 1e-3}, head.channel_elevations_rad.size(), "channel");
     head.tilts_rad = forEach(group, "tilts_deg", {-180, 180, kRadPerDeg}, heads, "head");
     head.forward_m = forEach(group, "head_forward_mm", {-5000, 5000, 1e-3}, heads, "head");
     head.up_m = forEach(group, "head_up_mm", {-5000, 5000, 1e-3}, heads, "head");
