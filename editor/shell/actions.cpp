@@ -126,8 +126,15 @@ std::string whyPaintNot(const Editor& e) {
   return e.session.whyNot("materials");
 }
 std::string whySaveNot(const Editor& e) { return e.session.whyNotSave(); }
-std::string whyUndoNot(const Editor& e) { return canUndoJump(e) ? "" : e.session.whyNotUndo(); }
+// What happened last and is no step of the document: a jump that was made, or one that waits for its ground.
+bool undoesJump(const Editor& e) { return awaitsWalk(e) || canUndoJump(e); }
+std::string whyUndoNot(const Editor& e) { return undoesJump(e) ? "" : e.session.whyNotUndo(); }
 void undo(Editor& e) {
+  if (awaitsWalk(e)) {
+    const bool jumps = e.view.teleport.active() || e.wanted_jump;
+    giveUpWalk(e);
+    return e.say(tr(jumps ? "Teleport cancelled" : "Walking cancelled"));
+  }
   if (canUndoJump(e)) return goBackInViews(e);
   e.session.undo();
 }
@@ -363,7 +370,7 @@ void actionMenuItem(Editor& editor, const char* id) {
   std::string title = tr(action.title);
   if (std::strcmp(id, "undo") == 0 && why.empty())
     title =
-        trf("Undo: {}", canUndoJump(editor) ? tr("Teleport") : trSentence(editor.session.history().undoDescription()));
+        trf("Undo: {}", undoesJump(editor) ? tr("Teleport") : trSentence(editor.session.history().undoDescription()));
   if (std::strcmp(id, "redo") == 0 && why.empty())
     title = trf("Redo: {}", trSentence(editor.session.history().redoDescription()));
   const char* const icon = action.on != nullptr && action.on(editor) ? ICON_CHECK : action.icon;
