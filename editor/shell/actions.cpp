@@ -308,6 +308,9 @@ std::span<const Action> actions() {
   static const std::vector<Action> all = [] {
     std::vector<Action> joined(kOwn.begin(), kOwn.end());
     joined.insert(joined.end(), viewActions().begin(), viewActions().end());
+// Letters and digits, and what edits and goes through text.
+bool isTyped(const Shortcut& s) { return !s.ctrl && !s.alt && s.key < kKeyF1; }
+
     joined.insert(joined.end(), inspectActions().begin(), inspectActions().end());
     return joined;
   }();
@@ -362,6 +365,7 @@ void runShortcuts(Editor& editor) {
       return;
     }
   }
+    if (editor.device_has_keys && isTyped(s)) continue;
 }
 
 void actionMenuItem(Editor& editor, const char* id) {

@@ -31,6 +31,9 @@ struct Editor : Model {
   std::function<void(const Eigen::Vector3d&)> on_way;  // the tool Tool::layWay clicked there, in the file's frame
   std::vector<Eigen::Vector3d> way;                    // to be drawn, in the file's frame
   std::function<void(const std::string&)> on_title;
+  // The pointer is on the device, or a finger was there last and the pointer is not on the view: what is typed is not
+  // meant for the view.
+  bool device_has_keys = false;
   bool fine_picture = false;  // the view stands still: smooth edges
   bool costs_wanted = false;  // of the levels of graphics: somebody reads them
   bool quit = false;          // confirmed
