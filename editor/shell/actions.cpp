@@ -157,7 +157,13 @@ const std::array kOwn = {
     Action{"save", "Save", ICON_SAVE, {'S', true}, save, whySaveNot},
     Action{"save-as", "Save as…", "", {'S', true, true}, askWhereToSave, whySaveNot},
     Action{"recover", "Recover unsaved work…", "", {}, recoverLeftWork, whyNoLeftWork},
-    Action{"export", "Export…", ICON_EXPORT, {'E', true}, askForExport, whyExportNot},
+    Action{"export", "Export model…", ICON_EXPORT, {'E', true}, askForExport, whyExportNot},
+    Action{"export-points",
+           "Export points…",
+           ICON_EXPORT,
+           {'E', true, true},
+           [](Editor& e) { askForPointsExport(e); },
+           whyNoPointsExport},
     Action{"picture", "Save picture of the view…", "", {}, openShots<ShotKind::picture>, whyNothingOpen},
     Action{"panorama", "Save 360° panorama…", "", {}, openShots<ShotKind::panorama>, whyNothingOpen},
     Action{"turntable", "Save turntable film…", "", {}, openShots<ShotKind::turntable>, whyNothingOpen},
@@ -302,15 +308,15 @@ const std::array kOwn = {
 // A text field keeps the keys that edit text; Ctrl+S saves from there, too.
 bool leavesText(const Shortcut& s) { return s.ctrl && std::strchr("ACVXYZ", s.key) == nullptr; }
 
+// Letters and digits, and what edits and goes through text.
+bool isTyped(const Shortcut& s) { return !s.ctrl && !s.alt && s.key < kKeyF1; }
+
 }  // namespace
 
 std::span<const Action> actions() {
   static const std::vector<Action> all = [] {
     std::vector<Action> joined(kOwn.begin(), kOwn.end());
     joined.insert(joined.end(), viewActions().begin(), viewActions().end());
-// Letters and digits, and what edits and goes through text.
-bool isTyped(const Shortcut& s) { return !s.ctrl && !s.alt && s.key < kKeyF1; }
-
     joined.insert(joined.end(), inspectActions().begin(), inspectActions().end());
     return joined;
   }();
@@ -359,13 +365,13 @@ void runShortcuts(Editor& editor) {
     if (s.key == kKeyEscape) continue;  // closeTopmost
     if (!s.ctrl && !s.alt && movesByKey(editor, s.key)) continue;
     if (io.WantTextInput && !leavesText(s)) continue;
+    if (editor.device_has_keys && isTyped(s)) continue;
     const bool shifted = s.shift == io.KeyShift || s.key == kKeyPlus;  // some keyboards need Shift for a plus
     if (s.key != 0 && s.ctrl == io.KeyCtrl && s.alt == io.KeyAlt && shifted && keyboard::pressed(s.key)) {
       invoke(editor, action.id);
       return;
     }
   }
-    if (editor.device_has_keys && isTyped(s)) continue;
 }
 
 void actionMenuItem(Editor& editor, const char* id) {

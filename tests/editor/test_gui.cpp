@@ -420,6 +420,25 @@ TEST_F(Gui, ShowsTheOriginalBesideTheLighterModelWithTheirDistances) {
   EXPECT_EQ(editor.view.colour, ColourMode::model);
 }
 
+TEST_F(Gui, NamesWhatTheExportWritesPlainlyAndSaysWhyThereAreNoPoints) {
+  open();
+  ASSERT_TRUE(invoke(editor, "export"));
+  itemProbe().listens = true;
+  itemProbe().texts.clear();
+  gui.frames(3);
+  itemProbe().listens = false;
+  const auto drawn = [&](const char* text) {
+    return std::any_of(itemProbe().texts.begin(), itemProbe().texts.end(),
+                       [&](const auto& t) { return t.find(text) != std::string::npos; });
+  };
+  EXPECT_TRUE(drawn("Assigned materials"));
+  EXPECT_TRUE(drawn("Simpler versions"));
+  EXPECT_FALSE(drawn("Physical"));
+  EXPECT_FALSE(drawn("MSFT_lod")) << "in the tooltip only";
+  ASSERT_NE(gui.find("###export-points"), nullptr);
+  EXPECT_EQ(whyNot(*findAction("export-points"), Editor(verbsWithDemo(), [] {})), "Scan first, or add a point cloud");
+}
+
 TEST_F(Gui, ExportsUnderTheProjectsNameWhereNothingIsYet) {
   open();
   const TemporaryFolder folder;
