@@ -39,7 +39,10 @@ struct Editor : Model {
   bool quit = false;          // confirmed
 
   Eigen::Vector2f overlay_size = {0, 0};  // of the controls over the viewport, as drawn last
-  float overlay_end = 0;                  // where they must end on the right, on the screen
+  // Where they must end on the right, on the screen; and the lower left corner of the navigation cube, beside which all
+  // rows from `beside_cube` on are.
+  float overlay_end = 0, beside_cube = 0;
+  Eigen::Vector2f cube_corner = {0, 0};
 };
 
 }  // namespace standpoint

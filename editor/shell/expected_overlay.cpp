@@ -253,11 +253,11 @@ void expectedChips(Editor& editor) {
     ImGui::EndCombo();
   }
   ImGui::SameLine();
-  if (ImGui::GetCursorScreenPos().x + editor.px(128) > editor.overlay_end) ImGui::NewLine();
+  if (ImGui::GetCursorScreenPos().x + editor.px(128) > overlayEnd(editor)) ImGui::NewLine();
   const auto& job = editor.session.document().job;
   if (!job || job->stations.empty()) {
     const ui::Text hint("Drag the white dot to move the scanner");
-    if (ImGui::GetCursorScreenPos().x + ImGui::CalcTextSize(hint.c_str()).x > editor.overlay_end) ImGui::NewLine();
+    if (ImGui::GetCursorScreenPos().x + ImGui::CalcTextSize(hint.c_str()).x > overlayEnd(editor)) ImGui::NewLine();
     return ImGui::TextUnformatted(hint.c_str());
   }
   ImGui::SetNextItemWidth(editor.px(128));
