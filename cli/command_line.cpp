@@ -36,7 +36,7 @@ struct Words {
 };
 
 std::string helpOf(const Parameter& p) {
-  std::string help = p.help;
+  std::string help = fullHelp(p);
   const auto& value = p.default_value;
   if (value.is_null()) return help;
   help += fmt::format(" (default {})", value.is_string()         ? value.get<std::string>()

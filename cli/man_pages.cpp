@@ -51,7 +51,7 @@ std::string headOf(const Parameter& p) {
 }
 
 std::string textOf(const Parameter& p) {
-  std::string text = roff(p.help);
+  std::string text = roff(fullHelp(p));
   const auto value = defaultOf(p);
   const auto named = p.required || value.empty() ? value : "default " + value;
   std::string more = p.kind == ParameterKind::flag || p.kind == ParameterKind::text ? "" : domainOf(p);

@@ -37,9 +37,9 @@ std::string verbList(std::span<const Verb> verbs, const std::string& introductio
     page += fmt::format("\n## {}\n\n{}.\n\n`standpoint {} [OPTIONS]`\n\n", verb.name, verb.summary, call(verb));
     page += "| option | value | default | effect |\n|---|---|---|---|\n";
     for (const auto& p : verb.parameters)
-      page +=
-          fmt::format("| `{}` | {} | {} | {} |\n", spelling(p),
-                      p.kind == ParameterKind::flag ? "" : inCell(domainOf(p)), inCell(defaultOf(p)), inCell(p.help));
+      page += fmt::format("| `{}` | {} | {} | {} |\n", spelling(p),
+                          p.kind == ParameterKind::flag ? "" : inCell(domainOf(p)), inCell(defaultOf(p)),
+                          inCell(fullHelp(p)));
   }
   return page;
 }

@@ -23,6 +23,7 @@
 #include "editor/viewport/offscreen.h"
 #include "editor/viewport/plain_message.h"
 #include "editor/viewport/window.h"
+#include "editor/words/sentences.h"
 #include "editor/words/words.h"
 #include "pointclouds/formats.h"
 #include "project/model/import_verb.h"
@@ -188,6 +189,7 @@ int makePictures(const Arguments& arguments) {
   editor.settings.language = arguments.language;
   editor.settings.theme = arguments.theme;
   speak(arguments.language);
+  printReportsAsSpoken();
   attachInstrument(editor);
   if (auto opened = openIn(editor, **offscreen, arguments.paths); !opened) return fail(opened.error());
   auto written = drawPictures(editor, **offscreen, arguments.pictures);

@@ -184,6 +184,8 @@ struct FieldDetails {
   std::vector<const char*> choices = {};  // of a text whose words come from a table of data
   bool positional = false;
   bool required = false;
+  const char* label = "";  // of Parameter
+  const char* term = "";
 };
 
 // A member of the options O, or of a base of theirs. Its default is what a default-constructed O holds.
@@ -208,6 +210,8 @@ struct Field {
     FieldValue<T>::describe(parameter);
     parameter.positional = details.positional;
     parameter.required = details.required;
+    parameter.label = details.label;
+    parameter.term = details.term;
     parameter.check = [](const nlohmann::json& value) -> Result<void> {
       TRY(FieldValue<T>::read(value));
       return {};

@@ -46,6 +46,10 @@ bool fits(const Parameter& p, const json& value) {
 
 }  // namespace
 
+std::string fullHelp(const Parameter& parameter) {
+  return *parameter.term == 0 ? parameter.help : fmt::format("{} ({})", parameter.help, parameter.term);
+}
+
 std::string domainOf(const Parameter& p) {
   switch (p.kind) {
     case ParameterKind::number:

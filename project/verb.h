@@ -45,6 +45,8 @@ struct Parameter {
   bool positional = false;
   bool required = false;
   std::size_t min_numbers = 3;  // of a triple; 2 where the height may be left out
+  const char* label = "";       // what the editor's forms call it; empty: as its name does
+  const char* term = "";        // the technical term for it, where the label is a plain one: "MSFT_lod"
   // Of a value that fits the kind: an error where its text says nothing that the verb can use. Empty: all that fits.
   std::function<Result<void>(const nlohmann::json&)> check = {};
 };
@@ -105,6 +107,8 @@ std::span<const Verb> verbs();
 const Verb* findVerb(std::span<const Verb> table, std::string_view name);
 const Verb* findVerb(std::span<const Verb> table, std::type_index options_type);
 
+// Its help, with the technical term where it has one.
+std::string fullHelp(const Parameter& parameter);
 // What an option may be, in words: "a number in m, at least 0", "one of open, closed".
 std::string domainOf(const Parameter& parameter);
 

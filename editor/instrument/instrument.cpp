@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/instrument/instrument.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include "editor/instrument/desk.h"
 #include "editor/instrument/speaker.h"
@@ -21,6 +23,18 @@ constexpr float kWaitsInSilence_s = 0.5F;
 constexpr float kWordsBelow_pt = 58;                                  // room for what is said below a device
 constexpr float kNarrowestDevice_em = 13.5F, kNarrowestText_em = 11;  // in heights of the text
 constexpr std::array kClockFactors = {1.0, 5.0, 20.0, 100.0};
+
+bool pointerOnView() {
+  const auto* hovered = ImGui::GetCurrentContext()->HoveredWindow;
+  const auto* view = ImGui::FindWindowByName("###viewport");
+  return view != nullptr && hovered != nullptr && hovered->RootWindow == view;
+}
+
+bool takesText(const Screen& screen) {
+  return !screen.has_dialog && std::any_of(screen.widgets.begin(), screen.widgets.end(), [](const Widget& w) {
+    return w.enabled && (w.kind == WidgetKind::text || w.kind == WidgetKind::number);
+  });
+}
 
 class InstrumentPanel {
  public:
@@ -72,7 +86,20 @@ class InstrumentPanel {
       const auto& moved = device.state().moved_along;
       if (!moved.empty()) editor.session.say(LogLevel::note, device.type().definition.title, moved);
     }
+    takeKeys(editor);
     sayBelow();
+  }
+
+  // What is typed here is not for the view behind it; where no field has been tapped, it is said that one must be.
+  void takeKeys(Editor& editor) {
+    editor.device_has_keys = ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows) ||
+                             (ImGui::IsWindowFocused(ImGuiFocusedFlags_ChildWindows) && !pointerOnView());
+    const auto& io = ImGui::GetIO();
+    const auto tap_first = tr("Tap a field on the screen before you type");
+    if (io.WantTextInput && desk_.said == tap_first) desk_.said.clear();
+    if (editor.device_has_keys && !io.WantTextInput && !io.InputQueueCharacters.empty() &&
+        takesText(desk_.shown()->screen()))
+      desk_.said = tap_first;
   }
 
   // Below the device, so that nothing that is said covers a key of it: what is waited for, why the last press did

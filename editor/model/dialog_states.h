@@ -42,6 +42,7 @@ struct VerbDialogState {
   std::string verb;
   OptionForm form;
   nlohmann::json begun_with;  // the options when it was opened
+  bool exports = false;       // the model or points, which the dialog lets one choose between
 };
 
 struct PaletteState {

@@ -63,7 +63,7 @@ bool isText(ParameterKind kind) {
 
 std::string problemOf(const OptionField& field) {
   const auto& p = *field.parameter;
-  const std::string name = readableOption(p.name);
+  const std::string name = tr(optionLabel(p));
   if (p.required && isText(p.kind) && field.text.empty()) return trf("{} is missing", name);
   if (!field.given) return {};
   const bool numeric = p.kind == ParameterKind::number || p.kind == ParameterKind::integer;
@@ -84,6 +84,10 @@ std::string readableOption(const char* name) {
   std::replace(result.begin(), result.end(), '-', ' ');
   if (!result.empty()) result[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(result[0])));
   return result;
+}
+
+std::string optionLabel(const Parameter& parameter) {
+  return *parameter.label == 0 ? readableOption(parameter.name) : parameter.label;
 }
 
 OptionForm::OptionForm(const Verb& verb) {

@@ -15,8 +15,9 @@ namespace standpoint {
 struct OptionField {
   const Parameter* parameter = nullptr;
   bool given = false;  // an optional one that is not given is not sent
-  std::string text;    // text, path, choice; list and pairs: one item per line
-  double number = 0;   // number, integer
+  bool shown = true;
+  std::string text;   // text, path, choice; list and pairs: one item per line
+  double number = 0;  // number, integer
   bool flag = false;
   std::array<double, 3> triple = {0, 0, 0};
 };
@@ -39,5 +40,7 @@ class OptionForm {
 
 // "max-deviation" → "Max deviation"
 std::string readableOption(const char* name);
+// Its label, else as readableOption() makes it of its name.
+std::string optionLabel(const Parameter& parameter);
 
 }  // namespace standpoint

@@ -192,6 +192,16 @@ void goBackInViews(Model& model) {
 
 bool canUndoJump(const Model& model) { return model.walk.active() && model.views.endsInJump(model.session.revision()); }
 
+bool awaitsWalk(const Model& model) {
+  return model.wanted_walk || model.view.teleport.active() || model.walk_ground.preparing();
+}
+
+void giveUpWalk(Model& model) {
+  model.wanted_walk = nullptr;
+  model.view.teleport = {};
+  model.walk_ground.cancel();
+}
+
 void followWalking(Model& model) {
   if (auto error = model.walk_ground.takeError()) {
     model.wanted_walk = nullptr;
@@ -200,6 +210,7 @@ void followWalking(Model& model) {
   }
   if (model.walk.active() && model.view.tool != Tool::walk) model.walk.stop(model.view.camera);
   if (!model.walk.active() && !model.wanted_walk) return;
+  if (model.wanted_walk) model.walk_ground.prepare(model.session.document(), model.walker, model.wake);
   const auto ground = model.walk_ground.of(model.session.document(), model.walker);
   if (model.walk.active() && !model.walk.isIn(ground)) stopWalking(model);
   if (!ground || !model.wanted_walk) return;

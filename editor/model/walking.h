@@ -62,6 +62,9 @@ void walkFromEye(Model& model, const Eigen::Vector3d& eye, const Camera& camera)
 void flyTo(Model& model, const Eigen::Vector3d& place);
 void goBackInViews(Model& model);
 bool canUndoJump(const Model& model);  // by goBackInViews()
+// Until the ground is there and the place is chosen, whoever wants to walk or jump can still give it up.
+bool awaitsWalk(const Model& model);
+void giveUpWalk(Model& model);
 // To be called once a frame: begins to walk when the ground is there.
 void followWalking(Model& model);
 

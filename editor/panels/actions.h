@@ -76,7 +76,8 @@ class Actions {
   virtual std::uint64_t texture(const std::shared_ptr<const PixelPicture>& picture) = 0;
   virtual void openFolderOf(const std::filesystem::path& file) = 0;  // with what the desktop has for folders
   virtual void openInCloudCompare(const std::filesystem::path& file) = 0;
-  virtual void clipThickness(double thickness_m) = 0;  // of the next section, and of one that is shown
+  virtual void exportPoints(const std::filesystem::path& cloud) = 0;  // asks where to and in which format
+  virtual void clipThickness(double thickness_m) = 0;                 // of the next section, and of one that is shown
 
   // What is made beside the interface while somebody asks for it, in each frame anew.
   virtual void wantBudget(SimplificationRequest request) = 0;

@@ -71,9 +71,9 @@ void drawRemedy(const Model& model, Actions& actions, const Remedy& remedy, cons
   const auto& material = open ? model.material.id : remedy.material;
   const auto* known = model.offeredMaterial(material);
   const std::string blocked = !why.empty() ? why : known == nullptr ? "Select a material in the list first" : "";
-  const std::string text =
-      open ? fmt::format("{}: {}", trSentence(remedy.text), known == nullptr ? tr("Select a material") : known->label)
-           : trSentence(remedy.text);
+  const std::string text = open ? fmt::format("{}: {}", trSentence(remedy.text),
+                                              known == nullptr ? tr("Select a material") : tr(known->label))
+                                : trSentence(remedy.text);
   if (ui::button(fmt::format("{}  {}###{}{}", ICON_MAGIC, text, remedy.selector, remedy.material).c_str(), blocked,
                  {-FLT_MIN, 0}))
     actions.start(MaterialsOptions{{.assign = overridesBy(remedy, material)}}, remedy.text);

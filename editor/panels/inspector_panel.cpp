@@ -181,7 +181,7 @@ void assign(const Model& model, Actions& actions, const PhysicalMaterial& materi
     overrides.push_back({selectorOf(model.environment()->products[p]), material.id});
   const auto count = model.selection.products().size();
   actions.start(MaterialsOptions{{.assign = std::move(overrides)}},
-                trf("Assign {} to {}", material.label, trn("{} product", "{} products", count, count)));
+                trf("Assign {} to {}", tr(material.label), trn("{} product", "{} products", count, count)));
 }
 
 void drawAssign(const Model& model, InspectorState& state, Actions& actions, const std::string& current) {
@@ -202,11 +202,11 @@ void drawAssign(const Model& model, InspectorState& state, Actions& actions, con
   for (const auto& material : model.offeredMaterials()) {
     if (isGap(material)) continue;
     Product searched;
-    searched.name = material.label + " " + material.id;
+    searched.name = material.label + " " + tr(material.label) + " " + material.id;
     if (!matchesFilter(searched, filter)) continue;
     ui::swatch(model, materialColour(&material));
     ImGui::SameLine();
-    if (ImGui::Selectable((material.label + "###" + material.id).c_str())) {
+    if (ImGui::Selectable((tr(material.label) + "###" + material.id).c_str())) {
       assign(model, actions, material);
       ImGui::CloseCurrentPopup();
     }
@@ -240,7 +240,7 @@ void drawPhysicalMaterial(const Model& model, InspectorState& state, Actions& ac
   const auto found = materialsOf(assignment, index);
   std::string current = tr("Unassigned");
   if (found.size() == 1 && found[0].first >= 0)
-    current = assignment.materials[static_cast<std::size_t>(found[0].first)].label;
+    current = tr(assignment.materials[static_cast<std::size_t>(found[0].first)].label);
   if (found.size() > 1) current = trf("{} materials", found.size());
   drawAssign(model, state, actions, current);
   for (const auto& [material, reason] : found) {
@@ -251,7 +251,7 @@ void drawPhysicalMaterial(const Model& model, InspectorState& state, Actions& ac
     const auto& m = assignment.materials[static_cast<std::size_t>(material)];
     ui::swatch(model, materialColour(&m));
     ImGui::SameLine();
-    ui::wrapped(m.label);
+    ui::wrapped(tr(m.label));
     if (!reason.empty()) ui::tooltip(trf("Matched by: {}", trSentence(reason)));
     drawPhysics(m);
   }

@@ -18,7 +18,8 @@ namespace {
 
 struct LogState {
   LogFilter filter;
-  std::size_t seen = 0;  // entries when it was drawn last: new ones scroll into view
+  bool follows = true;  // its end is shown, until somebody scrolls up
+  float scroll_px = 0;  // when it was drawn last
 };
 
 struct Look {
@@ -96,6 +97,17 @@ void drawEntry(const Model& model, Actions& actions, const LogEntry& entry, int 
   ImGui::PopID();
 }
 
+// The place is that of the entries of the frame before: those that are new have not moved it yet.
+void followEnd(LogState& state) {
+  const float place = ImGui::GetScrollY();
+  if (place >= ImGui::GetScrollMaxY() - 1)
+    state.follows = true;
+  else if (place < state.scroll_px - 0.5F)
+    state.follows = false;
+  state.scroll_px = place;
+  if (state.follows) ImGui::SetScrollHereY(1);
+}
+
 void draw(const Model& model, LogState& state, Actions& actions) {
   drawHead(model, state, actions);
   const auto& log = model.session.log();
@@ -117,11 +129,8 @@ void draw(const Model& model, LogState& state, Actions& actions) {
       const int entry = shown[static_cast<std::size_t>(i)];
       drawEntry(model, actions, log[static_cast<std::size_t>(entry)], entry);
     }
-  auto& seen = state.seen;
-  if (log.size() > seen)
-    ImGui::SetScrollY(ImGui::GetScrollMaxY() +
-                      ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(log.size() - seen));
-  seen = log.size();
+  clipper.End();
+  followEnd(state);
   ImGui::EndTable();
 }
 

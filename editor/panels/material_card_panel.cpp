@@ -16,6 +16,7 @@
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/words.h"
 #include "materials/materials.h"
 
 namespace standpoint {
@@ -241,7 +242,7 @@ void draw(const Model& model, MaterialCardState& state, Actions& actions) {
   }
   ImGui::BeginChild("card");
   if (model.fonts.bold != nullptr) ImGui::PushFont(model.fonts.bold);
-  ui::wrapped(material->label);
+  ui::wrapped(tr(material->label));
   if (model.fonts.bold != nullptr) ImGui::PopFont();
   ui::dimText(material->id);
   if (ui::button(ICON_PENCIL "  Copy and edit###edit-material")) state.edit = editOf(*material);

@@ -11,6 +11,7 @@
 #include "editor/widgets/material_drag.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/words.h"
 #include "project/materials/materials_verb.h"
 
 namespace standpoint {
@@ -69,7 +70,10 @@ bool drawMaterial(const Model& model, Actions& actions, const PhysicalMaterial* 
   ui::swatch(model, materialColour(material));
   ImGui::SameLine();
   if (unassigned) ImGui::PushStyleColor(ImGuiCol_Text, tone::kUnassigned);
-  ui::fitted(unassigned ? "Unassigned" : material != nullptr ? material->label : id, ImGui::GetContentRegionAvail().x);
+  ui::fitted(unassigned            ? tr("Unassigned")
+             : material != nullptr ? tr(material->label)
+                                   : id,
+             ImGui::GetContentRegionAvail().x);
   if (unassigned) ImGui::PopStyleColor();
   return pressed;
 }
@@ -84,7 +88,7 @@ TableRows usesTable(const Model& model, const MaterialResult& result) {
   for (const auto& use : result.report.uses) {
     const auto* material = use.material.empty() ? nullptr : materialById(result.assignment, use.material);
     table.push_back({use.material.empty()  ? tr("Unassigned")
-                     : material != nullptr ? material->label
+                     : material != nullptr ? tr(material->label)
                                            : use.material,
                      fmt::format("{:.3f}", use.area_m2),
                      material != nullptr ? reflectanceText(model, *material) : std::string(),
@@ -95,14 +99,15 @@ TableRows usesTable(const Model& model, const MaterialResult& result) {
 
 bool isSearched(const MaterialsState& state, const PhysicalMaterial& material) {
   Product searched;
-  searched.name = material.label + " " + material.id;
+  searched.name = material.label + " " + tr(material.label) + " " + material.id;
   return matchesFilter(searched, state.filter);
 }
 
 TableRows libraryTable(const Model& model, const MaterialsState& state) {
   TableRows table = {{tr("Material"), "id", fmt::format("{:.0f} nm", model.view.wavelength_nm)}};
   for (const auto& material : model.offeredMaterials())
-    if (isSearched(state, material)) table.push_back({material.label, material.id, reflectanceText(model, material)});
+    if (isSearched(state, material))
+      table.push_back({tr(material.label), material.id, reflectanceText(model, material)});
   return table;
 }
 
@@ -180,7 +185,7 @@ void drawBulk(const Model& model, MaterialsState& state, Actions& actions) {
                                          : model.session.whyNot("materials");
   if (ui::button(ICON_PAINT "  Assign selected###bulk-assign", why, {width, 0}))
     actions.start(MaterialsOptions{{.assign = {{state.bulk, material->id}}}},
-                  trf("Assign {} to {} products", material->label, meant.size()));
+                  trf("Assign {} to {} products", tr(material->label), meant.size()));
 }
 
 void drawListSwitch(MaterialsState& state) {

@@ -68,6 +68,10 @@ void drawCloud(const Model& model, Actions& actions, const InspectedCloud& cloud
   const std::string missing = !cloudCompareProgram().empty() ? gone : "CloudCompare is not installed";
   if (ui::iconButton(ICON_EXPORT "###cloud-compare", "Open with CloudCompare", missing))
     actions.openInCloudCompare(cloud.file);
+  ImGui::SameLine();
+  if (ui::iconButton(ICON_SAVE "###export-cloud", "Export points (E57, LAS, PTX, PLY, …)",
+                     there ? model.session.whyNot("convert") : gone))
+    actions.exportPoints(cloud.file);
   if (there) return;
   ImGui::SameLine();
   if (ui::button(ICON_SEARCH "  Locate…###locate", model.session.whyNot("locate"), {0, 0},

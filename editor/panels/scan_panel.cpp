@@ -58,14 +58,34 @@ void drawInstrumentChoice(const Model& model, ScanChoice& asked, const Instrumen
 }
 
 // A setting that is a number within bounds.
-void drawNumber(const InstrumentSetting& setting, std::string& text) {
+bool drawNumber(const InstrumentSetting& setting, std::string& text) {
   double number = std::strtod(text.c_str(), nullptr);
   const std::string_view unit = setting.unit == "deg" ? std::string_view("°") : std::string_view(setting.unit);
   const NumberKind kind{.unit = unit, .least = setting.minimum, .most = setting.maximum};
-  if (ui::numberField("###value", number, {.kind = kind}, rangeText(kind).c_str())) text = exactText(number);
+  if (!ui::numberField("###value", number, {.kind = kind}, rangeText(kind).c_str())) return false;
+  text = exactText(number);
+  return true;
 }
 
-void drawSetting(ScanChoice& asked, const InstrumentSetting& setting) {
+// Whoever sets an edge of an area wants an area scanned, and not the full dome.
+void scanArea(ScanChoice& asked, const Instrument& instrument) {
+  for (const auto& setting : instrument.settings)
+    for (const auto& choice : setting.choices)
+      if (const auto area = choice.effects.find("area"); area != choice.effects.end() && area->second > 0)
+        for (auto& [key, value] : asked.settings)
+          if (key == setting.key) value = choice.value;
+}
+
+bool isAreaEdge(const std::string& key) { return key.starts_with("horizontal_") || key.starts_with("vertical_"); }
+
+// The device's own word for it; of a problem, instead of the key.
+Error inWordsOfDevice(const Instrument& instrument, Error error) {
+  for (const auto& setting : instrument.settings)
+    if (setting.key == error.source) error.source = tr(setting.label);
+  return error;
+}
+
+void drawSetting(ScanChoice& asked, const Instrument& instrument, const InstrumentSetting& setting) {
   const auto value =
       std::find_if(asked.settings.begin(), asked.settings.end(), [&](const auto& s) { return s.first == setting.key; });
   if (value == asked.settings.end()) return;
@@ -75,7 +95,7 @@ void drawSetting(ScanChoice& asked, const InstrumentSetting& setting) {
   const std::string shown = current == setting.choices.end() ? value->second : tr(current->label);
   ImGui::PushID(setting.key.c_str());
   if (setting.choices.empty()) {
-    drawNumber(setting, value->second);
+    if (drawNumber(setting, value->second) && isAreaEdge(setting.key)) scanArea(asked, instrument);
   } else if (ImGui::BeginCombo("###value", shown.c_str())) {
     for (const auto& choice : setting.choices)
       if (ImGui::Selectable(fmt::format("{}###{}", tr(choice.label), choice.value).c_str(),
@@ -231,17 +251,18 @@ void drawForm(const Model& model, ScanState& state, ScanChoice& asked, Actions& 
   const auto formats = writableFormats();
   if (ui::beginProperties("scan", 0.36F)) {
     drawInstrumentChoice(model, asked, *instrument);
-    for (const auto& setting : instrument->settings) drawSetting(asked, setting);
+    for (const auto& setting : instrument->settings) drawSetting(asked, *instrument, setting);
     drawStationChoice(model, state, actions);
     drawOutput(model, state, actions, formats);
     ui::endProperties();
   }
   const auto settings = resolveSettings(*instrument, asked.settings);
   if (!settings) {
-    ui::primaryButton(ICON_PLAY "  Scan###run-scan", trError(settings.error()), {-FLT_MIN, model.px(28)});
+    const auto problem = trError(inWordsOfDevice(*instrument, settings.error()));
+    ui::primaryButton(ICON_PLAY "  Scan###run-scan", problem, {-FLT_MIN, model.px(28)});
     ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
     ImGui::SameLine();
-    ui::wrapped(trError(settings.error()));
+    ui::wrapped(problem);
     return;
   }
   drawScanConditions(model, state, asked, *instrument, *settings);

@@ -95,7 +95,7 @@ void drawTargets(const Model& model, Actions& actions, const Job& job) {
       TableRows table = {{tr("Name"), "X", "Y", "Z", tr("Kind")}};
       for (const auto& t : job.targets) {
         table.push_back(placeRow(t.name, t.centre + model.shift_m()));
-        table.back().push_back(t.kind == TargetKind::sphere ? "sphere" : "checkerboard");
+        table.back().push_back(tr(t.kind == TargetKind::sphere ? "sphere" : "checkerboard"));
       }
       return table;
     });
@@ -113,7 +113,7 @@ void drawTargets(const Model& model, Actions& actions, const Job& job) {
     ImGui::SameLine();
     const Eigen::Vector3d p = target.centre + model.shift_m();
     ui::fitted(fmt::format("{}   {}   {:.2f}  {:.2f}  {:.2f}", target.name,
-                           target.kind == TargetKind::sphere ? "sphere" : "checkerboard", p.x(), p.y(), p.z()),
+                           tr(target.kind == TargetKind::sphere ? "sphere" : "checkerboard"), p.x(), p.y(), p.z()),
                ImGui::GetContentRegionAvail().x - button - model.px(4));
     ImGui::SameLine(ImGui::GetContentRegionMax().x - button);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(model.px(4), 0));

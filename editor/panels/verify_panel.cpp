@@ -12,6 +12,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/sentences.h"
 #include "project/materials/materials_verb.h"
 #include "project/materials/verification.h"
 #include "project/survey/underlays.h"
@@ -30,7 +31,7 @@ struct VerifyState {
 std::string labelOf(const Model& model, const std::string& id) {
   if (id.empty()) return tr("Unassigned");
   const auto* material = model.offeredMaterial(id);
-  return material == nullptr ? id : material->label;
+  return material == nullptr ? id : tr(material->label);
 }
 
 void chooseUnderlay(const Model& model, VerifyState& state) {
@@ -173,7 +174,7 @@ void drawProposal(const Model& model, Actions& actions, const VerifiedProposal& 
   ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
   ImGui::SameLine();
   ui::wrapped(titleOf(model, p));
-  ui::dimWrapped(p.evidence);
+  ui::dimWrapped(trSentence(p.evidence));
   std::vector<std::string> alike;
   for (const auto& id : p.alike) alike.push_back(labelOf(model, id));
   if (!alike.empty()) ui::dimWrapped(trf("As well as: {}", fmt::join(alike, "; ")));

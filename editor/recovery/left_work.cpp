@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 
 #include "core/part_file.h"
+#include "editor/words/sentences.h"
 #include "editor/words/words.h"
 
 namespace standpoint {
@@ -134,7 +135,7 @@ std::time_t lastHeard(const fs::path& folder) {
 }
 
 std::string inWords(std::time_t time) {
-  return time == 0 ? std::string() : fmt::format("{:%H:%M on %d %B %Y}", fmt::localtime(time));
+  return time == 0 ? std::string() : fmt::format("{:%H:%M, %Y-%m-%d}", fmt::localtime(time));
 }
 
 }  // namespace
@@ -194,7 +195,10 @@ NewCrashes takeNewCrashes(const fs::path& root) {
     }
     if (!hasCopy(folder) && mark.jobs.empty()) return removeRecovery(folder);
     object[kSeen] = true;
+    std::error_code unknown;
+    const auto written = fs::last_write_time(folder / kMarkFile, unknown);    // when the editor was heard of last
     std::ignore = writeWholeText(folder / kMarkFile, object.dump(2) + '\n');  // a full disk: it counts once more
+    if (!unknown) fs::last_write_time(folder / kMarkFile, written, unknown);
   });
   return crashes;
 }
@@ -220,7 +224,7 @@ std::vector<std::string> sentencesOf(const LeftWork& left) {
                        "A recovery copy is available. {} changes are newer than the project.", mark.changes,
                        mark.changes));
   for (const auto& job : mark.jobs) {
-    said.push_back(trf("{} stopped at {} %.", job.stage.empty() ? job.title : job.stage, job.percent));
+    said.push_back(trf("{} stopped at {} %.", trSentence(job.stage.empty() ? job.title : job.stage), job.percent));
     if (job.verb == "scan") said.push_back(tr("Stations that were finished are kept."));
   }
   return said;

@@ -39,7 +39,7 @@ struct LeftWork {
   std::filesystem::path folder;   // to be removed when it is no longer wanted
   std::filesystem::path project;  // a copy of unsaved work, a project like any other; empty: nothing was unsaved
   SessionMark mark;
-  std::string last_heard;  // "14:32 on 24 November 2026"; "" when that is unknown
+  std::string last_heard;  // "14:32, 2026-11-24"; "" when that is unknown
 };
 
 std::filesystem::path recoveryFolder(const std::filesystem::path& root, long process);

@@ -126,8 +126,15 @@ std::string whyPaintNot(const Editor& e) {
   return e.session.whyNot("materials");
 }
 std::string whySaveNot(const Editor& e) { return e.session.whyNotSave(); }
-std::string whyUndoNot(const Editor& e) { return canUndoJump(e) ? "" : e.session.whyNotUndo(); }
+// What happened last and is no step of the document: a jump that was made, or one that waits for its ground.
+bool undoesJump(const Editor& e) { return awaitsWalk(e) || canUndoJump(e); }
+std::string whyUndoNot(const Editor& e) { return undoesJump(e) ? "" : e.session.whyNotUndo(); }
 void undo(Editor& e) {
+  if (awaitsWalk(e)) {
+    const bool jumps = e.view.teleport.active() || e.wanted_jump;
+    giveUpWalk(e);
+    return e.say(tr(jumps ? "Teleport cancelled" : "Walking cancelled"));
+  }
   if (canUndoJump(e)) return goBackInViews(e);
   e.session.undo();
 }
@@ -150,7 +157,13 @@ const std::array kOwn = {
     Action{"save", "Save", ICON_SAVE, {'S', true}, save, whySaveNot},
     Action{"save-as", "Save as…", "", {'S', true, true}, askWhereToSave, whySaveNot},
     Action{"recover", "Recover unsaved work…", "", {}, recoverLeftWork, whyNoLeftWork},
-    Action{"export", "Export…", ICON_EXPORT, {'E', true}, askForExport, whyExportNot},
+    Action{"export", "Export model…", ICON_EXPORT, {'E', true}, askForExport, whyExportNot},
+    Action{"export-points",
+           "Export points…",
+           ICON_EXPORT,
+           {'E', true, true},
+           [](Editor& e) { askForPointsExport(e); },
+           whyNoPointsExport},
     Action{"picture", "Save picture of the view…", "", {}, openShots<ShotKind::picture>, whyNothingOpen},
     Action{"panorama", "Save 360° panorama…", "", {}, openShots<ShotKind::panorama>, whyNothingOpen},
     Action{"turntable", "Save turntable film…", "", {}, openShots<ShotKind::turntable>, whyNothingOpen},
@@ -295,6 +308,9 @@ const std::array kOwn = {
 // A text field keeps the keys that edit text; Ctrl+S saves from there, too.
 bool leavesText(const Shortcut& s) { return s.ctrl && std::strchr("ACVXYZ", s.key) == nullptr; }
 
+// Letters and digits, and what edits and goes through text.
+bool isTyped(const Shortcut& s) { return !s.ctrl && !s.alt && s.key < kKeyF1; }
+
 }  // namespace
 
 std::span<const Action> actions() {
@@ -349,6 +365,7 @@ void runShortcuts(Editor& editor) {
     if (s.key == kKeyEscape) continue;  // closeTopmost
     if (!s.ctrl && !s.alt && movesByKey(editor, s.key)) continue;
     if (io.WantTextInput && !leavesText(s)) continue;
+    if (editor.device_has_keys && isTyped(s)) continue;
     const bool shifted = s.shift == io.KeyShift || s.key == kKeyPlus;  // some keyboards need Shift for a plus
     if (s.key != 0 && s.ctrl == io.KeyCtrl && s.alt == io.KeyAlt && shifted && keyboard::pressed(s.key)) {
       invoke(editor, action.id);
@@ -363,7 +380,7 @@ void actionMenuItem(Editor& editor, const char* id) {
   std::string title = tr(action.title);
   if (std::strcmp(id, "undo") == 0 && why.empty())
     title =
-        trf("Undo: {}", canUndoJump(editor) ? tr("Teleport") : trSentence(editor.session.history().undoDescription()));
+        trf("Undo: {}", undoesJump(editor) ? tr("Teleport") : trSentence(editor.session.history().undoDescription()));
   if (std::strcmp(id, "redo") == 0 && why.empty())
     title = trf("Redo: {}", trSentence(editor.session.history().redoDescription()));
   const char* const icon = action.on != nullptr && action.on(editor) ? ICON_CHECK : action.icon;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,6 +14,8 @@
 #include "editor/shell/editor.h"
 #include "editor/widgets/modal.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/sentences.h"
+#include "editor/words/words.h"
 
 namespace standpoint {
 
@@ -52,11 +56,29 @@ std::string rowText(const json& values) {
   return text;
 }
 
+// Figures whose texts are sentences and words of the program; others are names and ids.
+bool isSaid(std::string_view key) {
+  constexpr std::array kSaid = {"evidence", "good_text", "kind",    "label",    "limit_source", "message", "note",
+                                "severity", "state",     "verdict", "verified", "why",          "why_not"};
+  return std::find(kSaid.begin(), kSaid.end(), key) != kSaid.end();
+}
+
 // What a row of a list is called: by its name, else its number.
 std::string rowTitle(const json& row, std::size_t index) {
   for (const char* key : {"name", "station", "id", "title", "class", "file"})
     if (row.is_object() && row.contains(key) && row[key].is_string()) return row[key].get<std::string>();
   return std::to_string(index + 1);
+}
+
+// What people read on the command line, each line a sentence or a list of names and figures.
+std::string linesInWords(const std::string& text) {
+  std::string all;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const auto end = std::min(text.find('\n', begin), text.size());
+    all += trSentence(text.substr(begin, end - begin)) + (end < text.size() ? "\n" : "");
+    begin = end + 1;
+  }
+  return all;
 }
 
 void drawFigures(const json& object);
@@ -86,7 +108,9 @@ void drawFigures(const json& object) {
   if (ui::beginProperties("figures", 0.36F)) {
     for (const auto& [key, value] : object.items())
       if (value.is_primitive() || isRow(value))
-        ui::property(readableKey(key), value.is_primitive() ? scalarText(value) : rowText(value));
+        ui::property(readableKey(key), isSaid(key)            ? trSentence(scalarText(value))
+                                       : value.is_primitive() ? scalarText(value)
+                                                              : rowText(value));
     ui::endProperties();
   }
   for (const auto& [key, value] : object.items())
@@ -100,12 +124,12 @@ void drawAnswer(Editor& editor) {
   if (!ui::beginModal(editor, "Result###answer", !answers.empty(), 680, 520)) return;
   const ShownAnswer& shown = answers.front();
   if (editor.fonts.bold != nullptr) ImGui::PushFont(editor.fonts.bold);
-  ui::wrapped(shown.title);
+  ui::wrapped(trSentence(shown.title));
   if (editor.fonts.bold != nullptr) ImGui::PopFont();
   const float footer = ImGui::GetFrameHeightWithSpacing();
   ImGui::BeginChild("answer", {0, ImGui::GetContentRegionAvail().y - footer});
   if (!shown.text.empty()) {
-    ui::wrapped(shown.text);
+    ui::wrapped(linesInWords(shown.text));
     ui::gap(editor, 4);
   }
   if (shown.figures.is_object() && !shown.figures.empty()) drawFigures(shown.figures);

@@ -15,6 +15,9 @@ void askForProject(Editor& editor);
 void askForModel(Editor& editor);
 void askForChangedModel(Editor& editor);
 void askForExport(Editor& editor);
+// Of a scan or underlay of the project; of the one that is shown, else of the newest scan, where none is said.
+void askForPointsExport(Editor& editor, const std::filesystem::path& cloud = {});
+std::string whyNoPointsExport(const Editor& editor);
 void askWhereToSave(Editor& editor);
 // A file that is missing, as filesOf() of the document has it, or a missing part of a project that could not be opened:
 // where it is now.

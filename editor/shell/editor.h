@@ -31,12 +31,18 @@ struct Editor : Model {
   std::function<void(const Eigen::Vector3d&)> on_way;  // the tool Tool::layWay clicked there, in the file's frame
   std::vector<Eigen::Vector3d> way;                    // to be drawn, in the file's frame
   std::function<void(const std::string&)> on_title;
+  // The pointer is on the device, or a finger was there last and the pointer is not on the view: what is typed is not
+  // meant for the view.
+  bool device_has_keys = false;
   bool fine_picture = false;  // the view stands still: smooth edges
   bool costs_wanted = false;  // of the levels of graphics: somebody reads them
   bool quit = false;          // confirmed
 
   Eigen::Vector2f overlay_size = {0, 0};  // of the controls over the viewport, as drawn last
-  float overlay_end = 0;                  // where they must end on the right, on the screen
+  // Where they must end on the right, on the screen; and the lower left corner of the navigation cube, beside which all
+  // rows from `beside_cube` on are.
+  float overlay_end = 0, beside_cube = 0;
+  Eigen::Vector2f cube_corner = {0, 0};
 };
 
 }  // namespace standpoint

@@ -14,6 +14,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/words.h"
 
 namespace standpoint {
 
@@ -142,10 +143,10 @@ void drawReading(Editor& editor, const Expectation& expectation) {
       expectation.from(*editor.view.probe.position, {hit->position, hit->normal, hit->instance, hit->triangle});
   const auto& choice = editor.session.document().materials;
   const std::int32_t material = choice ? expectation.materialAt(hit->instance, hit->triangle) : -1;
-  auto text = trf(
-      "{}\n{:.2f} m, {:.0f}° incidence",
-      material < 0 ? tr("No material") : choice->result.assignment.materials[static_cast<std::size_t>(material)].label,
-      expected.range_m, expected.incidence_rad / kRadPerDeg);
+  auto text = trf("{}\n{:.2f} m, {:.0f}° incidence",
+                  material < 0 ? tr("No material")
+                               : tr(choice->result.assignment.materials[static_cast<std::size_t>(material)].label),
+                  expected.range_m, expected.incidence_rad / kRadPerDeg);
   if (expected.fate == ReturnFate::returned)
     text += "\n" + trf("intensity {:.3f}, σ {:.2f} mm, {:.0f} % detected", expected.intensity, expected.sigma_m * 1000,
                        expected.probability * 100);
@@ -253,11 +254,11 @@ void expectedChips(Editor& editor) {
     ImGui::EndCombo();
   }
   ImGui::SameLine();
-  if (ImGui::GetCursorScreenPos().x + editor.px(128) > editor.overlay_end) ImGui::NewLine();
+  if (ImGui::GetCursorScreenPos().x + editor.px(128) > overlayEnd(editor)) ImGui::NewLine();
   const auto& job = editor.session.document().job;
   if (!job || job->stations.empty()) {
     const ui::Text hint("Drag the white dot to move the scanner");
-    if (ImGui::GetCursorScreenPos().x + ImGui::CalcTextSize(hint.c_str()).x > editor.overlay_end) ImGui::NewLine();
+    if (ImGui::GetCursorScreenPos().x + ImGui::CalcTextSize(hint.c_str()).x > overlayEnd(editor)) ImGui::NewLine();
     return ImGui::TextUnformatted(hint.c_str());
   }
   ImGui::SetNextItemWidth(editor.px(128));

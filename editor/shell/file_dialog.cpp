@@ -9,6 +9,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "editor/inspect/inspected_clouds.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
@@ -293,21 +294,51 @@ void askToLocate(Editor& editor, const std::filesystem::path& missing) {
              });
 }
 
-// Where nothing is yet, so that whoever agrees writes over nothing.
-void askForExport(Editor& editor) {
-  openVerbForm(editor, "export");
+namespace {
+
+// Where nothing is yet, so that whoever agrees writes over nothing; empty where there is no such folder.
+std::string freeFile(const Editor& editor, const std::string& name, const std::string& extension) {
   const auto& project = editor.session.folder();
   std::error_code unreadable;
   std::filesystem::path folder = editor.settings.last_folder;
   if (!project.empty()) folder = project.parent_path();
   if (folder.empty()) folder = std::filesystem::current_path(unreadable);
-  if (!std::filesystem::is_directory(folder, unreadable)) return;
-  std::filesystem::path file = folder / (editor.session.name() + ".glb");
+  if (!std::filesystem::is_directory(folder, unreadable)) return {};
+  std::filesystem::path file = folder / (name + extension);
   for (int n = 2; std::filesystem::exists(file, unreadable); ++n)
-    file = folder / fmt::format("{} {}.glb", editor.session.name(), n);
+    file = folder / fmt::format("{} {}{}", name, n, extension);
+  return file.string();
+}
+
+void fillExport(Editor& editor, const nlohmann::json& options) {
   auto& state = editor.dialogs.verb;
-  state.form.fill({{"output", file.string()}});
+  state.form.fill(options);
   state.begun_with = state.form.options();
+  state.exports = true;
+}
+
+}  // namespace
+
+void askForExport(Editor& editor) {
+  openVerbForm(editor, "export");
+  fillExport(editor, {{"output", freeFile(editor, editor.session.name(), ".glb")}});
+}
+
+std::string whyNoPointsExport(const Editor& editor) {
+  if (inspectedClouds(editor.session.document()).empty()) return "Scan first, or add a point cloud";
+  return editor.session.whyNot("convert");
+}
+
+void askForPointsExport(Editor& editor, const std::filesystem::path& cloud) {
+  const auto clouds = inspectedClouds(editor.session.document());
+  if (clouds.empty()) return;
+  auto wanted = cloud;
+  if (wanted.empty() && editor.cloud()) wanted = editor.cloud()->file;
+  const auto* chosen = cloudOf(clouds, wanted);
+  const auto file = chosen != nullptr ? chosen->file : clouds.front().file;
+  openVerbForm(editor, "convert");
+  for (const char* other : {"as", "dataset", "classes"}) editor.dialogs.verb.form.find(other)->shown = false;
+  fillExport(editor, {{"in", file.string()}, {"out", freeFile(editor, file.stem().string() + " points", ".e57")}});
 }
 
 void askWhereToSave(Editor& editor) {

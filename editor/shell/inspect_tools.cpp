@@ -128,7 +128,7 @@ void followInspectTools(Editor& editor, ImVec2 origin, bool hovered) {
     view.measured_at = place ? std::optional(place->position) : std::nullopt;
     view.measured_cloud = place ? place->cloud : std::string();
   }
-  if (view.tool != Tool::measure || ImGui::GetIO().WantTextInput ||
+  if (view.tool != Tool::measure || ImGui::GetIO().WantTextInput || editor.device_has_keys ||
       ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId))
     return;
   auto& points = view.measuring.points;

@@ -8,6 +8,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/material_drag.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/words.h"
 #include "project/materials/materials_verb.h"
 
 namespace standpoint {
@@ -53,14 +54,14 @@ void drawMaterialMenu(Editor& editor) {
     ImGui::EndPopup();
     return;
   }
-  ui::dimText(trf("{} on", material->label));
+  ui::dimText(trf("{} on", tr(material->label)));
   for (const auto& scope :
        materialScopes(*editor.environment(), hit, editor.session.document().georeference->shift_m)) {
     const auto label = scope.products > 1 ? trf("{}   {} products###{}", scope.title, scope.products, scope.selector)
                                           : fmt::format("{}###{}", scope.title, scope.selector);
     if (ImGui::MenuItem(label.c_str(), nullptr, false, why.empty()))
       editor.session.start(MaterialsOptions{{.assign = {{scope.selector, material->id}}}},
-                           trf("Assign {} to {}", material->label, scope.title));
+                           trf("Assign {} to {}", tr(material->label), scope.title));
   }
   ui::tooltip(why);
   ImGui::EndPopup();

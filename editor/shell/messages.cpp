@@ -292,18 +292,43 @@ void drawAbout(Editor& editor) {
 
 }  // namespace
 
+namespace {
+
+// Model or points: whoever looks for one of them finds it in the form of the other, too.
+void chooseExport(Editor& editor) {
+  const bool points = editor.dialogs.verb.verb == "convert";
+  const auto choice = [&](const char* label, bool chosen, const std::string& why, void (*ask)(Editor&)) {
+    ImGui::BeginDisabled(!why.empty() && !chosen);
+    if (ui::radioButton(ui::Label(label), chosen) && !chosen) ask(editor);
+    ImGui::EndDisabled();
+    ui::tooltip(why);
+  };
+  choice("Model (glTF, OBJ, HELIOS++)###export-model", !points, editor.session.whyNot("export"), askForExport);
+  ImGui::SameLine(0, editor.px(16));
+  choice("Points of a scan (E57, LAS, PTX, PLY, …)###export-points", points, whyNoPointsExport(editor),
+         [](Editor& e) { askForPointsExport(e); });
+  ui::gap(editor);
+}
+
+}  // namespace
+
 void drawVerbDialog(Editor& editor) {
   auto& state = editor.dialogs.verb;
   const Verb* verb = editor.session.verb(state.verb);
-  const std::string title = std::string(verb != nullptr ? verb->summary : "") + "###verb-dialog";
+  const std::string title = std::string(state.exports     ? "Export"
+                                        : verb != nullptr ? verb->summary
+                                                          : "") +
+                            "###verb-dialog";
   if (!ui::beginModal(editor, title.c_str(), state.open && verb != nullptr, 560)) return;
-  ImGui::BeginChild("form", {0, std::min(editor.px(420), ImGui::GetIO().DisplaySize.y * 0.6F)});
+  if (state.exports) chooseExport(editor);
+  const float height = editor.px(state.exports ? 270 : 420);
+  ImGui::BeginChild("form", {0, std::min(height, ImGui::GetIO().DisplaySize.y * 0.6F)});
   drawOptionForm(editor, state.form);
   ImGui::EndChild();
   const bool edited = state.form.options() != state.begun_with;
   std::string why = editor.session.whyNot(state.verb);
   if (why.empty()) why = state.form.problem();
-  if (ui::primaryButton("Run###run", why, {editor.px(110), 0})) {
+  if (ui::primaryButton(state.exports ? "Export###run" : "Run###run", why, {editor.px(110), 0})) {
     editor.session.startAndShow(state.verb, state.form.options());
     state.open = false;
   }

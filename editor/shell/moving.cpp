@@ -96,8 +96,8 @@ void handleHands(Editor& editor) {
 
 void handleMoving(Editor& editor) {
   const auto& io = ImGui::GetIO();
-  const bool keys_are_ours =
-      !io.WantTextInput && !io.KeyCtrl && !io.KeyAlt && !ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId);
+  const bool keys_are_ours = !io.WantTextInput && !editor.device_has_keys && !io.KeyCtrl && !io.KeyAlt &&
+                             !ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId);
   if (editor.view.tool == Tool::fly) {
     FlyKeys keys;
     if (keys_are_ours) keys = {{axis('A', 'D'), axis('S', 'W'), axis('Q', 'E')}, io.KeyShift};

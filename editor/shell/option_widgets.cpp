@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "editor/inspect/inspected_clouds.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/words.h"
 
 namespace standpoint {
 
@@ -34,18 +37,14 @@ void drawChoice(OptionField& field) {
   ImGui::EndCombo();
 }
 
-void drawPath(Editor& editor, OptionField& field) {
-  const float browse = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x;
-  ImGui::SetNextItemWidth(-browse);
-  ImGui::InputText("###value", &field.text);
-  ImGui::SameLine();
+void browse(Editor& editor, const OptionField& field) {
   if (!ui::iconButton(ICON_FOLDER_OPEN "###browse", "Choose…")) return;
   const std::string name = field.parameter->name;
   // The form gives way to the browser and comes back with what was chosen.
   editor.dialogs.verb.open = false;
-  const bool written = name == "o" || name == "output";
+  const bool written = name == "o" || name == "output" || name == "out";
   const auto purpose = written ? FileDialogState::Purpose::saveFile : FileDialogState::Purpose::openFile;
-  askForFile(editor, purpose, readableOption(field.parameter->name), "Choose", {},
+  askForFile(editor, purpose, optionLabel(*field.parameter), "Choose", {},
              std::filesystem::path(field.text).filename().string(),
              [&editor, name](const std::filesystem::path& chosen) {
                if (auto* again = editor.dialogs.verb.form.find(name.c_str()))
@@ -55,6 +54,59 @@ void drawPath(Editor& editor, OptionField& field) {
   editor.dialogs.file.cancelled = [&editor] { editor.dialogs.verb.open = true; };
 }
 
+void drawPath(Editor& editor, OptionField& field) {
+  ImGui::SetNextItemWidth(-(ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x));
+  ImGui::InputText("###value", &field.text);
+  ImGui::SameLine();
+  browse(editor, field);
+}
+
+struct CloudFile {
+  std::filesystem::path file;
+  std::string names;  // of the stations whose scans are in it, or of the underlay
+};
+
+std::vector<CloudFile> cloudFilesOf(const Document& document) {
+  std::vector<CloudFile> files;
+  for (const auto& cloud : inspectedClouds(document)) {
+    const auto& name =
+        cloud.station < 0 ? cloud.label : document.job->stations[static_cast<std::size_t>(cloud.station)].name;
+    const auto known = std::find_if(files.begin(), files.end(), [&](const auto& f) { return f.file == cloud.file; });
+    if (known == files.end())
+      files.push_back({cloud.file, name});
+    else if (!known->names.ends_with(name))
+      known->names += ", " + name;
+  }
+  return files;
+}
+
+// One of the project's scans and underlays, or another file.
+void drawCloudPath(Editor& editor, OptionField& field) {
+  const auto files = cloudFilesOf(editor.session.document());
+  if (files.empty()) return drawPath(editor, field);
+  std::string shown = std::filesystem::path(field.text).filename().string();
+  for (const auto& f : files)
+    if (f.file == field.text) shown = f.names + "   " + shown;
+  ImGui::SetNextItemWidth(-(ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x));
+  if (ImGui::BeginCombo("###value", shown.c_str())) {
+    for (std::size_t i = 0; i < files.size(); ++i)
+      if (ImGui::Selectable(fmt::format("{}   {}###{}", files[i].names, files[i].file.filename().string(), i).c_str(),
+                            files[i].file == field.text))
+        field.text = files[i].file.string();
+    ImGui::EndCombo();
+  }
+  ui::tooltip(field.text);
+  ImGui::SameLine();
+  browse(editor, field);
+}
+
+// What a professional calls what the label says plainly, and how the command line has it.
+std::string termsOf(const Parameter& p) {
+  const auto option = p.positional ? std::string() : fmt::format("--{}", p.name);
+  if (*p.term == 0) return option;
+  return option.empty() ? tr(p.term) : tr(p.term) + "\n" + option;
+}
+
 void drawValue(Editor& editor, OptionField& field) {
   switch (field.parameter->kind) {
     case ParameterKind::text: ImGui::InputText("###value", &field.text); break;
@@ -62,7 +114,9 @@ void drawValue(Editor& editor, OptionField& field) {
     case ParameterKind::integer: drawNumber(field); break;
     case ParameterKind::flag: ui::checkbox("###value", &field.flag); break;
     case ParameterKind::choice: drawChoice(field); break;
-    case ParameterKind::path: drawPath(editor, field); break;
+    case ParameterKind::path:
+      std::strcmp(field.parameter->name, "in") == 0 ? drawCloudPath(editor, field) : drawPath(editor, field);
+      break;
     case ParameterKind::triple:
       for (std::size_t i = 0; i < field.triple.size(); ++i) {
         ImGui::SetNextItemWidth(-FLT_MIN);
@@ -83,9 +137,11 @@ void drawValue(Editor& editor, OptionField& field) {
 void drawOptionForm(Editor& editor, OptionForm& form) {
   if (!ui::beginProperties("options", 0.34F)) return;
   for (auto& field : form.fields()) {
+    if (!field.shown) continue;
     const auto& p = *field.parameter;
     ImGui::PushID(p.name);
-    ui::propertyLabel(readableOption(p.name).c_str());
+    ui::propertyLabel(optionLabel(p).c_str());
+    ui::tooltip(termsOf(p));
     const bool optional = !p.required && p.default_value.is_null() && p.kind != ParameterKind::flag;
     if (optional) {
       ui::checkbox("###given", &field.given);

@@ -30,7 +30,7 @@ constexpr float kBannerAbove_pt = 26;  // of the hint, over the view's edge
 // Behind the last chip where there is room for one of this width before the view's edge, else below.
 void beside(const Editor& editor, float width) {
   ImGui::SameLine();
-  if (ImGui::GetCursorScreenPos().x + width > editor.overlay_end) ImGui::NewLine();
+  if (ImGui::GetCursorScreenPos().x + width > overlayEnd(editor)) ImGui::NewLine();
 }
 
 const char* colourName(ColourMode mode) {
@@ -148,14 +148,17 @@ void cutChip(Editor& editor) {
     cut = height - shift;
 }
 
-void drawTogglePlate(const Editor& editor) {
-  if (editor.graphicsLook() == GraphicsLook()) return;
+float togglesWidth(const Editor& editor) {
   float width = 4 * editor.px(2);
   for (const char* icon : {ICON_CUBE, ICON_GRID, ICON_WALK, ICON_CUBES, ICON_EYE})
     width += ImGui::CalcTextSize(icon).x + 2 * ImGui::GetStyle().FramePadding.x;
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + width, at.y + ImGui::GetFrameHeight()}, tone::kOverlay,
-                                            editor.px(4));
+  return width;
+}
+
+void drawTogglePlate(const Editor& editor) {
+  if (editor.graphicsLook() == GraphicsLook()) return;
+  const ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + togglesWidth(editor), at.y + ImGui::GetFrameHeight());
+  ImGui::GetWindowDrawList()->AddRectFilled(at, end, tone::kOverlay, editor.px(4));
 }
 
 void toggle(Editor& editor, const char* icon, const char* id, bool lit) {
@@ -324,6 +327,11 @@ void drawDeviationLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
 
 }  // namespace
 
+float overlayEnd(const Editor& editor) {
+  const float y = ImGui::GetCursorScreenPos().y;
+  return y >= editor.beside_cube && y < editor.cube_corner.y() ? editor.cube_corner.x() : editor.overlay_end;
+}
+
 float chipWidth(const Editor& editor, const std::string& label, float least_pt) {
   return std::max(editor.px(least_pt), ImGui::CalcTextSize(label.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x);
 }
@@ -369,14 +377,17 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   ImGui::SetCursorScreenPos({origin.x + editor.px(kMargin), origin.y + editor.px(kMargin)});
   ImGui::PushStyleColor(ImGuiCol_FrameBg, tone::kOverlay);
   ImGui::BeginGroup();
+  const ImVec2 cube = navigationCubeCorner(editor, origin, size);
   editor.overlay_end = origin.x + size.x - editor.px(kMargin);
+  editor.beside_cube = origin.y + editor.px(kMargin) + ImGui::GetFrameHeight() / 2;
+  editor.cube_corner = {cube.x, cube.y};
   colourChip(editor);
   wavelengthChip(editor);
   sideChip(editor);
   cutChip(editor);
   cloudChip(editor);
   locateChip(editor);
-  beside(editor, editor.px(5 * 33));  // they stay together
+  beside(editor, togglesWidth(editor));  // they stay together
   drawTogglePlate(editor);
   toggle(editor, ICON_CUBE, "edges", editor.view.edges);
   toggle(editor, ICON_GRID, "grid", editor.view.grid);

@@ -18,6 +18,8 @@ void targetChip(Editor& editor);  // the kind of target that the next click puts
 // others.
 float chipWidth(const Editor& editor, const std::string& label, float least_pt);
 void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size);  // view controls, cut, cube, legend
+// Where the row of controls must end in which the cursor is.
+float overlayEnd(const Editor& editor);
 // Where words of this size stand over the lower edge of the view; at the upper one while the pointer is near them, so
 // that they never hide what is pointed at.
 ImVec2 bannerPlace(const Editor& editor, ImVec2 origin, ImVec2 size, ImVec2 text, float above_pt);

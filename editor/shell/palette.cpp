@@ -48,6 +48,7 @@ std::string otherWords(std::string_view action) {
       Called{"walk-through", "video movie"},
       Called{"preferences", "settings options language graphics quality"},
       Called{"export", "save model as glTF OBJ"},
+      Called{"export-points", "save scan point cloud as E57 LAS PTX PLY"},
       Called{"walk", "first person"},
       Called{"shortcuts", "keys help"},
   };

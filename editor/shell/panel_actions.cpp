@@ -89,6 +89,7 @@ void PanelActions::openFolderOf(const std::filesystem::path& file) {
 void PanelActions::openInCloudCompare(const std::filesystem::path& file) {
   editor_.cloud_compare.open(file, editor_.wake);
 }
+void PanelActions::exportPoints(const std::filesystem::path& cloud) { askForPointsExport(editor_, cloud); }
 void PanelActions::clipThickness(double thickness_m) {
   auto& clip = editor_.view.clip;
   const int thin = clip.box ? thinAxis(*clip.box) : 0;

@@ -57,6 +57,7 @@ class PanelActions final : public Actions {
   std::uint64_t texture(const std::shared_ptr<const PixelPicture>& picture) override;
   void openFolderOf(const std::filesystem::path& file) override;
   void openInCloudCompare(const std::filesystem::path& file) override;
+  void exportPoints(const std::filesystem::path& cloud) override;
   void clipThickness(double thickness_m) override;
 
   void wantBudget(SimplificationRequest request) override;

@@ -72,7 +72,7 @@ std::string className(const Editor& editor, const std::string& name) {
   if (editor.view.points_by != ColourBy::material) return name;
   const auto& materials = editor.offeredMaterials();
   const auto found = std::find_if(materials.begin(), materials.end(), [&](const auto& m) { return m.id == name; });
-  return found == materials.end() ? name : found->label;
+  return found == materials.end() ? name : tr(found->label);
 }
 
 void drawClasses(const Editor& editor, const PointLegend& legend, ImVec2 origin, ImVec2 size) {

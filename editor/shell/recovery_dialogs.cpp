@@ -144,7 +144,7 @@ void resumeLeftScan(Editor& editor) {
   else if (const auto why = editor.session.whyNot("scan"); !why.empty())
     editor.session.errors().push_back({"The scan cannot be resumed", {ErrorKind::usage, why, wanted.title}});
   else
-    editor.startScan(*options, wanted.title);
+    editor.startScan(*options, trSentence(wanted.title));
 }
 
 }  // namespace standpoint

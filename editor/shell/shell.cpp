@@ -141,7 +141,7 @@ void drawMenuBar(Editor& editor) {
   if (ImGui::BeginMenu(ui::Label("File"))) {
     items(editor, {"new", "open", "sample"});
     recentMenu(editor);
-    items(editor, {"import", "update", "", "save", "save-as", "recover", "export"});
+    items(editor, {"import", "update", "", "save", "save-as", "recover", "export", "export-points"});
     submenu(editor, "", "Pictures and films###menu-shots", {"picture", "panorama", "turntable", "walk-through"});
     items(editor, {"", "preferences", "quit"});
     ImGui::EndMenu();
@@ -424,6 +424,7 @@ void drawShell(Editor& editor) {
     return;
   }
   runShortcuts(editor);
+  editor.device_has_keys = false;  // until it is drawn
   drawMenuBar(editor);
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float menu = ImGui::GetFrameHeight(), tools = ImGui::GetFrameHeight() + editor.px(12),

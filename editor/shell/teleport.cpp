@@ -18,8 +18,8 @@ constexpr ImU32 kCanStand = IM_COL32(0, 158, 115, 255), kCannot = IM_COL32(213, 
 
 bool startsAiming(const Editor& editor) {
   const auto& io = ImGui::GetIO();
-  return editor.environment() && !io.WantTextInput && !io.KeyCtrl && !io.KeyShift && !io.KeyAlt &&
-         !ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId) && keyboard::pressed('T');
+  return editor.environment() && !io.WantTextInput && !editor.device_has_keys && !io.KeyCtrl && !io.KeyShift &&
+         !io.KeyAlt && !ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId) && keyboard::pressed('T');
 }
 
 // Nothing until the ground is there.

@@ -233,7 +233,7 @@ MergedScene mergeVisible(const ViewState& state, InstanceRange range) {
   std::vector<Rgba> distances;
   for (std::size_t i = range.first; i < endOf(range, *state.environment); ++i) {
     const auto& instance = state.environment->instances[i];
-    if (!isShown(state, instance.product)) continue;
+    if (!range.holds(*state.environment, i) || !isShown(state, instance.product)) continue;
     const Mesh& mesh = *state.environment->meshes[instance.mesh];
     if (deviations) distances = coloursOf(*state.deviation, i);
     std::span<const Rgba> gradation;
@@ -277,7 +277,7 @@ std::optional<MergedColours> mergeColours(const ViewState& state, InstanceRange 
   };
   for (std::size_t i = range.first; i < endOf(range, environment); ++i) {
     const auto& instance = environment.instances[i];
-    if (!isShown(state, instance.product)) continue;
+    if (!range.holds(environment, i) || !isShown(state, instance.product)) continue;
     const auto& of = environment.meshes[instance.mesh]->surface_of_triangle;
     for (std::size_t t = 0; t < of.size();) {
       const auto end = static_cast<std::size_t>(
@@ -355,7 +355,7 @@ MergedLines EdgeCache::edges(const ViewState& state, const std::vector<std::uint
   MergedLines out;
   for (std::size_t i = range.first; i < endOf(range, *state.environment); ++i) {
     const auto& instance = state.environment->instances[i];
-    if (!isShown(state, instance.product)) continue;
+    if (!range.holds(*state.environment, i) || !isShown(state, instance.product)) continue;
     if (only != nullptr && !std::binary_search(only->begin(), only->end(), instance.product)) continue;
     const auto& mesh = state.environment->meshes[instance.mesh];
     std::map<std::uint32_t, std::int64_t> placed;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "editor/model/view_state.h"
+#include "editor/viewport/face_rank.h"
 #include "editor/viewport/feature_edges.h"
 
 namespace standpoint {
@@ -45,9 +46,14 @@ struct MergedScene {
 
 bool isShown(const ViewState& state, std::uint32_t product);  // in the scene and not hidden
 
-// Instances of the environment that are merged together, [first, end).
+// Instances of the environment that are merged together: those of [first, end) whose product has that faceRank().
 struct InstanceRange {
   std::size_t first = 0, end = static_cast<std::size_t>(-1);  // all there are
+  int rank = -1;                                              // any
+  bool holds(const Environment& environment, std::size_t instance) const {
+    return instance >= first && instance < end &&
+           (rank < 0 || faceRank(environment.products[environment.instances[instance].product]) == rank);
+  }
 };
 
 MergedScene mergeVisible(const ViewState& state, InstanceRange range = {});

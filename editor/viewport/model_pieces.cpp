@@ -2,6 +2,7 @@
 #include "editor/viewport/model_pieces.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include <vtkProperty.h>
@@ -27,18 +28,24 @@ bool sameShown(const std::shared_ptr<const HiddenProducts>& a, const std::shared
 }  // namespace
 
 std::vector<InstanceRange> rangesOf(const Environment& environment, std::uint64_t triangles) {
-  std::vector<InstanceRange> ranges;
-  std::uint64_t count = 0;
+  std::array<std::vector<InstanceRange>, kFaceRanks> ranges;
+  std::array<std::uint64_t, kFaceRanks> counts{};
   for (std::size_t i = 0; i < environment.instances.size(); ++i) {
-    const auto more = environment.meshes[environment.instances[i].mesh]->triangles.size();
-    if (ranges.empty() || (count > 0 && count + more > triangles)) {
-      ranges.push_back({i, i});
+    const auto& instance = environment.instances[i];
+    const auto more = environment.meshes[instance.mesh]->triangles.size();
+    const int rank = faceRank(environment.products[instance.product]);
+    auto& of_rank = ranges[static_cast<std::size_t>(rank)];
+    auto& count = counts[static_cast<std::size_t>(rank)];
+    if (of_rank.empty() || (count > 0 && count + more > triangles)) {
+      of_rank.push_back({i, i, rank});
       count = 0;
     }
     count += more;
-    ranges.back().end = i + 1;
+    of_rank.back().end = i + 1;
   }
-  return ranges;
+  std::vector<InstanceRange> all;
+  for (const auto& of_rank : ranges) all.insert(all.end(), of_rank.begin(), of_rank.end());
+  return all;
 }
 
 ModelPieces::Look ModelPieces::lookOf(const ViewState& state) {
@@ -56,9 +63,10 @@ void ModelPieces::plan(const ViewState& state) {
     auto& piece = *pieces_.emplace_back(std::make_unique<Piece>());
     piece.range = range;
     for (auto i = range.first; i < range.end; ++i)
-      piece.triangles += environment_->meshes[environment_->instances[i].mesh]->triangles.size();
+      if (range.holds(*environment_, i))
+        piece.triangles += environment_->meshes[environment_->instances[i].mesh]->triangles.size();
     for (Layer* layer : {&piece.opaque, &piece.transparent, &piece.graded, &piece.graded_transparent})
-      layer->drawSurface(1);
+      layer->drawSurface(depthOffsetOf(range.rank));
     piece.transparent.actor->ForceTranslucentOn();
     piece.graded_transparent.actor->ForceTranslucentOn();
     piece.edges.drawLines({0.07, 0.08, 0.10}, 0.55, line_width_);
@@ -99,7 +107,9 @@ bool ModelPieces::shows(const Piece& piece, const ViewState& state, const Look& 
   if (!piece.look || piece.look->doors_apart != look.doors_apart) return false;
   if (piece.look->hidden == look.hidden) return true;
   for (auto i = piece.range.first; i < piece.range.end; ++i)
-    if (!sameShown(piece.look->hidden, look.hidden, state.environment->instances[i].product)) return false;
+    if (piece.range.holds(*state.environment, i) &&
+        !sameShown(piece.look->hidden, look.hidden, state.environment->instances[i].product))
+      return false;
   return true;
 }
 
@@ -126,7 +136,7 @@ void ModelPieces::make(Piece& piece, const ViewState& state) {
   piece.painted.clear();
   for (const auto& [key, painted] : merged.painted) {
     auto& layer = *piece.painted.emplace_back(std::make_unique<Layer>());
-    layer.drawSurface(1);
+    layer.drawSurface(depthOffsetOf(piece.range.rank));
     layer.show(painted, textures_.of(environment_->images[static_cast<std::size_t>(key.first)]));
     renderer_->AddActor(layer.actor);
   }

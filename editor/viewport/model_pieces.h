@@ -15,7 +15,8 @@
 
 namespace standpoint {
 
-// Runs of instances with about `triangles` triangles each, in their order; a larger mesh is a run of its own.
+// Runs of instances with about `triangles` triangles each, in their order, first those of the first faceRank(); a
+// larger mesh is a run of its own.
 std::vector<InstanceRange> rangesOf(const Environment& environment, std::uint64_t triangles);
 
 // The surfaces and edges of the model, merged piece by piece: a large model is there after some pictures, none of which

@@ -69,7 +69,7 @@ bool WalkGround::isFor(const Document& document, const Body& body) const {
 }
 
 void WalkGround::prepare(const Document& document, const Body& body, const std::function<void()>& wake) {
-  if (!document.imported || isFor(document, body)) return;
+  if (!document.imported || (isFor(document, body) && !task_->progress().cancelled())) return;
   environment_ = document.imported;
   collision_ = document.collision;
   body_ = body;

@@ -3,6 +3,8 @@
 
 #include <imgui.h>
 
+#include "editor/words/words.h"
+
 namespace standpoint {
 
 namespace {
@@ -14,7 +16,7 @@ constexpr const char* kDragged = "material";  // a payload's text is the materia
 void dragMaterial(const PhysicalMaterial& material) {
   if (!ImGui::BeginDragDropSource()) return;
   ImGui::SetDragDropPayload(kDragged, material.id.c_str(), material.id.size() + 1);
-  ImGui::TextUnformatted(material.label.c_str());
+  ImGui::TextUnformatted(tr(material.label).c_str());
   ImGui::EndDragDropSource();
 }
 

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include <fmt/args.h>
 
 #include "core/data_folder.h"
+#include "core/report_words.h"
 #include "editor/words/words.h"
 
 namespace standpoint {
@@ -87,6 +89,11 @@ std::string trSentence(std::string_view english) {
   fmt::dynamic_format_arg_store<fmt::format_context> arguments;
   for (const auto& place : places) arguments.push_back(place == english ? place : trSentence(place));
   return trFormatted({nearest.data(), nearest.size()}, arguments);
+}
+
+void printReportsAsSpoken() {
+  printReportsIn(std::make_shared<const ReportWords>(
+      ReportWords{[] { return std::string(spoken()); }, [](std::string_view english) { return trSentence(english); }}));
 }
 
 std::string trError(const Error& error) { return describe(Error{error.kind, trSentence(error.message), error.source}); }

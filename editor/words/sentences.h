@@ -21,4 +21,7 @@ std::string trSentence(std::string_view english);
 // describe(error), with its message so.
 std::string trError(const Error& error);
 
+// Printed reports are in the language that is spoken, from now on.
+void printReportsAsSpoken();
+
 }  // namespace standpoint

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "core/html_text.h"
 #include "core/part_file.h"
+#include "core/report_html.h"
 #include "project/materials/material_findings.h"
 
 namespace standpoint {
@@ -33,10 +33,9 @@ std::string spectrumSvg(const PhysicalMaterial& m) {
       points);
 }
 
-std::string coverageTable(const char* title, const std::vector<CoverageRow>& rows) {
-  std::string text = fmt::format(
-      "<h2>Coverage by {}</h2><table><tr><th>{}<th>Area, m²<th>Assigned<th>Assigned by low-confidence rule</tr>\n",
-      title, title);
+std::string coverageTable(const char* title, const char* head, const std::vector<CoverageRow>& rows) {
+  std::string text =
+      reportHeading(title) + reportTable({head, "Area, m²", "Assigned", "Assigned by low-confidence rule"});
   for (const auto& r : rows)
     text += fmt::format("<tr><td>{}<td>{:.1f}<td>{:.1f} %<td>{:.1f} %</tr>\n", r.name.empty() ? "–" : htmlText(r.name),
                         r.area_m2, r.area_m2 > 0 ? 100 * r.assigned_m2 / r.area_m2 : 0,
@@ -45,8 +44,9 @@ std::string coverageTable(const char* title, const std::vector<CoverageRow>& row
 }
 
 std::string materialRow(const MaterialUse& use, const PhysicalMaterial* m) {
-  if (m == nullptr) return fmt::format("<tr><td>no material<td>{:.1f}<td colspan=9></tr>\n", use.area_m2);
-  std::string text = fmt::format("<tr><td>{}<br><code>{}</code><td>{:.1f}<td>{}", htmlText(m->label), m->id,
+  if (m == nullptr)
+    return fmt::format("<tr><td>{}<td>{:.1f}<td colspan=9></tr>\n", htmlText(printed("no material")), use.area_m2);
+  std::string text = fmt::format("<tr><td>{}<br><code>{}</code><td>{:.1f}<td>{}", htmlText(printed(m->label)), m->id,
                                  use.area_m2, spectrumSvg(*m));
   for (const double nm : kColumns_nm) text += fmt::format("<td>{:.2f}", atWavelength(m->reflectance, nm));
   text += fmt::format("<td>{:.2f}<td>{}<td>", specularAtNormal(*m, 905),
@@ -54,34 +54,42 @@ std::string materialRow(const MaterialUse& use, const PhysicalMaterial* m) {
   for (const auto& c : m->sources)
     text += fmt::format("<b>{}</b>: {}{}<br>", htmlText(c.figure), htmlText(c.text),
                         c.licence.empty() ? "" : " [" + htmlText(c.licence) + "]");
-  for (const auto& gap : gapsOf(*m)) text += "<i>gap: " + htmlText(gap) + "</i><br>";
+  for (const auto& gap : gapsOf(*m)) text += "<i>" + htmlText(printedf("gap: {}", printed(gap))) + "</i><br>";
   return text + "</tr>\n";
 }
 
 std::string htmlReport(const Document& document) {
   const auto& result = document.materials->result;
   const auto& report = result.report;
+  const auto title =
+      htmlText(document.name.empty() ? printed("Materials of a model") : printedf("Materials of {}", document.name));
   std::string text = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Materials of {0}</title>\n"
+      "<!DOCTYPE html>\n<html lang=\"{0}\"><head><meta charset=\"utf-8\"><title>{1}</title>\n"
       "<style>body{{font:11pt "
       "sans-serif;margin:2em}}table{{border-collapse:collapse;margin-bottom:1.5em}}td,th{{border:1px solid "
       "#bbb;padding:3px 6px;"
       "text-align:left;vertical-align:top}}th{{background:#eee}}td:last-child{{font-size:9pt}}@media "
-      "print{{body{{margin:0}}tr{{page-break-inside:avoid}}}}</style></head><body>\n"
-      "<h1>Materials of {0}</h1>\n<p>{1:.1f} % of {2:.1f} m² have a physical material.</p>\n",
-      htmlText(document.name.empty() ? "a model" : document.name), 100 * report.coverage, report.area_m2);
-  text += coverageTable("class", report.by_class) + coverageTable("storey", report.by_storey);
-  text +=
-      "<h2>Materials in use</h2>\n<table><tr><th>Material<th>Area, m²<th>Spectrum<th>532 "
-      "nm<th>660<th>905<th>1064<th>1550<th>F0 905<th>T 905<th>Sources and gaps</tr>\n";
+      "print{{body{{margin:0}}tr{{page-break-inside:avoid}}}}</style></head><body>\n<h1>{1}</h1>\n<p>{2}</p>\n",
+      reportLanguage(), title,
+      htmlText(printedf("{} % of {} m² have a physical material.", fmt::format("{:.1f}", 100 * report.coverage),
+                        fmt::format("{:.1f}", report.area_m2))));
+  text += coverageTable("Coverage by class", "Class", report.by_class) +
+          coverageTable("Coverage by storey", "Storey", report.by_storey);
+  text += reportHeading("Materials in use") + reportTable({"Material", "Area, m²", "Spectrum", "532 nm", "660", "905",
+                                                           "1064", "1550", "F0 905", "T 905", "Sources and gaps"});
   for (const auto& use : report.uses) text += materialRow(use, materialOfUse(result, use));
   text +=
-      "</table>\n<p>Diffuse reflectance at normal incidence; F0: specular reflectance; T: panes × transmittance of "
-      "one.</p>\n";
-  text += "<h2>Findings</h2>\n<table><tr><th>Kind<th>Finding<th>Why<th>State</tr>\n";
-  for (const auto& f : materialFindings(document))
-    text += fmt::format("<tr><td>{}<td>{}<td>{}<td>{}</tr>\n", htmlText(f.kind), htmlText(f.message), htmlText(f.why),
-                        f.because.empty() ? "open (" + f.severity + ")" : "accepted: " + htmlText(f.because));
+      "</table>\n<p>" +
+      htmlText(printed("Diffuse reflectance at normal incidence; F0: specular reflectance; T: panes × transmittance "
+                       "of one.")) +
+      "</p>\n";
+  text += reportHeading("Findings") + reportTable({"Kind", "Finding", "Why", "State"});
+  for (const auto& f : materialFindings(document)) {
+    const auto state =
+        f.because.empty() ? printedf("open ({})", printed(f.severity)) : printedf("accepted: {}", f.because);
+    text += fmt::format("<tr><td>{}<td>{}<td>{}<td>{}</tr>\n", htmlText(printed(f.kind)), htmlText(printed(f.message)),
+                        htmlText(printed(f.why)), htmlText(state));
+  }
   return text + "</table>\n</body></html>\n";
 }
 

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "core/environment.h"
-#include "core/html_text.h"
 #include "core/part_file.h"
+#include "core/report_html.h"
 #include "core/units.h"
 #include "project/survey/assess_verb.h"
 
@@ -34,9 +34,14 @@ p.verdict{font-size:13pt}small{color:#555}svg{width:100%;max-height:110mm;border
 tr,svg{page-break-inside:avoid}@media print{body{margin:0}}
 )";
 
+constexpr const char *kPlaceHead = "Worst place (m, frame of the model's file)",
+                     *kGapPlaceHead = "Place (m, frame of the model's file)";
+
+std::string smallPrint(const std::string& text) { return "<p><small>" + htmlText(text) + "</small></p>\n"; }
+
 std::string verdictHtml(Verdict verdict) {
   const auto sign = signOf(verdict);
-  return fmt::format("<span style=\"color:{}\">{}</span> {}", sign.colour, sign.sign, sign.word);
+  return fmt::format("<span style=\"color:{}\">{}</span> {}", sign.colour, sign.sign, printed(sign.word));
 }
 
 std::string headline(const AssessAnswer& answer) {
@@ -48,7 +53,7 @@ std::string headline(const AssessAnswer& answer) {
   for (const auto& [count, verdict] : counts) {
     const auto sign = signOf(verdict);
     text += fmt::format("<b style=\"color:{}\">{}</b>&nbsp;{}&nbsp;{} &emsp; ", sign.colour, sign.sign, count,
-                        verdict == Verdict::warn ? "to check" : sign.word);
+                        printed(verdict == Verdict::warn ? "to check" : sign.word));
   }
   return text + "</p>\n";
 }
@@ -66,16 +71,15 @@ std::string placeHtml(const std::optional<AssessPlace>& place) {
 }
 
 std::string figures(const AssessAnswer& answer) {
-  std::string text =
-      "<table><tr><th>Figure<th class=\"n\">Value<th>Limit<th>Verdict<th>Worst place (m, frame of the model's "
-      "file)</tr>\n";
+  std::string text = reportTable({{"Figure"}, {"Value", true}, {"Limit"}, {"Verdict"}, {kPlaceHead}});
   for (const auto& row : answer.rows) {
-    text += "<tr><td>" + htmlText(row.label);
-    if (!row.note.empty()) text += "<br><small>" + htmlText(row.note) + "</small>";
+    text += "<tr><td>" + htmlText(printed(row.label));
+    if (!row.note.empty()) text += "<br><small>" + htmlText(printed(row.note)) + "</small>";
     text += fmt::format("<td class=\"n\">{}<td>{}", row.good_text.empty() ? "" : htmlText(valueText(row)),
-                        htmlText(row.good_text));
-    if (!row.bad_text.empty()) text += "<br><small>bad " + htmlText(row.bad_text) + "</small>";
-    if (!row.limit_source.empty()) text += "<br><small>" + htmlText(row.limit_source) + "</small>";
+                        htmlText(printed(row.good_text)));
+    if (!row.bad_text.empty())
+      text += "<br><small>" + htmlText(printed("bad") + " " + printed(row.bad_text)) + "</small>";
+    if (!row.limit_source.empty()) text += "<br><small>" + htmlText(printed(row.limit_source)) + "</small>";
     text += "<td class=\"s\">" + verdictHtml(row.verdict) + "<td>" + placeHtml(row.worst) + "</tr>\n";
   }
   return text + "</table>\n";
@@ -132,10 +136,9 @@ std::string sketch(const AssessAnswer& answer) {
         "<circle cx=\"{0:.2f}\" cy=\"{1:.2f}\" r=\"{2:.3f}\" fill=\"#0072B2\"/><text x=\"{3:.2f}\" "
         "y=\"{1:.2f}\" font-size=\"{4:.3f}\">{5}</text>\n",
         x(station.at), y(station.at), 0.01 * size, x(station.at) + 0.016 * size, 0.03 * size, htmlText(station.name));
-  return text +
-         "</svg>\n<p><small>From above, all storeys: grey is covered, pink is not, the largest gaps are outlined and "
-         "numbered; lines between stations have "
-         "the colour of their overlap's verdict.</small></p>\n";
+  return text + "</svg>\n" +
+         smallPrint(printed("From above, all storeys: grey is covered, pink is not, the largest gaps are outlined and "
+                            "numbered; lines between stations have the colour of their overlap's verdict."));
 }
 
 std::string numberOr(const std::optional<double>& value, double factor, int decimals) {
@@ -143,9 +146,13 @@ std::string numberOr(const std::optional<double>& value, double factor, int deci
 }
 
 std::string scans(const AssessAnswer& answer) {
-  std::string text =
-      "<table><tr><th>Scan<th class=\"n\">Points<th class=\"n\">Stray, %<th class=\"n\">Deviation, mm<th "
-      "class=\"n\">95 %, mm<th class=\"n\">Noise, mm<th class=\"n\">/ expected</tr>\n";
+  std::string text = reportTable({{"Scan"},
+                                  {"Points", true},
+                                  {"Stray, %", true},
+                                  {"Deviation, mm", true},
+                                  {"95 %, mm", true},
+                                  {"Noise, mm", true},
+                                  {"/ expected", true}});
   for (const auto& s : answer.scans)
     text += fmt::format(
         "<tr><td>{}<br><small>{}</small><td class=\"n\">{}<td class=\"n\">{:.2f}<td class=\"n\">{}<td class=\"n\">{}"
@@ -157,19 +164,18 @@ std::string scans(const AssessAnswer& answer) {
 }
 
 std::string stationsHtml(const AssessAnswer& answer) {
-  std::string text =
-      "<table><tr><th>Station<th class=\"n\">Sees, m²<th class=\"n\">Targets<th class=\"n\">Pose error, mm<th "
-      "class=\"n\">Rotation, °</tr>\n";
+  std::string text = reportTable(
+      {{"Station"}, {"Sees, m²", true}, {"Targets", true}, {"Pose error, mm", true}, {"Rotation, °", true}});
   for (const auto& s : answer.stations)
     text += fmt::format("<tr><td>{}<td class=\"n\">{:.1f}<td class=\"n\">{}<td class=\"n\">{}<td class=\"n\">{}</tr>\n",
                         htmlText(s.station), s.seen_m2, s.targets ? std::to_string(*s.targets) : "–",
                         numberOr(s.pose_error_m, 1000, 2), numberOr(s.pose_error_rad, 1 / kRadPerDeg, 4));
-  return text + "</table>\n<p><small>Errors of poses are known only to a simulator.</small></p>\n";
+  return text + "</table>\n" + smallPrint(printed("Errors of poses are known only to a simulator."));
 }
 
 std::string pairsHtml(const AssessAnswer& answer) {
   if (answer.pairs.empty()) return "";
-  std::string text = "<h2>Overlap</h2>\n<table><tr><th>Link<th class=\"n\">Common, m²<th class=\"n\">Overlap</tr>\n";
+  std::string text = reportHeading("Overlap") + reportTable({{"Link"}, {"Common, m²", true}, {"Overlap", true}});
   for (const auto& p : answer.pairs)
     text += fmt::format("<tr><td>{} – {}<td class=\"n\">{:.1f}<td class=\"n\">{:.0f} %</tr>\n", htmlText(p.a),
                         htmlText(p.b), p.common_m2, 100 * p.overlap);
@@ -179,7 +185,7 @@ std::string pairsHtml(const AssessAnswer& answer) {
 std::string holesHtml(const AssessAnswer& answer) {
   if (answer.holes.empty()) return "";
   std::string text =
-      "<h2>Not covered</h2>\n<table><tr><th>Product<th class=\"n\">Not covered, m²<th class=\"n\">of</tr>\n";
+      reportHeading("Not covered") + reportTable({{"Product"}, {"Not covered, m²", true}, {"of, m²", true}});
   for (const auto& h : answer.holes)
     text += fmt::format("<tr><td>{} {} <small>{}</small><td class=\"n\">{:.2f}<td class=\"n\">{:.2f}</tr>\n",
                         htmlText(h.ifc_class), htmlText(h.name), htmlText(h.id), h.unseen_m2, h.exposed_m2);
@@ -190,8 +196,8 @@ std::string holesHtml(const AssessAnswer& answer) {
 std::string gapsHtml(const AssessAnswer& answer) {
   if (answer.sketch.gaps.empty()) return "";
   std::string text =
-      "<h2>Largest gaps</h2>\n<table><tr><th>No.<th>Product<th class=\"n\">m²<th class=\"n\">Spacing on the rest, "
-      "mm<th>Place (m, frame of the model's file)</tr>\n";
+      reportHeading("Largest gaps") +
+      reportTable({{"No."}, {"Product"}, {"m²", true}, {"Spacing on the rest, mm", true}, {kGapPlaceHead}});
   for (std::size_t k = 0; k < answer.sketch.gaps.size(); ++k) {
     const auto& gap = answer.patches[k];
     text += fmt::format(
@@ -204,19 +210,23 @@ std::string gapsHtml(const AssessAnswer& answer) {
 }
 
 std::string htmlPage(const AssessAnswer& answer) {
-  const auto name = htmlText(answer.project.empty() ? "a project" : answer.project);
+  const auto title = htmlText(answer.project.empty() ? printed("Quality of the scans")
+                                                     : printedf("Quality of the scans of {}", answer.project));
   std::string text = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Quality of the scans of {0}</title>\n"
-      "<style>{1}</style></head><body>\n<h1>Quality of the scans of {0}</h1>\n",
-      name, kStyle);
+      "<!DOCTYPE html>\n<html lang=\"{0}\"><head><meta charset=\"utf-8\"><title>{1}</title>\n"
+      "<style>{2}</style></head><body>\n<h1>{1}</h1>\n",
+      reportLanguage(), title, kStyle);
   text += headline(answer);
-  text += fmt::format(
-      "<p>Limits: {}{}. Surface that counts: {:.1f} m², by {} samples; a point within {:g} mm of a surface belongs to "
-      "it.</p>\n",
-      answer.profile, answer.limits.empty() ? "" : ", changed by " + htmlText(answer.limits), answer.exposed_m2,
-      answer.samples, answer.radius_m * 1000);
-  text += figures(answer) + "<h2>Plan</h2>\n" + sketch(answer) + "<h2>Scans</h2>\n" + scans(answer) +
-          "<h2>Stations</h2>\n" + stationsHtml(answer) + pairsHtml(answer) + holesHtml(answer) + gapsHtml(answer);
+  const auto limits = answer.limits.empty() ? printed(answer.profile)
+                                            : printedf("{}, changed by {}", printed(answer.profile), answer.limits);
+  text += "<p>" +
+          htmlText(printedf("Limits: {}. Surface that counts: {} m², by {} samples; a point within {} mm of a surface "
+                            "belongs to it.",
+                            limits, fmt::format("{:.1f}", answer.exposed_m2), answer.samples,
+                            fmt::format("{:g}", answer.radius_m * 1000))) +
+          "</p>\n";
+  text += figures(answer) + reportHeading("Plan") + sketch(answer) + reportHeading("Scans") + scans(answer) +
+          reportHeading("Stations") + stationsHtml(answer) + pairsHtml(answer) + holesHtml(answer) + gapsHtml(answer);
   return text + "</body></html>\n";
 }
 

@@ -154,10 +154,23 @@ std::span<const Choice<CollisionNaming>> choices(CollisionNaming) {
 const Fields<ExportOptions>& exportFields() {
   using O = ExportOptions;
   static const Fields<O> fields = {
-      {"output", &O::output, "file to write (.glb, .gltf, .obj; .xml for HELIOS++)", {.required = true}},
-      {"physical", &O::physical, "write the physical materials to the .obj instead of the appearance"},
-      {"levels", &O::levels, "triangles of simpler levels of detail, from fine to coarse, as MSFT_lod: 10000 2000"},
-      {"collision", &O::collision, "add the collision shapes, named for an engine"}};
+      {"output",
+       &O::output,
+       "file to write (.glb, .gltf, .obj; .xml for HELIOS++)",
+       {.required = true, .label = "File"}},
+      {"physical",
+       &O::physical,
+       "OBJ only: write the assigned materials, as a scanner sees them, instead of the appearance",
+       {.label = "Assigned materials", .term = "physical materials: reflectance, roughness, transmittance"}},
+      {"levels",
+       &O::levels,
+       "glTF only: triangles of each simpler version of the model, from fine to coarse: 10000 2000",
+       {.label = "Simpler versions", .term = "levels of detail, glTF extension MSFT_lod"}},
+      {"collision",
+       &O::collision,
+       "glTF only: add the collision shapes, named for an engine",
+       {.label = "Collision shapes",
+        .term = "names that Unreal or Godot read, or extension KHR_physics_rigid_bodies"}}};
   return fields;
 }
 

@@ -107,8 +107,11 @@ const Fields<ConvertOptions>& convertFields() {
   std::vector<const char*> sets;
   for (const auto& set : datasets()) sets.push_back(set.name);
   static const Fields<O> fields = {
-      {"in", &O::in, "cloud to read", {.positional = true, .required = true}},
-      {"out", &O::out, "cloud to write", {.positional = true, .required = true}},
+      {"in", &O::in, "cloud to read", {.positional = true, .required = true, .label = "Points"}},
+      {"out",
+       &O::out,
+       "cloud to write (.e57, .ptx, .las, .ply, .pcd, .pts, .xyz, .csv)",
+       {.positional = true, .required = true, .label = "File"}},
       {"as",
        &O::as,
        "an E57 of integers of 0.1 mm, or of range and angles; a PCD as a list of points instead of a grid; a LAS of "

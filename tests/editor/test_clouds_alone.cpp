@@ -10,6 +10,7 @@
 #include "editor/shell/dialogs.h"
 #include "editor/shell/import_preview.h"
 #include "item_probe.h"
+#include "pointclouds/formats.h"
 #include "project/model/import_verb.h"
 #include "project/storage/project_files.h"
 #include "project/survey/locate_verb.h"
@@ -135,6 +136,30 @@ TEST_F(CloudAlone, IsSavedOpenedAgainAndGetsAModel) {
   gui.settle();
   EXPECT_TRUE(editor.session.document().hasModel());
   EXPECT_EQ(why("export"), "");
+}
+
+TEST_F(CloudAlone, IsExportedAsE57FromTheMenuAndTheFormOfTheModelsExport) {
+  EXPECT_THAT(why("export-points"), HasSubstr("add a point cloud"));
+  const auto cloud = wallCloudFile(folder.path() / "wall.xyz");
+  editor.settings.last_folder = folder.path().string();
+  open({cloud});
+  ASSERT_TRUE(gui.click("File"));
+  gui.frames(2);
+  ASSERT_TRUE(gui.click("###export-points"));
+  gui.frames(3);
+  const auto& form = editor.dialogs.verb.form;
+  EXPECT_EQ(form.options()["in"], cloud.string());
+  EXPECT_EQ(form.problem(), "") << "one press of Export is enough";
+  EXPECT_EQ(gui.find("dataset"), nullptr);
+  ASSERT_NE(gui.find("###export-model"), nullptr);
+  EXPECT_TRUE(gui.find("###export-model")->disabled) << "there is no model";
+  const std::filesystem::path out = form.options()["out"];
+  EXPECT_EQ(out.extension(), ".e57");
+  ASSERT_TRUE(gui.click("###run"));
+  gui.settle();
+  ASSERT_TRUE(std::filesystem::exists(out));
+  Progress progress;
+  EXPECT_EQ(measureCloud(out, progress)->points, measureCloud(cloud, progress)->points);
 }
 
 TEST_F(CloudAlone, OfSeveralAreShownTogether) {

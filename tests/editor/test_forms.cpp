@@ -44,7 +44,7 @@ TEST(OptionForm, SplitsLinesIntoAListAndRefusesPairsWithoutEqualsSign) {
 
 TEST(OptionForm, NamesWhatIsMissing) {
   const OptionForm form(*findVerb(verbs(), "export"));
-  EXPECT_EQ(form.problem(), "Output is missing");
+  EXPECT_EQ(form.problem(), "File is missing");
 }
 
 TEST(OptionForm, TakesWhatAJobFileSaysAndGivesItBack) {

@@ -100,6 +100,50 @@ class Levels : public ::testing::Test {
   ViewState state;
 };
 
+// A red wall in the plane y = 0, and the blue side of a slab in it, in other triangles.
+std::shared_ptr<const Environment> wallWithSlab() {
+  Environment e;
+  e.surfaces = {{"wall", {0.9F, 0.1F, 0.1F, 1}}, {"slab", {0.1F, 0.1F, 0.9F, 1}}};
+  e.products.resize(2);
+  e.products[0].ifc_class = "IfcSlab";
+  e.products[1].ifc_class = "IfcWallStandardCase";
+  Mesh slab, wall;
+  wall.positions = {{-2.037F, 0, -0.51F}, {8.03F, 0, -0.513F}, {8.041F, 0, 3.507F}, {-2.029F, 0, 3.511F}};
+  wall.triangles = {{0, 1, 2}, {0, 2, 3}};
+  constexpr int kParts = 13;
+  for (int i = 0; i <= kParts; ++i)
+    for (const float z : {0.913F, 1.287F}) slab.positions.emplace_back(0.011F + 0.4587F * static_cast<float>(i), 0, z);
+  for (std::uint32_t i = 0; i < kParts; ++i) {
+    slab.triangles.push_back({2 * i, 2 * i + 2, 2 * i + 3});
+    slab.triangles.push_back({2 * i, 2 * i + 3, 2 * i + 1});
+  }
+  wall.surface_of_triangle.assign(wall.triangles.size(), 0);
+  slab.surface_of_triangle.assign(slab.triangles.size(), 1);
+  e.meshes = {std::make_shared<Mesh>(slab), std::make_shared<Mesh>(wall)};
+  e.instances = {{0, 0, Eigen::Affine3d::Identity()}, {1, 1, Eigen::Affine3d::Identity()}};
+  return std::make_shared<const Environment>(e);
+}
+
+TEST_F(Levels, ShowTheWallAloneWhereASlabHasASideInItsPlane) {
+  state.environment = wallWithSlab();
+  int seen = 0;
+  for (const double distance_m : {0.7, 3.0, 12.0, 40.0})
+    for (const double azimuth : {-1.4, -0.9, -0.31, 0.02, 0.57, 1.2})
+      for (const double elevation : {-0.2, 0.13, 0.6}) {
+        state.camera.distance_m = distance_m;
+        state.camera.azimuth_rad = azimuth;
+        state.camera.elevation_rad = elevation;
+        const auto drawn = draw(false);
+        int blue = 0;
+        for (std::size_t p = 0; p < drawn.rgba.size(); p += 4) {
+          blue += drawn.rgba[p + 2] > drawn.rgba[p] + 40 ? 1 : 0;
+          seen += drawn.rgba[p] > drawn.rgba[p + 2] + 40 ? 1 : 0;
+        }
+        EXPECT_EQ(blue, 0) << distance_m << " m, azimuth " << azimuth << ", elevation " << elevation;
+      }
+  EXPECT_GT(seen, 100000);
+}
+
 // A sheet of points across the room, 2 m behind its open side, as an underlay.
 ShownUnderlay sheet(double x0, double x1, double y) {
   auto cloud = std::make_shared<Cloud>();

@@ -16,6 +16,7 @@
 #include "editor/panels/panels.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
+#include "editor/shell/shell.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "item_probe.h"
@@ -277,6 +278,46 @@ TEST_F(Gui, ShowsAnErrorUntilItIsClosed) {
   EXPECT_TRUE(editor.session.errors().empty());
 }
 
+TEST_F(Gui, TheLogOpensAtItsNewestLineAndFollowsItUnlessSomebodyScrollsUp) {
+  open();
+  for (int i = 0; i < 200; ++i) editor.session.say(LogLevel::note, "", "entry " + std::to_string(i));
+  editor.workspace = Workspace::environment;
+  const auto shows = [&](const std::string& text) {
+    itemProbe().texts.clear();
+    itemProbe().listens = true;
+    gui.frames(2);
+    itemProbe().listens = false;
+    return std::find(itemProbe().texts.begin(), itemProbe().texts.end(), text) != itemProbe().texts.end();
+  };
+  openPanel(editor, Workspace::environment, "log");
+  gui.frames(4);
+  EXPECT_TRUE(shows("entry 199"));
+  EXPECT_FALSE(shows("entry 0"));
+  editor.session.say(LogLevel::note, "", "entry 200");
+  gui.frames(2);
+  EXPECT_TRUE(shows("entry 200"));
+  openPanel(editor, Workspace::environment, "tasks");
+  gui.frames(3);
+  for (int i = 201; i < 300; ++i) editor.session.say(LogLevel::note, "", "entry " + std::to_string(i));
+  gui.frames(3);
+  openPanel(editor, Workspace::environment, "log");
+  gui.frames(4);
+  EXPECT_TRUE(shows("entry 299")) << "also after it was behind another panel";
+  const auto* table = gui.find("###log-clear");
+  ASSERT_NE(table, nullptr);
+  gui.moveTo({table->rect.Min.x, table->rect.Max.y + 40});
+  for (int i = 0; i < 8; ++i) {
+    ImGui::GetIO().MouseWheel = 1;
+    gui.frame();
+    ImGui::GetIO().MouseWheel = 0;
+    gui.frame();
+  }
+  EXPECT_FALSE(shows("entry 299"));
+  editor.session.say(LogLevel::note, "", "entry 300");
+  gui.frames(3);
+  EXPECT_FALSE(shows("entry 300")) << "what somebody reads stays in place";
+}
+
 TEST_F(Gui, AMessageThatTheLogHasNoRoomForIsWholeInItsTooltip) {
   std::string text = "Scanned";
   for (int i = 0; i < 60; ++i) text += " word" + std::to_string(i);
@@ -377,6 +418,25 @@ TEST_F(Gui, ShowsTheOriginalBesideTheLighterModelWithTheirDistances) {
   gui.frames(3);
   EXPECT_EQ(editor.view.side, ModelSide::lighter);
   EXPECT_EQ(editor.view.colour, ColourMode::model);
+}
+
+TEST_F(Gui, NamesWhatTheExportWritesPlainlyAndSaysWhyThereAreNoPoints) {
+  open();
+  ASSERT_TRUE(invoke(editor, "export"));
+  itemProbe().listens = true;
+  itemProbe().texts.clear();
+  gui.frames(3);
+  itemProbe().listens = false;
+  const auto drawn = [&](const char* text) {
+    return std::any_of(itemProbe().texts.begin(), itemProbe().texts.end(),
+                       [&](const auto& t) { return t.find(text) != std::string::npos; });
+  };
+  EXPECT_TRUE(drawn("Assigned materials"));
+  EXPECT_TRUE(drawn("Simpler versions"));
+  EXPECT_FALSE(drawn("Physical"));
+  EXPECT_FALSE(drawn("MSFT_lod")) << "in the tooltip only";
+  ASSERT_NE(gui.find("###export-points"), nullptr);
+  EXPECT_EQ(whyNot(*findAction("export-points"), Editor(verbsWithDemo(), [] {})), "Scan first, or add a point cloud");
 }
 
 TEST_F(Gui, ExportsUnderTheProjectsNameWhereNothingIsYet) {

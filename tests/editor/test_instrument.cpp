@@ -11,6 +11,7 @@
 #include "demo_verbs.h"
 #include "editor/instrument/desk.h"
 #include "editor/instrument/instrument.h"
+#include "editor/widgets/keyboard.h"
 #include "editor/widgets/theme.h"
 #include "emulated-ui/classroom/signed_result.h"
 #include "emulated-ui/classroom/verify.h"
@@ -69,6 +70,37 @@ TEST_F(InstrumentGui, ShowsTheWholeNameOfEveryExerciseAtEverySize) {
     }
     EXPECT_GT(seen, 5) << scale;
   }
+}
+
+TEST_F(InstrumentGui, KeepsTheKeysFromTheViewWhileThePointerOrAFingerIsOnTheDevice) {
+  ASSERT_TRUE(editor.session.start("demo", nlohmann::json::object()));
+  gui.settle();
+  gui.frames(3);
+  const auto hidden = [&] { return editor.visibility.hidden(1); };
+  const auto inDevice = [](const GuiItem& item) { return item.window.find("device_") != std::string::npos; };
+  const auto& items = itemProbe().items;
+  const auto on_device = std::find_if(items.begin(), items.end(), inDevice);
+  ASSERT_NE(on_device, items.end());
+  const ImVec2 place = on_device->rect.GetCenter();
+  const auto type = [&] {
+    editor.select(1, true);
+    gui.frames(2);
+    gui.key('H');
+    gui.frames(2);
+    return hidden();
+  };
+  gui.moveTo(place);
+  EXPECT_FALSE(type()) << "the pointer is on it";
+  gui.key('3');
+  gui.key(kKeyDelete);
+  gui.frames(2);
+  const ImVec2 beside = gui.find("###scene")->rect.GetCenter();
+  gui.moveTo(place);
+  gui.press();
+  gui.moveTo({beside.x, 5});
+  EXPECT_FALSE(type()) << "a finger was there last";
+  gui.moveTo(beside);
+  EXPECT_TRUE(type()) << "the view's own";
 }
 
 TEST_F(InstrumentGui, KeepsItsButtonsInPlaceWhenAHintIsShown) {

@@ -78,6 +78,23 @@ TEST_F(View, TurnsToThePartOfTheCubeThatIsClicked) {
   EXPECT_TRUE(editor.selection.empty()) << "the click was the cube's";
 }
 
+TEST_F(View, LeavesTheCubeFreeOfControlsHoweverNarrowItIs) {
+  for (const auto mode : {ColourMode::model, ColourMode::reflectance, ColourMode::expected_intensity})
+    for (float width = 900; width < 1500; width += 60) {
+      ImGui::GetIO().DisplaySize.x = width;
+      editor.view.colour = mode;
+      gui.frames(4);
+      const ImRect cube({editor.cube_corner.x(), editor.beside_cube + ImGui::GetFrameHeight() / 2},
+                        {width, editor.cube_corner.y()});
+      for (const auto& item : itemProbe().items)
+        if (item.window == "###viewport" && item.label.find("###scene") == std::string::npos &&
+            item.label != "###navigation-cube" && item.rect.GetWidth() > 4) {
+          EXPECT_TRUE(item.rect.Min.x >= editor.overlay_end || !item.rect.Overlaps(cube))
+              << item.label << " at " << width << " in mode " << static_cast<int>(mode);
+        }
+    }
+}
+
 TEST_F(View, TurnsWithTwoFingersToTheSideAndPansWithShift) {
   const auto before = editor.view.camera;
   wheel(0, 1);

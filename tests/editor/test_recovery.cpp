@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <chrono>
 #include <fstream>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -9,6 +10,7 @@
 #include "demo_verbs.h"
 #include "editor/model/recovery_keeper.h"
 #include "editor/recovery/differences.h"
+#include "editor/words/words.h"
 #include "item_probe.h"
 #include "project/storage/project_files.h"
 #include "project/storage/project_lock.h"
@@ -82,6 +84,26 @@ TEST_F(Recovery, SaysWhatRanAndHowFarItWas) {
                           "Optimise stopped at 7 %."));
   ASSERT_NE(leftScan(left[0]), nullptr);
   EXPECT_EQ(*leftScan(left[0]), scan);
+}
+
+TEST_F(Recovery, SaysWhenTheEditorWasSeenLastAndNotWhenItsCrashWasFound) {
+  crash(kGone, {.name = "House"});
+  const auto long_ago = fs::last_write_time(recoveryFolder(root, kGone) / "owner.json") - std::chrono::hours(50);
+  for (const char* file : {"owner.json", "copy/project.json"})
+    fs::last_write_time(recoveryFolder(root, kGone) / file, long_ago);
+  const auto before = findLeftWork(root).at(0).last_heard;
+  EXPECT_TRUE(takeNewCrashes(root).any);
+  EXPECT_FALSE(takeNewCrashes(root).any);
+  EXPECT_EQ(findLeftWork(root).at(0).last_heard, before);
+}
+
+TEST_F(Recovery, SaysWhatRanInTheLanguageThatIsSpoken) {
+  speak("de");
+  LeftWork left;
+  left.mark.jobs = {{"Scan all stations", "", 62, "scan", json::object()}};
+  const auto said = sentencesOf(left);
+  speak("en");
+  EXPECT_THAT(said, testing::Contains("Alle Standpunkte scannen: bei 62 % abgebrochen."));
 }
 
 TEST_F(Recovery, IsOfferedOfAJobThoughNothingWasUnsaved) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cstdlib>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "editor/model/scan_form.h"
 #include "editor/model/scan_outlook.h"
 #include "editor/panels/scan_panel.h"
+#include "editor/widgets/keyboard.h"
 #include "item_probe.h"
 #include "project/survey/scan_request.h"
 #include "tests/temporary_folder.h"
@@ -165,6 +167,32 @@ TEST_F(ScanPanel, RefusesSettingsThatDoNotGoTogether) {
   gui.frames(2);
   ASSERT_NE(gui.find("###run-scan"), nullptr);
   EXPECT_TRUE(gui.find("###run-scan")->disabled);
+}
+
+TEST_F(ScanPanel, ScansTheAreaWhoseEdgeIsSet) {
+  chooseInstrument(asked(), *editor.instrument("leica-rtc360"));
+  gui.frames(3);
+  const auto valueOf = [&](const std::string& key) {
+    for (const auto& [name, value] : asked().settings)
+      if (name == key) return value;
+    return std::string();
+  };
+  ASSERT_EQ(valueOf("field_of_view"), "full_dome");
+  const auto& settings = editor.instrument("leica-rtc360")->settings;
+  const auto edge = std::find_if(settings.begin(), settings.end(), [](auto& s) { return s.key == "horizontal_to"; });
+  ASSERT_NE(edge, settings.end());
+  std::vector<ImRect> fields;
+  for (const auto& item : itemProbe().items)
+    if (item.label.ends_with("###value")) fields.push_back(item.rect);
+  gui.moveTo(fields.at(static_cast<std::size_t>(edge - settings.begin())).GetCenter());
+  gui.press();
+  gui.frames(2);
+  gui.type("90-45");
+  gui.key(kKeyEnter);
+  gui.frames(3);
+  EXPECT_EQ(valueOf("horizontal_to"), "45");
+  EXPECT_EQ(valueOf("field_of_view"), "target_area");
+  EXPECT_FALSE(gui.find("###run-scan")->disabled);
 }
 
 TEST_F(ScanPanel, BeginsWithWhatTheProjectWasScannedWithLast) {

@@ -227,21 +227,44 @@ TEST(MergedScene, DrawsTheCellsOfASlopeWithoutGapsAndTheStepsOfAStairAsTheyAre) 
   EXPECT_EQ(drawn.colours.size(), 6U);
 }
 
-TEST(ModelPieces, CoverEveryInstanceOnceInItsOrder) {
+TEST(ModelPieces, CoverEveryInstanceOnceAndKeepRanksOfFacesApart) {
   const Document document = demoHouse();
   const auto& environment = *document.imported;
   const auto ranges = rangesOf(environment, 20);
   ASSERT_GT(ranges.size(), 2U);
-  EXPECT_EQ(ranges.front().first, 0U);
-  EXPECT_EQ(ranges.back().end, environment.instances.size());
-  for (std::size_t k = 0; k < ranges.size(); ++k) {
-    EXPECT_EQ(ranges[k].first, k > 0 ? ranges[k - 1].end : 0);
-    std::size_t triangles = 0;
-    for (auto i = ranges[k].first; i < ranges[k].end; ++i)
+  std::vector<int> times(environment.instances.size());
+  int rank = 0;
+  for (const auto& range : ranges) {
+    EXPECT_GE(range.rank, rank) << "the first in front";
+    rank = range.rank;
+    std::size_t triangles = 0, instances = 0;
+    for (auto i = range.first; i < range.end; ++i) {
+      if (!range.holds(environment, i)) continue;
+      ++times[i];
+      ++instances;
       triangles += environment.meshes[environment.instances[i].mesh]->triangles.size();
-    EXPECT_TRUE(triangles <= 20 || ranges[k].end - ranges[k].first == 1) << triangles;
+      EXPECT_EQ(faceRank(environment.products[environment.instances[i].product]), range.rank);
+    }
+    EXPECT_TRUE(triangles <= 20 || instances == 1) << triangles;
   }
+  EXPECT_EQ(times, std::vector<int>(environment.instances.size(), 1));
   EXPECT_TRUE(rangesOf(Environment(), 20).empty());
+}
+
+TEST(FaceRank, HasFinishesBeforeWallsBeforeSlabsBeforeTheirFrameBeforeTheGround) {
+  const auto rank = [](const char* ifc_class) {
+    Product product;
+    product.ifc_class = ifc_class;
+    return faceRank(product);
+  };
+  EXPECT_EQ(rank(""), 0);
+  EXPECT_EQ(rank("IfcDoor"), 0);
+  EXPECT_LT(rank("IfcCovering"), rank("IfcWallStandardCase"));
+  EXPECT_EQ(rank("IfcWall"), rank("IfcWallStandardCase"));
+  EXPECT_LT(rank("IfcWall"), rank("IfcSlab"));
+  EXPECT_LT(rank("IfcSlab"), rank("IfcMember"));
+  EXPECT_LT(rank("IfcMember"), rank("IfcSite"));
+  EXPECT_EQ(rank("IfcSite"), kFaceRanks - 1);
 }
 
 TEST(EdgeCache, PlacesTheEdgesOfEveryInstance) {

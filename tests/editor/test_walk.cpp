@@ -223,6 +223,41 @@ TEST_F(Walking, UndoTakesBackAJumpBeforeAnyChangeOfTheDocument) {
   EXPECT_FALSE(canUndoJump(editor)) << "the newer change is undone first";
 }
 
+TEST_F(Walking, UndoGivesUpAJumpThatWaitsForItsGroundAndNoChangeOfTheDocument) {
+  ASSERT_TRUE(editor.session.start("bookmark", {{"add", "here"}}));
+  gui.settle();
+  const auto revision = editor.session.revision();
+  ASSERT_EQ(editor.session.whyNotUndo(), "");
+  jumpToStation(editor, 1);
+  if (editor.walk.active()) GTEST_SKIP() << "the machine was faster than a frame";
+  gui.key('Z', true);
+  EXPECT_EQ(editor.session.revision(), revision) << "the bookmark stays";
+  editor.walk_ground.wait();
+  gui.frames(3);
+  EXPECT_FALSE(editor.walk.active()) << "the jump does not";
+  ASSERT_TRUE(invoke(editor, "teleport"));
+  gui.frames(1);
+  gui.key('Z', true);
+  EXPECT_FALSE(editor.view.teleport.active());
+  EXPECT_EQ(editor.session.revision(), revision) << "nor while one aims";
+  editor.walk_ground.wait();
+  gui.frames(3);
+  jumpToStation(editor, 1);  // and it can be made again
+  editor.walk_ground.wait();
+  gui.frames(3);
+  EXPECT_TRUE(editor.walk.active());
+}
+
+TEST_F(Walking, JumpsThoughTheShapesAreComputedWhileItsGroundIsPrepared) {
+  jumpToStation(editor, 1);
+  collide();
+  editor.walk_ground.wait();
+  gui.frames(3);
+  editor.walk_ground.wait();
+  gui.frames(3);
+  EXPECT_TRUE(editor.walk.active());
+}
+
 TEST_F(Walking, OpensTheDoorAheadAndClosesItBehindWithoutChangingTheDocument) {
   walk();
   const auto revision = editor.session.revision();

@@ -10,15 +10,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/report_words.h"
+#include "editor/model/catalogue.h"
 #include "editor/model/option_form.h"
 #include "editor/model/scan_form.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/widgets.h"
 #include "editor/words/sentences.h"
 #include "editor/words/words.h"
+#include "project/survey/assess_verb.h"
 #include "project/verb.h"
 #include "scanners/radiometry/effects.h"
 #include "source_text.h"
+#include "tests/temporary_folder.h"
 
 namespace standpoint {
 namespace {
@@ -239,12 +243,16 @@ TEST_F(Words, AreTranslatedWhereTheSourcesHaveThem) {
 // the second (the only one where there is no second), or all.
 enum class Said { first, second, all };
 const std::map<std::string, Said> kSaid = {
-    {"failure", Said::second},  {"Error", Said::second},       {"broken", Said::second}, {"unusable", Said::second},
-    {"wrong", Said::second},    {"fault", Said::second},       {"fail", Said::second},   {"misread", Said::second},
-    {"lose", Said::second},     {"warn", Said::second},        {"note", Said::second},   {"tolerate", Said::second},
-    {"error", Said::second},    {"say", Said::second},         {"Lost", Said::second},   {"Kind", Said::second},
-    {"figure", Said::second},   {"count", Said::first},        {"stage", Said::first},   {"unknown", Said::first},
-    {"worstScan", Said::first}, {"worstStation", Said::first}, {"Refusal", Said::all}};
+    {"failure", Said::second},     {"Error", Said::second},        {"broken", Said::second},
+    {"unusable", Said::second},    {"wrong", Said::second},        {"fault", Said::second},
+    {"fail", Said::second},        {"misread", Said::second},      {"lose", Said::second},
+    {"warn", Said::second},        {"note", Said::second},         {"tolerate", Said::second},
+    {"error", Said::second},       {"say", Said::second},          {"Lost", Said::second},
+    {"Kind", Said::second},        {"figure", Said::second},       {"count", Said::first},
+    {"stage", Said::first},        {"unknown", Said::first},       {"worstScan", Said::first},
+    {"worstStation", Said::first}, {"Refusal", Said::all},         {"printed", Said::first},
+    {"printedf", Said::first},     {"reportHeading", Said::first}, {"reportTable", Said::all},
+    {"refused", Said::second},     {"doesNotReplay", Said::second}};
 
 // What is before the bracket at `at`.
 std::string nameBefore(const std::string& source, std::size_t at) {
@@ -316,6 +324,57 @@ TEST_F(Words, TranslateWhatIsComposedOfSeveral) {
       << "a finding";
 }
 
+TEST_F(Words, AreTranslatedForEveryMaterialAndSettingOfAnInstrument) {
+  const std::set<std::string> products = {"Clear Contour", "Clear Sky",   "HDR",         "LDR",         "Panorama_100",
+                                          "Panorama_20",   "Panorama_30", "Panorama_40", "Panorama_50", "Premium"};
+  static const std::regex letters("[A-Za-z]{3}");
+  const auto known = textsOf(kWords + languages()[1].code + ".po");
+  std::set<std::string> missing;
+  const auto want = [&](const std::string& label) {
+    if (std::regex_search(label, letters) && !products.contains(label) && !known.contains(label)) missing.insert(label);
+  };
+  Catalogue catalogue;
+  readCatalogue(catalogue);
+  ASSERT_GT(catalogue.materials.size(), 100U);
+  for (const auto& material : catalogue.materials) want(material.label);
+  for (const auto& instrument : catalogue.instruments)
+    for (const auto& setting : instrument.settings) {
+      want(setting.label);
+      for (const auto& choice : setting.choices) want(choice.label);
+    }
+  EXPECT_THAT(missing, IsEmpty()) << "add them to editor/words/*.po:" << oneALine(missing);
+}
+
+TEST_F(Words, TellWhereAStationStandsFromASettingThatIsOn) {
+  speak("de");
+  const auto* on = OptionForm(*findVerb(verbs(), "station")).find("on")->parameter;
+  EXPECT_EQ(tr(optionLabel(*on)), "Auf dem Boden bei");
+  EXPECT_EQ(tr("On"), "Ein");
+}
+
+TEST_F(Words, AreTheReadersInPrintedReportsAndEnglishOnTheCommandLine) {
+  const TemporaryFolder folder;
+  AssessAnswer answer;
+  answer.project = "Halle 3";
+  const auto written = [&] {
+    EXPECT_TRUE(writeQualityReport(answer, folder.path() / "q.html"));
+    return allOf(folder.path() / "q.html");
+  };
+  const auto english = written();
+  EXPECT_NE(english.find("<html lang=\"en\">"), std::string::npos);
+  EXPECT_NE(english.find("Quality of the scans of Halle 3"), std::string::npos);
+  printReportsAsSpoken();
+  speak("de");
+  const auto german = written();
+  EXPECT_NE(german.find("<html lang=\"de\">"), std::string::npos);
+  EXPECT_NE(german.find("Qualität der Scans von Halle 3"), std::string::npos);
+  for (const char* word : {"Quality", "Figure", "Verdict", "Limits", "storeys", "Stations", "Errors"})
+    EXPECT_EQ(german.find(word), std::string::npos) << word;
+  speak("en");
+  EXPECT_EQ(written(), english);
+  printReportsIn(nullptr);
+}
+
 TEST_F(Words, AreTranslatedForEveryVerbAndOption) {
   const auto known = textsOf(kWords + languages()[1].code + ".po");
   std::set<std::string> missing;
@@ -326,8 +385,9 @@ TEST_F(Words, AreTranslatedForEveryVerbAndOption) {
     want(verb.summary);
     want(readableOption(verb.name));
     for (const auto& option : verb.parameters) {
-      want(readableOption(option.name));
+      want(optionLabel(option));
       want(option.help);
+      want(option.term);
     }
   }
   for (const auto& effect : effectNames()) {
