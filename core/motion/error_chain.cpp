@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/motion/error_chain.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -23,36 +24,39 @@ double measured(const ErrorRow& row, const std::vector<ErrorState>& states) {
   return sum;
 }
 
-// Solves by Cholesky's factors, in place; a row that depends on those before it has no say. Plain loops: Eigen's blocks
-// for large matrices follow the processor's caches, and so would the last bits.
 using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-void solveSymmetric(Square& matrix, std::vector<double>& right) {
+// Cholesky's factor of a symmetric matrix, in its lower half; a row that depends on those before it gets a pivot of 0
+// and has no say. Plain loops: Eigen's blocks for large matrices follow the processor's caches, and so would the last
+// bits.
+void factorise(Square& matrix) {
   const Eigen::Index n = matrix.rows();
-  std::vector<bool> used(static_cast<std::size_t>(n), true);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    double pivot = matrix(j, j);
-    const double whole = pivot;
-    for (Eigen::Index k = 0; k < j; ++k) pivot -= matrix(j, k) * matrix(j, k);
-    used[static_cast<std::size_t>(j)] = pivot > 1e-14 * whole;
-    const double root = used[static_cast<std::size_t>(j)] ? std::sqrt(pivot) : 0;
-    matrix(j, j) = root;
-    for (Eigen::Index i = j + 1; i < n; ++i) {
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j <= i; ++j) {
       double sum = matrix(i, j);
       for (Eigen::Index k = 0; k < j; ++k) sum -= matrix(i, k) * matrix(j, k);
-      matrix(i, j) = root > 0 ? sum / root : 0;
+      if (j < i)
+        matrix(i, j) = matrix(j, j) > 0 ? sum / matrix(j, j) : 0;
+      else
+        matrix(i, i) = sum > 1e-14 * matrix(i, i) ? std::sqrt(sum) : 0;
     }
+}
+
+double divided(double sum, double pivot) { return pivot > 0 ? sum / pivot : 0; }
+
+// L⁻¹ times a vector, in place; and after it L⁻ᵀ.
+void solveLower(const Square& factor, Eigen::VectorXd& vector) {
+  for (Eigen::Index i = 0; i < vector.size(); ++i) {
+    double sum = vector[i];
+    for (Eigen::Index k = 0; k < i; ++k) sum -= factor(i, k) * vector[k];
+    vector[i] = divided(sum, factor(i, i));
   }
-  const auto divided = [&](double sum, Eigen::Index i) { return matrix(i, i) > 0 ? sum / matrix(i, i) : 0; };
-  for (Eigen::Index i = 0; i < n; ++i) {
-    double sum = right[static_cast<std::size_t>(i)];
-    for (Eigen::Index k = 0; k < i; ++k) sum -= matrix(i, k) * right[static_cast<std::size_t>(k)];
-    right[static_cast<std::size_t>(i)] = divided(sum, i);
-  }
-  for (Eigen::Index i = n - 1; i >= 0; --i) {
-    double sum = right[static_cast<std::size_t>(i)];
-    for (Eigen::Index k = i + 1; k < n; ++k) sum -= matrix(k, i) * right[static_cast<std::size_t>(k)];
-    right[static_cast<std::size_t>(i)] = divided(sum, i);
+}
+void solveUpper(const Square& factor, Eigen::VectorXd& vector) {
+  for (Eigen::Index i = vector.size() - 1; i >= 0; --i) {
+    double sum = vector[i];
+    for (Eigen::Index k = i + 1; k < vector.size(); ++k) sum -= factor(k, i) * vector[k];
+    vector[i] = divided(sum, factor(i, i));
   }
 }
 
@@ -136,32 +140,87 @@ std::vector<ErrorState> ErrorChain::covariances(std::vector<ErrorState>& weights
   return result;
 }
 
+std::vector<ErrorState> ErrorChain::covariancesWith(const ErrorRow& row) const {
+  std::vector<ErrorState> weights(links_.size() + 1, ErrorState::Zero());
+  for (const auto& [knot, weight] : row.parts) weights[knot] += weight;
+  return covariances(weights);
+}
+
 Result<void> ErrorChain::hold(std::vector<ErrorState>& states, std::span<const ErrorRow> rows,
                               Progress& progress) const {
   if (rows.empty()) return {};
   const auto count = static_cast<Eigen::Index>(rows.size());
-  const auto weightsOf = [&](const ErrorRow& row, double by, std::vector<ErrorState>& weights) {
-    for (const auto& [knot, weight] : row.parts) weights[knot] += by * weight;
-  };
   Square matrix(count, count);
-  std::vector<double> right;
+  Eigen::VectorXd right(count);
   for (Eigen::Index j = 0; j < count; ++j) {
     const ErrorRow& row = rows[static_cast<std::size_t>(j)];
-    std::vector<ErrorState> weights(states.size(), ErrorState::Zero());
-    weightsOf(row, 1, weights);
-    const auto covariance = covariances(weights);
+    const auto covariance = covariancesWith(row);
     for (Eigen::Index i = j; i < count; ++i) matrix(i, j) = measured(rows[static_cast<std::size_t>(i)], covariance);
     matrix(j, j) += row.sigma * row.sigma;
-    right.push_back(measured(row, states) + row.noise);
+    right[j] = measured(row, states) + row.noise;
     progress.advance(0.8 * static_cast<double>(j) / static_cast<double>(count));
     TRY(progress.check());
   }
-  solveSymmetric(matrix, right);
+  factorise(matrix);
+  solveLower(matrix, right);
+  solveUpper(matrix, right);
   std::vector<ErrorState> weights(states.size(), ErrorState::Zero());
-  for (std::size_t j = 0; j < rows.size(); ++j) weightsOf(rows[j], right[j], weights);
+  for (Eigen::Index j = 0; j < count; ++j)
+    for (const auto& [knot, weight] : rows[static_cast<std::size_t>(j)].parts) weights[knot] += right[j] * weight;
   const auto correction = covariances(weights);
   for (std::size_t i = 0; i < states.size(); ++i) states[i] -= correction[i];
   return {};
+}
+
+std::vector<ErrorState> ErrorChain::variances(std::span<const std::size_t> knots) const {
+  using Covariance = Eigen::Matrix<double, 7, 7>;
+  Covariance covariance = first_sigma_.cwiseProduct(first_sigma_).asDiagonal();
+  std::vector<ErrorState> result;
+  std::size_t next = 0;
+  for (std::size_t i = 0; next < knots.size(); ++i) {
+    for (; next < knots.size() && knots[next] == i; ++next) result.push_back(covariance.diagonal());
+    if (i == links_.size()) break;
+    const Link& link = links_[i];
+    Covariance half, whole;  // F P, then F (F P)ᵀ
+    for (int k = 0; k < 7; ++k) half.row(k) = forward(link, covariance.col(k)).transpose();
+    for (int k = 0; k < 7; ++k) whole.col(k) = forward(link, half.col(k));
+    covariance = whole;
+    covariance.topLeftCorner<3, 3>() += link.drift * link.drift.transpose();
+    covariance.block<3, 3>(3, 3) += link.turn_sigma.cwiseProduct(link.turn_sigma).asDiagonal();
+  }
+  return result;
+}
+
+// What the rows take from a variance is |L⁻¹ c|², c being the covariances with them and L Lᵀ those among them.
+Result<std::vector<ErrorState>> ErrorChain::heldVariances(std::span<const std::size_t> knots,
+                                                          std::span<const ErrorRow> rows, Progress& progress) const {
+  auto result = variances(knots);
+  const auto count = static_cast<Eigen::Index>(rows.size());
+  Square matrix(count, count);
+  Eigen::MatrixXd with(count, static_cast<Eigen::Index>(7 * knots.size()));  // of each part of each knot
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const ErrorRow& row = rows[static_cast<std::size_t>(j)];
+    const auto covariance = covariancesWith(row);
+    for (Eigen::Index i = j; i < count; ++i) matrix(i, j) = measured(rows[static_cast<std::size_t>(i)], covariance);
+    matrix(j, j) += row.sigma * row.sigma;
+    for (std::size_t i = 0; i < knots.size(); ++i)
+      with.row(j).segment<7>(static_cast<Eigen::Index>(7 * i)) = covariance[knots[i]].transpose();
+    progress.advance(0.5 * static_cast<double>(j) / static_cast<double>(count));
+    TRY(progress.check());
+  }
+  factorise(matrix);
+  for (std::size_t i = 0; i < knots.size() && count > 0; ++i) {
+    for (int k = 0; k < 7; ++k) {
+      Eigen::VectorXd column = with.col(static_cast<Eigen::Index>(7 * i) + k);
+      solveLower(matrix, column);
+      double taken = 0;
+      for (const double part : column) taken += part * part;
+      result[i][k] = std::max(0.0, result[i][k] - taken);
+    }
+    progress.advance(0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(knots.size()));
+    TRY(progress.check());
+  }
+  return result;
 }
 
 }  // namespace standpoint

@@ -34,6 +34,9 @@ class ErrorChain {
   std::vector<ErrorState> drawn(std::uint64_t seed, std::uint32_t trajectory) const;
   // Corrects a draw so that it is one under the condition that the rows measure nothing but their noise.
   Result<void> hold(std::vector<ErrorState>& states, std::span<const ErrorRow> rows, Progress& progress) const;
+  // Of the states at some knots, rising, under the same condition.
+  Result<std::vector<ErrorState>> heldVariances(std::span<const std::size_t> knots, std::span<const ErrorRow> rows,
+                                                Progress& progress) const;
 
  private:
   struct Link {  // from a knot to the next
@@ -47,6 +50,8 @@ class ErrorChain {
   ErrorState backward(const Link& link, const ErrorState& weight) const;  // its transpose
   // The covariances of all states with what weights add up to; `weights` is used up.
   std::vector<ErrorState> covariances(std::vector<ErrorState>& weights) const;
+  std::vector<ErrorState> covariancesWith(const ErrorRow& row) const;
+  std::vector<ErrorState> variances(std::span<const std::size_t> knots) const;
 
   std::vector<Link> links_;
   ErrorState first_sigma_ = ErrorState::Zero();

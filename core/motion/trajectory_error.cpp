@@ -189,4 +189,20 @@ Result<SolvedTrajectory> solveTrajectory(PoseFunctionPtr truth, std::span<const 
   return solved;
 }
 
+Result<std::vector<ExpectedError>> expectedErrors(std::span<const ErrorKnot> knots, const ErrorProfile& profile,
+                                                  std::span<const MotionConstraint> constraints, Progress& progress,
+                                                  std::size_t places) {
+  if (knots.empty()) return failure(ErrorKind::internal, "a trajectory has at least one knot");
+  TRY_ASSIGN(const auto rows, rowsOf(knots, constraints, 0, 0));
+  std::vector<std::size_t> at;
+  const std::size_t pieces = std::min(std::max<std::size_t>(places, 2), knots.size()) - 1;
+  for (std::size_t i = 0; i <= pieces; ++i) at.push_back(pieces > 0 ? i * (knots.size() - 1) / pieces : 0);
+  TRY_ASSIGN(const auto variances, ErrorChain(knots, profile).heldVariances(at, rows, progress));
+  std::vector<ExpectedError> expected;
+  for (std::size_t i = 0; i < at.size(); ++i)
+    expected.push_back(
+        {knots[at[i]].time_s, variances[i].head<3>().cwiseSqrt(), variances[i].segment<3>(3).cwiseSqrt()});
+  return expected;
+}
+
 }  // namespace standpoint

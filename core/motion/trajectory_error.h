@@ -60,4 +60,16 @@ Result<SolvedTrajectory> solveTrajectory(PoseFunctionPtr truth, std::span<const 
                                          const ErrorProfile& profile, std::span<const MotionConstraint> constraints,
                                          std::uint64_t seed, std::uint32_t trajectory, Progress& progress);
 
+struct ExpectedError {  // standard deviations, local frame, without the shaking within a scan
+  double time_s = 0;
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d rotation_rad = Eigen::Vector3d::Zero();
+};
+
+// How large the errors of such a trajectory are over all seeds, in closed form, at up to `places` of its knots that lie
+// evenly, the first and the last among them: before anything is walked, or to colour what was.
+Result<std::vector<ExpectedError>> expectedErrors(std::span<const ErrorKnot> knots, const ErrorProfile& profile,
+                                                  std::span<const MotionConstraint> constraints, Progress& progress,
+                                                  std::size_t places = 400);
+
 }  // namespace standpoint

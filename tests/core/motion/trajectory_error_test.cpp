@@ -151,6 +151,30 @@ TEST(TrajectoryError, M12_IsHeldByAnchors) {
   }
 }
 
+// In closed form what the draws show.
+TEST(ExpectedErrors, AreTheSpreadOverSeeds) {
+  const auto knots = *errorKnots(*square(60));
+  const std::vector<MotionConstraint> held = {{knots.back().time_s, 0, 0.005, 0.02 * kRadPerDeg},
+                                              {knots[knotAtWay(knots, 22)].time_s, {}, 0.003, {}}};
+  Progress progress;
+  for (const char* id : {"poor", "survey-mms"})
+    for (const auto& constraints : {std::vector<MotionConstraint>{}, held}) {
+      const auto drawn = spread(knots, profile(id), constraints);
+      const auto expected = expectedErrors(knots, profile(id), constraints, progress, 7);
+      ASSERT_TRUE(expected);
+      ASSERT_EQ(expected->size(), 7U);
+      EXPECT_EQ(expected->back().time_s, knots.back().time_s);
+      for (const auto& one : *expected) {
+        std::size_t i = 0;
+        while (knots[i].time_s < one.time_s) ++i;
+        for (int k = 0; k < 3; ++k) {
+          EXPECT_NEAR(drawn[i][k], one.position_m[k], 0.16 * one.position_m[k] + 1e-9) << id << " " << i;
+          EXPECT_NEAR(drawn[i][k + 3], one.rotation_rad[k], 0.16 * one.rotation_rad[k] + 1e-9) << id << " " << i;
+        }
+      }
+    }
+}
+
 // The table of mobile.md §4.3, in the plane and without the error of scale.
 TEST(TrajectoryError, OfTheProfilesIsThatOfTheirTable) {
   struct Row {
