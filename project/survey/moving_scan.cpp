@@ -11,7 +11,7 @@
 #include "project/survey/scan_header.h"
 #include "project/survey/scan_request.h"
 #include "survey/scanning/scan_identity.h"
-#include "survey/trajectories/carried_way.h"
+#include "survey/trajectories/carried_motion.h"
 #include "survey/trajectories/trajectory_file.h"
 
 namespace standpoint {
@@ -69,13 +69,13 @@ Result<void> writeTrajectory(const PoseFunction& function, const Georeference& g
   return {};
 }
 
-// What of the way decides the points, as a text.
-std::string wayText(const CarriedTrajectory& trajectory, const CarriedWay& way, const SolvedWay& solved,
-                    const ErrorProfile* profile) {
-  std::uint64_t hash = stableHash("standpoint way");
+// What of the trajectory decides the points, as a text.
+std::string motionText(const CarriedTrajectory& trajectory, const CarriedMotion& carried, const SolvedMotion& solved,
+                       const ErrorProfile* profile) {
+  std::uint64_t hash = stableHash("standpoint trajectory");
   for (int k = 0; k <= 64; ++k) {
-    const double time_s = way.truth->first_s() + way.seconds() * k / 64;
-    for (const PoseFunctionPtr& function : {way.truth, solved.pose}) {
+    const double time_s = carried.truth->first_s() + carried.seconds() * k / 64;
+    for (const PoseFunctionPtr& function : {carried.truth, solved.pose}) {
       if (!function) continue;
       const Pose pose = function->pose(time_s);
       hash = stableHash(fmt::format("{} {} {} {} {} {}", pose.translation.x(), pose.translation.y(),
@@ -84,8 +84,8 @@ std::string wayText(const CarriedTrajectory& trajectory, const CarriedWay& way, 
                         hash);
     }
   }
-  return fmt::format("trajectory={}, {:.1f} m in {:.1f} s, {}, {:08x}", trajectory.name, way.length_m, way.seconds(),
-                     profile == nullptr ? "known exactly" : profile->id, hash & 0xFFFFFFFFU);
+  return fmt::format("trajectory={}, {:.1f} m in {:.1f} s, {}, {:08x}", trajectory.name, carried.length_m,
+                     carried.seconds(), profile == nullptr ? "known exactly" : profile->id, hash & 0xFFFFFFFFU);
 }
 
 }  // namespace
@@ -99,42 +99,42 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
   Report& report = outcome.report;
   noteDefaultRules(document, report);
   progress.stage("Prepare " + trajectory.name, 0, 0.1);
-  TRY_ASSIGN(const auto way, carriedWay(trajectory, *document.georeference, report, progress));
+  TRY_ASSIGN(const auto carried, carriedMotion(trajectory, *document.georeference, report, progress));
   ScanSurroundings at_hand = company;
   if (!at_hand.preparation || !at_hand.preparation->fits(document)) {
     TRY_ASSIGN(at_hand.preparation, prepareScan(document, nullptr, progress));
   }
   const RayScene& scene = *at_hand.preparation->scene;
-  findObstacles(way, scene, *document.georeference, trajectory.name, report);
+  findObstacles(carried, scene, *document.georeference, trajectory.name, report);
   const ErrorProfile* const profile = profileOf(request, options.trajectory_error);
   progress.stage("Solve " + trajectory.name, 0.1, 0.15);
-  TRY_ASSIGN(const auto solved, solveWay(way, scene, document.job->stations, trajectory.name,
-                                         {.profile = profile,
-                                          .closures = options.closures == Switch::on,
-                                          .anchors = options.anchors == Switch::on,
-                                          .seed = request.options.seed,
-                                          .max_range_m = request.settings.max_range_m},
-                                         progress));
-  const PoseFunction& known = solved.pose ? *solved.pose : *way.truth;
-  request.notes.push_back(wayText(trajectory, way, solved, profile));
+  TRY_ASSIGN(const auto solved, solveMotion(carried, scene, document.job->stations, trajectory.name,
+                                            {.profile = profile,
+                                             .closures = options.closures == Switch::on,
+                                             .anchors = options.anchors == Switch::on,
+                                             .seed = request.options.seed,
+                                             .max_range_m = request.settings.max_range_m},
+                                            progress));
+  const PoseFunction& known = solved.pose ? *solved.pose : *carried.truth;
+  request.notes.push_back(motionText(trajectory, carried, solved, profile));
   request.options.station_key = static_cast<std::uint32_t>(stableHash(trajectory.name.c_str()));
-  request.settings.scan_seconds = way.seconds();
+  request.settings.scan_seconds = carried.seconds();
 
   // Upright and at whole metres near the beginning: single precision is enough for the points, and the same place
   // whatever the error.
   const Pose start{Eigen::Quaterniond::Identity(),
-                   way.truth->pose(way.truth->first_s()).translation.array().round().matrix()};
+                   carried.truth->pose(carried.truth->first_s()).translation.array().round().matrix()};
   Station as_station;
   as_station.name = trajectory.name;
   as_station.true_pose = start;
   const auto guid = guidOf(at_hand.preparation->fingerprint, as_station, start, request);
   const fs::path file = fileOf(request, as_station);
-  ScanMotion motion{.true_pose = *way.truth, .solved_pose = solved.pose.get()};
-  motion.from_s = way.truth->first_s(), motion.to_s = way.truth->last_s();
+  ScanMotion motion{.true_pose = *carried.truth, .solved_pose = solved.pose.get()};
+  motion.from_s = carried.truth->first_s(), motion.to_s = carried.truth->last_s();
   motion.deskew = options.deskew;
   motion.local_from_points = start;
   if (options.shard) {
-    const std::uint64_t blocks = blocksOf(request.instrument, request.settings, way.seconds());
+    const std::uint64_t blocks = blocksOf(request.instrument, request.settings, carried.seconds());
     request.options.first_column =
         static_cast<std::uint32_t>(blocks * (options.shard->index - 1) / options.shard->count);
     request.options.end_column = static_cast<std::uint32_t>(blocks * options.shard->index / options.shard->count);
@@ -152,7 +152,7 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
   TRY(writer->close());
   report.append(writer->report());
   TRY(writeTrajectory(known, *document.georeference, file, ".trajectory.csv"));
-  if (options.truth) TRY(writeTrajectory(*way.truth, *document.georeference, file, ".true.csv"));
+  if (options.truth) TRY(writeTrajectory(*carried.truth, *document.georeference, file, ".true.csv"));
 
   if (count.points == 0) report.warn(trajectory.name, "no surface is in range of the instrument along the trajectory");
   if (profile != nullptr)
@@ -162,7 +162,7 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
                             1e3 * solved.rms_m, 1e3 * solved.largest_m, solved.closures, solved.anchors));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   outcome.answer.stations.push_back(
-      {trajectory.name, count.points, count.pulses, count.returns, seconds, way.seconds(), file, std::nullopt});
+      {trajectory.name, count.points, count.pulses, count.returns, seconds, carried.seconds(), file, std::nullopt});
   outcome.description =
       fmt::format("Scanned along {} with {} {}", trajectory.name, request.instrument.maker, request.instrument.model);
   Job job = *document.job;
@@ -175,7 +175,7 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
                               .seed = request.options.seed,
                               .pulses = count.pulses,
                               .points = count.points,
-                              .instrument_seconds = way.seconds()});
+                              .instrument_seconds = carried.seconds()});
   outcome.document.job = std::make_shared<const Job>(std::move(job));
   return outcome;
 }

@@ -10,7 +10,7 @@
 #include "project/answers.h"
 #include "project/survey/survey_verbs.h"
 #include "survey/stations/station_places.h"
-#include "survey/trajectories/carried_way.h"
+#include "survey/trajectories/carried_motion.h"
 #include "survey/trajectories/trajectory_file.h"
 
 namespace standpoint {
@@ -114,13 +114,13 @@ Result<CarriedTrajectory> newTrajectory(const Document& document, const Trajecto
 TrajectoryRow trajectoryRow(const CarriedTrajectory& t, const Georeference& g, Report& report, Progress& progress) {
   TrajectoryRow row{t.name, t.file.empty() ? t.carrier : "", t.waypoints.size(), {}, {}, {}, t.file, t.scans.size()};
   Report of_file;
-  const auto way = carriedWay(t, g, of_file, progress);
-  if (!way) {
-    report.warn(t.name, describe(way.error()));
+  const auto carried = carriedMotion(t, g, of_file, progress);
+  if (!carried) {
+    report.warn(t.name, describe(carried.error()));
     return row;
   }
-  row.length_m = way->length_m, row.seconds = way->seconds();
-  if (way->seconds() > 0) row.mean_mps = way->length_m / way->seconds();
+  row.length_m = carried->length_m, row.seconds = carried->seconds();
+  if (carried->seconds() > 0) row.mean_mps = carried->length_m / carried->seconds();
   return row;
 }
 
@@ -136,9 +136,9 @@ Result<void> writeTrajectoryFile(const CarriedTrajectory& trajectory, const Geor
                    "--output");
   }
   TRY(checkFolderOf(options.output, "--output"));
-  TRY_ASSIGN(const auto way, carriedWay(trajectory, g, report, progress));
+  TRY_ASSIGN(const auto carried, carriedMotion(trajectory, g, report, progress));
   TRY_ASSIGN(const auto frame, fileFrame(g, format->id));
-  TRY_ASSIGN(const auto lost, format->write(options.output, evenSamples(*way.truth, options.rate_hz), frame));
+  TRY_ASSIGN(const auto lost, format->write(options.output, evenSamples(*carried.truth, options.rate_hz), frame));
   report.append(lost);
   return {};
 }
@@ -206,9 +206,9 @@ Result<Answered<TrajectoryAnswer>> runTrajectory(const Document& document, const
   if (options.add) {
     TRY(checkTrajectoryName(job, *options.add, "--add"));
     TRY_ASSIGN(auto made, newTrajectory(document, options, progress));
-    TRY_ASSIGN(const auto way, carriedWay(made, g, outcome.report, progress));
+    TRY_ASSIGN(const auto carried, carriedMotion(made, g, outcome.report, progress));
     TRY_ASSIGN(const auto scene, RayScene::build(document.environment(), progress));
-    findObstacles(way, *scene, g, made.name, outcome.report);
+    findObstacles(carried, *scene, g, made.name, outcome.report);
     job.trajectories.push_back(std::move(made));
     outcome.description = "Added trajectory " + *options.add;
   } else if (options.rename || options.remove || options.write) {

@@ -87,7 +87,7 @@ TEST(TrajectoryVerb, WritesWhatItReadsAgain) {
   }
 }
 
-TEST(TrajectoryVerb, NamesWhatTheWayRunsThrough) {
+TEST(TrajectoryVerb, NamesWhatThePathRunsThrough) {
   const auto through = run("trajectory", twoStoreyDocument(),
                            {{"add", "blind"}, {"through", {"500001,5600001", "500001,5600003", "500009,5600003,0"}}});
   ASSERT_TRUE(through) << describe(through.error());
@@ -96,7 +96,7 @@ TEST(TrajectoryVerb, NamesWhatTheWayRunsThrough) {
   EXPECT_TRUE(wall);
 }
 
-TEST(TrajectoryVerb, RefusesWhatIsNoWayWithARemedy) {
+TEST(TrajectoryVerb, RefusesWhatIsNoTrajectoryWithARemedy) {
   const TemporaryFolder folder;
   const Document made = withLoop();
   const auto refused = [&](const json& options, const char* words) {
@@ -119,7 +119,7 @@ TEST(TrajectoryVerb, RefusesWhatIsNoWayWithARemedy) {
   refused({{"add", "back"}, {"file", (folder.path() / "back.tum").string()}}, "line 3");
 }
 
-TEST(MovingScanVerb, SeesTheRoomFromTheWay) {
+TEST(MovingScanVerb, SeesTheRoomAlongTheTrajectory) {
   const TemporaryFolder folder;
   json options = along(folder.path() / "o.e57");
   options["ideal"] = true;

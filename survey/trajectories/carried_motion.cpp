@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "survey/trajectories/carried_way.h"
+#include "survey/trajectories/carried_motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,8 +40,8 @@ double lengthOf(const PoseFunction& path) {
   return length;
 }
 
-Result<CarriedWay> wayOfFile(const CarriedTrajectory& trajectory, const Georeference& georeference, Report& report,
-                             Progress& progress) {
+Result<CarriedMotion> motionOfFile(const CarriedTrajectory& trajectory, const Georeference& georeference,
+                                   Report& report, Progress& progress) {
   const TrajectoryFormat* format = trajectoryFormat(trajectory.format);
   if (format == nullptr) {
     TRY_ASSIGN(format, trajectoryFormatOf(trajectory.file));
@@ -53,10 +53,10 @@ Result<CarriedWay> wayOfFile(const CarriedTrajectory& trajectory, const Georefer
   report.append(read.report);
   auto spline = PoseSpline::through(read.samples, read.gap_s);
   if (!spline) return failure(spline.error().kind, spline.error().message, trajectory.file);
-  CarriedWay way;
-  way.path = way.truth = std::make_shared<const PoseSpline>(*std::move(spline));
-  way.length_m = lengthOf(*way.path);
-  return way;
+  CarriedMotion carried;
+  carried.path = carried.truth = std::make_shared<const PoseSpline>(*std::move(spline));
+  carried.length_m = lengthOf(*carried.path);
+  return carried;
 }
 
 // Even over the sphere, as the leaves of a sunflower are over its disc.
@@ -91,9 +91,9 @@ const ErrorKnot& nearestTo(const std::vector<ErrorKnot>& knots, const Eigen::Vec
 
 }  // namespace
 
-Result<CarriedWay> carriedWay(const CarriedTrajectory& trajectory, const Georeference& georeference, Report& report,
-                              Progress& progress) {
-  if (!trajectory.file.empty()) return wayOfFile(trajectory, georeference, report, progress);
+Result<CarriedMotion> carriedMotion(const CarriedTrajectory& trajectory, const Georeference& georeference,
+                                    Report& report, Progress& progress) {
+  if (!trajectory.file.empty()) return motionOfFile(trajectory, georeference, report, progress);
   const auto carrier =
       std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == trajectory.carrier; });
   if (carrier == kCarriers.end())
@@ -103,15 +103,15 @@ Result<CarriedWay> carriedWay(const CarriedTrajectory& trajectory, const Georefe
   if (trajectory.speed_mps > 0) limits.speed_mps = trajectory.speed_mps;
   auto walked = walkPath(trajectory.waypoints, limits);
   if (!walked) return failure(walked.error().kind, walked.error().message, trajectory.name);
-  CarriedWay way;
-  way.length_m = walked->length_m;
-  way.path = std::make_shared<const PoseSpline>(std::move(walked->poses));
+  CarriedMotion carried;
+  carried.length_m = walked->length_m;
+  carried.path = std::make_shared<const PoseSpline>(std::move(walked->poses));
   TRY(progress.check());
-  const CarriedPose carried(way.path, *carrier, trajectory.seed,
+  const CarriedPose pose(carried.path, *carrier, trajectory.seed,
                             static_cast<std::uint32_t>(stableHash(trajectory.name.c_str())));
-  TRY_ASSIGN(auto spline, sampled(carried, kSampled_hz));
-  way.truth = std::make_shared<const PoseSpline>(std::move(spline));
-  return way;
+  TRY_ASSIGN(auto spline, sampled(pose, kSampled_hz));
+  carried.truth = std::make_shared<const PoseSpline>(std::move(spline));
+  return carried;
 }
 
 Trajectory evenSamples(const PoseFunction& function, double rate_hz) {
@@ -125,17 +125,17 @@ Trajectory evenSamples(const PoseFunction& function, double rate_hz) {
   return samples;
 }
 
-void findObstacles(const CarriedWay& way, const RayScene& scene, const Georeference& georeference,
+void findObstacles(const CarriedMotion& carried, const RayScene& scene, const Georeference& georeference,
                    const std::string& name, Report& report) {
   constexpr double kStep_s = 0.1;
   constexpr std::size_t kMost = 10;
   std::size_t found = 0;
-  const double first = way.path->first_s(), last = way.path->last_s();
-  Eigen::Vector3d before = way.path->pose(first).translation;
+  const double first = carried.path->first_s(), last = carried.path->last_s();
+  Eigen::Vector3d before = carried.path->pose(first).translation;
   const auto steps = static_cast<std::uint64_t>(std::ceil((last - first) / kStep_s));
   for (std::uint64_t k = 1; k <= steps; ++k) {
     const double time_s = std::min(last, first + k * kStep_s);
-    const Eigen::Vector3d here = way.path->pose(time_s).translation;
+    const Eigen::Vector3d here = carried.path->pose(time_s).translation;
     const double length = (here - before).norm();
     if (length < 1e-6) continue;
     const auto hit = scene.intersect(before, (here - before) / length, length);
@@ -149,11 +149,11 @@ void findObstacles(const CarriedWay& way, const RayScene& scene, const Georefere
   if (found > kMost) report.warn(name, fmt::format("goes through {} more surfaces", found - kMost));
 }
 
-Result<SolvedWay> solveWay(const CarriedWay& way, const RayScene& scene, std::span<const Station> stations,
-                           const std::string& name, const WaySolving& solving, Progress& progress) {
-  SolvedWay solved;
+Result<SolvedMotion> solveMotion(const CarriedMotion& carried, const RayScene& scene, std::span<const Station> stations,
+                                 const std::string& name, const MotionSolving& solving, Progress& progress) {
+  SolvedMotion solved;
   if (solving.profile == nullptr) return solved;
-  TRY_ASSIGN(auto knots, errorKnots(*way.path));
+  TRY_ASSIGN(auto knots, errorKnots(*carried.path));
   setDegeneracy(knots, scene, solving.max_range_m);
   TRY(progress.check());
   std::vector<MotionConstraint> constraints;
@@ -168,7 +168,7 @@ Result<SolvedWay> solveWay(const CarriedWay& way, const RayScene& scene, std::sp
     constraints.push_back({knot.time_s, {}, kClosure_sigma_m, kClosure_sigma_rad});
     ++solved.anchors;
   }
-  TRY_ASSIGN(const auto trajectory, solveTrajectory(way.truth, knots, *solving.profile, constraints, solving.seed,
+  TRY_ASSIGN(const auto trajectory, solveTrajectory(carried.truth, knots, *solving.profile, constraints, solving.seed,
                                                     static_cast<std::uint32_t>(stableHash(name.c_str())), progress));
   for (const KnotError& error : trajectory.errors) {
     solved.rms_m += error.position_m.squaredNorm() / static_cast<double>(trajectory.errors.size());

@@ -18,7 +18,7 @@
 namespace standpoint {
 
 // A trajectory as functions of time, local frame, from 0 s or the first sample's time on.
-struct CarriedWay {
+struct CarriedMotion {
   PoseFunctionPtr path;   // without gait and shaking; of a file it is what the file has
   PoseFunctionPtr truth;  // as the body goes it
   double length_m = 0;
@@ -27,19 +27,19 @@ struct CarriedWay {
 
 // Waypoints as a carrier walks them, or the file. What a file has lost is in the report; an error names the waypoint,
 // or file and line.
-Result<CarriedWay> carriedWay(const CarriedTrajectory& trajectory, const Georeference& georeference, Report& report,
-                              Progress& progress);
+Result<CarriedMotion> carriedMotion(const CarriedTrajectory& trajectory, const Georeference& georeference,
+                                    Report& report, Progress& progress);
 
 // Poses at even steps from the first to the last time.
 Trajectory evenSamples(const PoseFunction& function, double rate_hz);
 
-// What the way runs through, as warnings of the report: where the body's centre goes from one side of a surface to the
+// What the path runs through, as warnings of the report: where the body's centre goes from one side of a surface to the
 // other. At most ten, and how many more.
-void findObstacles(const CarriedWay& way, const RayScene& scene, const Georeference& georeference,
+void findObstacles(const CarriedMotion& carried, const RayScene& scene, const Georeference& georeference,
                    const std::string& name, Report& report);
 
 // How a trajectory is found by what is seen from it.
-struct WaySolving {
+struct MotionSolving {
   const ErrorProfile* profile = nullptr;  // null: it is known exactly
   bool closures = true;                   // places that it comes back to are recognised
   bool anchors = false;                   // scanned stations of the job hold it …
@@ -47,14 +47,14 @@ struct WaySolving {
   std::uint64_t seed = 1;
   double max_range_m = 0;  // that the scanner sees
 };
-struct SolvedWay {
+struct SolvedMotion {
   PoseFunctionPtr pose;  // null where it is known exactly
   std::size_t closures = 0, anchors = 0;
   double rms_m = 0, largest_m = 0;  // of the position's error, at the knots
 };
 // The error of a carried scanner's trajectory (core/motion/trajectory_error.h), with the degeneracy that the scene
-// gives along the way: rays from each knot find what surfaces face it.
-Result<SolvedWay> solveWay(const CarriedWay& way, const RayScene& scene, std::span<const Station> stations,
-                           const std::string& name, const WaySolving& solving, Progress& progress);
+// gives along it: rays from each knot find what surfaces face it.
+Result<SolvedMotion> solveMotion(const CarriedMotion& carried, const RayScene& scene, std::span<const Station> stations,
+                                 const std::string& name, const MotionSolving& solving, Progress& progress);
 
 }  // namespace standpoint
