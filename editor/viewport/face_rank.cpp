@@ -18,6 +18,9 @@ int faceRank(const Product& product) {
   return 0;
 }
 
-DepthOffset depthOffsetOf(int rank) { return {1 + 0.25 * rank, 1 + 0.06 * rank}; }
+double depthOffsetOf(int rank) {
+  constexpr double kNearest = 1, kStep = 0.06;
+  return kNearest + kStep * rank;
+}
 
 }  // namespace standpoint

@@ -11,11 +11,8 @@ namespace standpoint {
 inline constexpr int kFaceRanks = 5;
 int faceRank(const Product& product);  // 0 is seen before all others
 
-// How far behind rank 0 it is drawn, as Layer::drawSurface() counts: some 2 mm at 10 m in a room and less from outside,
-// and on what is seen at a grazing angle a quarter of the depth from pixel to pixel.
-struct DepthOffset {
-  double by_slope = 0, units = 0;
-};
-DepthOffset depthOffsetOf(int rank);
+// How far behind rank 0 it is drawn, as Layer::drawSurface() counts: some 2 mm at 10 m in a room, and less from
+// outside.
+double depthOffsetOf(int rank);
 
 }  // namespace standpoint

@@ -50,7 +50,7 @@ vtkSmartPointer<vtkUnsignedCharArray> coloursOf(const std::vector<Rgba>& colours
 
 }  // namespace
 
-void Layer::drawSurface(DepthOffset offset) {
+void Layer::drawSurface(double offset) {
   auto* property = actor->GetProperty();
   property->SetInterpolationToFlat();
   property->SetAmbient(0.34);
@@ -58,7 +58,7 @@ void Layer::drawSurface(DepthOffset offset) {
   property->SetSpecular(0);
   mapper->SetColorModeToDirectScalars();
   mapper->SetResolveCoincidentTopologyToPolygonOffset();
-  mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(offset.by_slope, offset.units);
+  mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(offset, offset);
 }
 
 void Layer::drawLines(std::array<double, 3> colour, double opacity, double width) {

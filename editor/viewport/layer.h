@@ -30,8 +30,7 @@ struct Layer {
 
   // How it is drawn, to be said once. Flat surfaces in the colours of their triangles; what has a smaller `offset` lies
   // before what coincides with it.
-  void drawSurface(DepthOffset offset);
-  void drawSurface(double offset) { drawSurface(DepthOffset{offset, offset}); }
+  void drawSurface(double offset);
   void drawLines(std::array<double, 3> colour, double opacity, double width);
 
   void show(const MergedTriangles& triangles);
