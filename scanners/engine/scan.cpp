@@ -164,7 +164,8 @@ Result<ScanCount> run(const RayScene& scene, const MaterialAssignment& assignmen
 Result<ScanCount> scan(const RayScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,
                        const ScanSettings& settings, const Pose& local_from_scanner, const ScanOptions& options,
                        PointSink& sink, Progress& progress) {
-  if (instrument.moving) return failure(ErrorKind::usage, "this instrument is carried: it scans along a trajectory", instrument.id);
+  if (instrument.moving)
+    return failure(ErrorKind::usage, "this instrument is carried: it scans along a trajectory", instrument.id);
   if (!finite(local_from_scanner)) return failure(ErrorKind::usage, "the scanner's pose is not finite", "pose");
   return run(scene, assignment, instrument, settings, local_from_scanner, nullptr, options, sink, progress);
 }

@@ -108,7 +108,7 @@ Result<CarriedMotion> carriedMotion(const CarriedTrajectory& trajectory, const G
   carried.path = std::make_shared<const PoseSpline>(std::move(walked->poses));
   TRY(progress.check());
   const CarriedPose pose(carried.path, *carrier, trajectory.seed,
-                            static_cast<std::uint32_t>(stableHash(trajectory.name.c_str())));
+                         static_cast<std::uint32_t>(stableHash(trajectory.name.c_str())));
   TRY_ASSIGN(auto spline, sampled(pose, kSampled_hz));
   carried.truth = std::make_shared<const PoseSpline>(std::move(spline));
   return carried;
