@@ -76,8 +76,8 @@ Result<Waypoint> waypointAt(const RayScene& scene, const Georeference& g, const 
   return Waypoint{{x, y, floor}, clicked.stop_s};
 }
 
-Result<CarriedTrajectory> newTrajectory(const Document& document, const TrajectoryOptions& options,
-                                        Progress& progress) {
+Result<CarriedTrajectory> newTrajectory(const RayScene& scene, const Georeference& georeference,
+                                        const TrajectoryOptions& options) {
   CarriedTrajectory made;
   made.name = *options.add;
   made.seed = options.seed;
@@ -100,11 +100,10 @@ Result<CarriedTrajectory> newTrajectory(const Document& document, const Trajecto
   const auto carrier =
       std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == made.carrier; });
   made.height_m = options.height_m.value_or(0), made.speed_mps = options.speed_mps.value_or(0);
-  TRY_ASSIGN(const auto scene, RayScene::build(document.environment(), progress));
   const double height = options.height_m.value_or(carrier->limits.height_m);
   for (const std::string& text : options.through) {
     TRY_ASSIGN(const auto clicked, clickedFrom(text));
-    TRY_ASSIGN(const auto waypoint, waypointAt(*scene, *document.georeference, clicked, height));
+    TRY_ASSIGN(const auto waypoint, waypointAt(scene, georeference, clicked, height));
     made.waypoints.push_back(waypoint);
   }
   return made;
@@ -205,9 +204,9 @@ Result<Answered<TrajectoryAnswer>> runTrajectory(const Document& document, const
   const auto& g = *document.georeference;
   if (options.add) {
     TRY(checkTrajectoryName(job, *options.add, "--add"));
-    TRY_ASSIGN(auto made, newTrajectory(document, options, progress));
-    TRY_ASSIGN(const auto carried, carriedMotion(made, g, outcome.report, progress));
     TRY_ASSIGN(const auto scene, RayScene::build(document.environment(), progress));
+    TRY_ASSIGN(auto made, newTrajectory(*scene, g, options));
+    TRY_ASSIGN(const auto carried, carriedMotion(made, g, outcome.report, progress));
     findObstacles(carried, *scene, g, made.name, outcome.report);
     job.trajectories.push_back(std::move(made));
     outcome.description = "Added trajectory " + *options.add;
