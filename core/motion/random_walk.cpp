@@ -42,16 +42,14 @@ double uniformNumber(const MotionKey& key, std::uint32_t level, std::uint32_t in
   return uniform(blockOf(key, level, index)[0]);
 }
 
-double RandomWalk::middle(double low, double high, int level, std::uint32_t knot) const {
-  const double width = std::ldexp(1.0, level);
-  return 0.5 * (low + high) + 0.5 * std::sqrt(width) * normalNumber(key_, static_cast<std::uint32_t>(level), knot);
-}
+namespace {
 
-double RandomWalk::at(std::uint32_t knot) const {
+// The value at a knot, from those at the first and the last: halves what is between, where `middle` says it.
+template <class Middle>
+double halved(std::uint32_t knot, double at_low, double at_high, const Middle& middle) {
+  if (knot >= RandomWalk::kLastKnot) return at_high;
   std::uint32_t low = 0;
-  double at_low = 0, at_high = 1024 * normalNumber(key_, kLevels, 0);
-  if (knot >= kLastKnot) return at_high;
-  for (int level = kLevels; knot != low; --level) {
+  for (int level = RandomWalk::kLevels; knot != low; --level) {
     const std::uint32_t middle_knot = low + (1U << static_cast<unsigned>(level - 1));
     const double at_middle = middle(at_low, at_high, level, middle_knot);
     if (knot < middle_knot) {
@@ -62,6 +60,18 @@ double RandomWalk::at(std::uint32_t knot) const {
     }
   }
   return at_low;
+}
+
+}  // namespace
+
+double RandomWalk::middle(double low, double high, int level, std::uint32_t knot) const {
+  const double width = std::ldexp(1.0, level);
+  return 0.5 * (low + high) + 0.5 * std::sqrt(width) * normalNumber(key_, static_cast<std::uint32_t>(level), knot);
+}
+
+double RandomWalk::at(std::uint32_t knot) const {
+  return halved(knot, 0, 1024 * normalNumber(key_, kLevels, 0),
+                [this](double low, double high, int level, std::uint32_t at) { return middle(low, high, level, at); });
 }
 
 void RandomWalk::fill(std::uint32_t low, int level, double at_low, double at_high, std::vector<double>& knots) const {
@@ -89,26 +99,15 @@ GaussMarkov::GaussMarkov(const MotionKey& key, double step_per_tau) : key_(key) 
 
 // The middle of two knots r apart from each has the mean r (low + high)/(1 + r²) and the variance (1 - r²)/(1 + r²).
 double GaussMarkov::at(std::uint32_t knot) const {
-  std::uint32_t low = 0;
   const double whole = correlation_[RandomWalk::kLevels];
-  double at_low = normalNumber(key_, RandomWalk::kLevels + 1, 0);
-  double at_high = whole * at_low + std::sqrt(1 - whole * whole) * normalNumber(key_, RandomWalk::kLevels, 0);
-  if (knot >= RandomWalk::kLastKnot) return at_high;
-  for (int level = RandomWalk::kLevels; knot != low; --level) {
-    const std::uint32_t middle_knot = low + (1U << static_cast<unsigned>(level - 1));
+  const double first = normalNumber(key_, RandomWalk::kLevels + 1, 0);
+  const double last = whole * first + std::sqrt(1 - whole * whole) * normalNumber(key_, RandomWalk::kLevels, 0);
+  return halved(knot, first, last, [this](double low, double high, int level, std::uint32_t at) {
     const double r = correlation_[level - 1], square = r * r;
-    const double at_middle =
-        (r * (at_low + at_high) +
-         std::sqrt((1 - square) * (1 + square)) * normalNumber(key_, static_cast<std::uint32_t>(level), middle_knot)) /
-        (1 + square);
-    if (knot < middle_knot) {
-      at_high = at_middle;
-    } else {
-      low = middle_knot;
-      at_low = at_middle;
-    }
-  }
-  return at_low;
+    return (r * (low + high) +
+            std::sqrt((1 - square) * (1 + square)) * normalNumber(key_, static_cast<std::uint32_t>(level), at)) /
+           (1 + square);
+  });
 }
 
 BandNoise::BandNoise(const MotionKey& key, double lowest_hz, double highest_hz) {
