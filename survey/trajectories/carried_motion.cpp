@@ -16,6 +16,7 @@
 #include "core/portable_math.h"
 #include "core/random.h"
 #include "core/units.h"
+#include "scanners/engine/footprint.h"
 #include "survey/scene/bodies.h"
 #include "survey/trajectories/trajectory_file.h"
 
@@ -61,8 +62,7 @@ Result<CarriedMotion> motionOfFile(const CarriedTrajectory& trajectory, const Ge
 
 // Even over the sphere, as the leaves of a sunflower are over its disc.
 Eigen::Vector3d directionOf(int k) {
-  constexpr double kGoldenTurn = 0.6180339887498949;
-  const double z = 1 - (2 * k + 1.0) / kDirections, turn = k * kGoldenTurn;
+  const double z = 1 - (2 * k + 1.0) / kDirections, turn = k * kGoldenTurns;
   double sine = 0, cosine = 0;
   portable::sinCos(2 * std::numbers::pi * (turn - std::floor(turn)), sine, cosine);
   const double across = std::sqrt(1 - z * z);
