@@ -31,16 +31,15 @@ void PointWriter::beginColumn(const ColumnHits& column) {
 
 // A pattern's pulses are traced channel by channel and written in the order of their firings.
 void PointWriter::endColumn() {
-  if (!plan_.pattern || size_ == column_begin_) return;
+  if (!plan_.pattern || plan_.pattern->channels() == 1 || size_ == column_begin_) return;
   const PointBlock& block = *block_;
-  const std::uint32_t first = moving_->firing(0), channels = plan_.pattern->channels();
+  const std::uint32_t first = moving_->firing(0);
   order_.assign(plan_.pattern->firingsPerBlock() + 1, 0);
   for (std::size_t i = column_begin_; i < size_; ++i) ++order_[block.column[i] - first + 1];
   for (std::size_t k = 1; k < order_.size(); ++k) order_[k] += order_[k - 1];
   places_in_order_.resize(size_ - column_begin_);
   for (std::size_t i = column_begin_; i < size_; ++i)
     places_in_order_[order_[block.column[i] - first]++] = static_cast<std::uint32_t>(i);
-  if (channels == 1) return;
   forEachColumn([this](auto& column) {
     using Value = typename std::decay_t<decltype(column)>::value_type;
     thread_local std::vector<Value> values;
