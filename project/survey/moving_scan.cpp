@@ -117,6 +117,10 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
                                             progress));
   const PoseFunction& known = solved.pose ? *solved.pose : *carried.truth;
   request.notes.push_back(motionText(trajectory, carried, solved, profile));
+  if (options.deskew != Deskew::pulse)
+    for (const auto& deskew : choices(options.deskew))
+      if (deskew.value == options.deskew) request.notes.push_back(std::string("deskew=") + deskew.name);
+  if (options.shard) request.notes.push_back(fmt::format("shard={}/{}", options.shard->index, options.shard->count));
   request.options.station_key = static_cast<std::uint32_t>(stableHash(trajectory.name.c_str()));
   request.settings.scan_seconds = carried.seconds();
 

@@ -289,20 +289,30 @@ const AnswerFields<ScanAnswer>& answerFields(const ScanAnswer*) {
   return fields;
 }
 
-Document scansCarriedOver(const Document& base, const Document& result, const Document& newest) {
-  const auto stationOf = [](auto& job, const std::string& name) {
-    const auto at =
-        std::find_if(job.stations.begin(), job.stations.end(), [&](const auto& s) { return s.name == name; });
-    return at == job.stations.end() ? nullptr : &*at;
+namespace {
+
+// Of stations or trajectories, by their names.
+template <class Scanned>
+void carryScans(const std::vector<Scanned>& base, const std::vector<Scanned>& result, std::vector<Scanned>& newest) {
+  const auto find = [](auto& all, const std::string& name) {
+    const auto at = std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.name == name; });
+    return at == all.end() ? nullptr : &*at;
   };
-  Job job = *newest.job;
-  for (const auto& scanned : result.job->stations) {
-    const auto* before = stationOf(*base.job, scanned.name);
-    auto* now = stationOf(job, scanned.name);
+  for (const auto& scanned : result) {
+    const auto* before = find(base, scanned.name);
+    auto* now = find(newest, scanned.name);
     if (before == nullptr || now == nullptr) continue;
     const auto first = static_cast<std::ptrdiff_t>(before->scans.size());
     now->scans.insert(now->scans.end(), scanned.scans.begin() + first, scanned.scans.end());
   }
+}
+
+}  // namespace
+
+Document scansCarriedOver(const Document& base, const Document& result, const Document& newest) {
+  Job job = *newest.job;
+  carryScans(base.job->stations, result.job->stations, job.stations);
+  carryScans(base.job->trajectories, result.job->trajectories, job.trajectories);
   Document carried = newest;
   carried.job = std::make_shared<const Job>(std::move(job));
   carried.scanning = result.scanning;

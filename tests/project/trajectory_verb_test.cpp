@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 #include <fstream>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -182,6 +183,34 @@ TEST(MovingScanVerb, InShardsHasThePointsOfTheWhole) {
     points += part->answer["stations"][0]["points"].get<std::uint64_t>();
   }
   EXPECT_EQ(points, pointsOf(folder.path() / "whole.las").scans[0].points.size());
+}
+
+TEST(MovingScanVerb, KeepsItsScansWhenTheProjectChangedMeanwhile) {
+  const Document base = withLoop();
+  Job job = *base.job;
+  job.trajectories[0].scans.push_back({.instrument = "velodyne-vlp-16", .file = "o.e57"});
+  Document result = base;
+  result.job = std::make_shared<const Job>(job);
+  const auto newest = run("trajectory", base, loop("other"));
+  ASSERT_TRUE(newest);
+  const Document carried = findVerb(verbs(), "scan")->carry_over(base, result, newest->document);
+  ASSERT_EQ(carried.job->trajectories.size(), 2U);
+  EXPECT_EQ(carried.job->trajectories[0].scans.size(), 1U);
+  EXPECT_TRUE(carried.job->trajectories[1].scans.empty());
+}
+
+TEST(MovingScanVerb, IsAnotherScanInAnotherPartAndByOtherPoses) {
+  const TemporaryFolder folder;
+  const Document document = withLoop();
+  std::set<std::string> guids;
+  for (const auto& [key, value] : {std::pair{"shard", "1/40"}, {"shard", "2/40"}, {"deskew", "none"}}) {
+    json options = along(folder.path() / (std::string(key) + std::to_string(guids.size()) + ".e57"));
+    options["shard"] = "1/40";
+    options[key] = value;
+    ASSERT_TRUE(run("scan", document, options));
+    guids.insert(pointsOf(options["output"].get<std::string>()).scans[0].header.guid);
+  }
+  EXPECT_EQ(guids.size(), 3U);
 }
 
 TEST(MovingScanVerb, GoesAlongAFile) {
