@@ -94,6 +94,22 @@ struct CarriedTrajectory {
   std::vector<Scan> scans;
 };
 
+// Something that moves while it is scanned, by a clock that all movers share and that starts at 0 s.
+enum class MoverKind { person, vehicle, turning, sliding };
+struct Mover {
+  std::string name;
+  MoverKind kind = MoverKind::person;
+  std::vector<std::string> products;  // of the model, by id, that turn or slide; people and vehicles have own bodies
+  std::vector<Waypoint> waypoints;    // of a person or a vehicle
+  Eigen::Vector3d axis_at_m = Eigen::Vector3d::Zero();  // what turns does so about it, local frame …
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();      // … and what slides does so along it; unit
+  double speed = 0;                                     // m/s, of what turns rad/s; at most. 0: its kind's own
+  double extent = 0;                                    // of what slides m, of what turns rad; 0: it turns for ever
+  bool repeats = false;                                 // back and forth
+  double begins_s = 0;                                  // until then it stands
+  std::uint64_t seed = 1;
+};
+
 // A surveying job: what the crew sets up and stores.
 struct Job {
   std::string name;
@@ -101,6 +117,7 @@ struct Job {
   std::vector<Target> targets;
   std::vector<ControlPoint> control_points;
   std::vector<CarriedTrajectory> trajectories;
+  std::vector<Mover> movers;
 };
 
 }  // namespace standpoint
