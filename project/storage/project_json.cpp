@@ -111,7 +111,7 @@ CarriedTrajectory trajectoryFrom(const json& j) {
   return t;
 }
 
-constexpr std::array<const char*, 4> kMoverKinds = {"person", "vehicle", "turning", "sliding"};
+constexpr std::array<const char*, 5> kMoverKinds = {"person", "vehicle", "door", "turning", "sliding"};
 
 json moverToJson(const Mover& m) {
   json row = {{"name", m.name},         {"kind", kMoverKinds[static_cast<std::size_t>(m.kind)]},

@@ -33,9 +33,15 @@ bool crosses(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& origin, cons
 
 // What the bodies sweep in a quarter of a second, as a geometry of Embree with a box each.
 struct TimedScene::Window {
+  // Where the middle of a body is about, from one pose of the window to the next, and how far off at most.
+  struct Path {
+    Eigen::Vector3d centre[kPosesPerWindow + 1];
+    double off_m = 0;
+  };
   TimedScene& owner;
   std::int64_t number;
   std::vector<std::uint32_t> bodies;  // those that are there
+  std::vector<Path> paths;
   std::vector<Eigen::AlignedBox3d> swept;
   RTCScene scene = nullptr;
 
@@ -47,11 +53,14 @@ struct TimedScene::Window {
       Eigen::AlignedBox3d box;
       Eigen::Vector3d before = Eigen::Vector3d::Zero();
       double step_m = 0;
+      Path& path = paths.emplace_back();
       for (int i = -1; i <= kPosesPerWindow + 1; ++i) {
         const Eigen::Vector3d centre = body.local_from_rest->pose(from_s + i * step_s) * body.box.center();
         if (i >= 0) step_m = std::max(step_m, (centre - before).norm());
         box.extend(centre), before = centre;
+        if (i >= 0 && i <= kPosesPerWindow) path.centre[i] = centre;
       }
+      path.off_m = step_m / 2;
       const double aside = body.box.diagonal().norm() / 2 + step_m + owner.beam_m_;
       bodies.push_back(b);
       swept.emplace_back(box.min().array() - aside, box.max().array() + aside);
@@ -59,6 +68,17 @@ struct TimedScene::Window {
     if (bodies.empty()) return;
     // Whoever waits for others meanwhile might take up another column on this thread.
     tbb::this_task_arena::isolate([this] { build(); });
+  }
+  // May the ray come near the body?
+  bool reaches(std::size_t k, double time_s, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
+    const double steps = (time_s / kWindow_s - static_cast<double>(number)) * kPosesPerWindow;
+    const int i = std::clamp(static_cast<int>(steps), 0, kPosesPerWindow - 1);
+    const Path& path = paths[k];
+    const Eigen::Vector3d to = path.centre[i] + (steps - i) * (path.centre[i + 1] - path.centre[i]) - origin;
+    const double radius =
+        owner.scene_.bodies()[bodies[k]].box.diagonal().norm() / 2 + path.off_m + owner.beam_m_ + 1e-3;
+    const double along = std::max(0.0, to.dot(direction));
+    return (to - along * direction).squaredNorm() <= radius * radius;
   }
   void build() {
     RTCDevice device = owner.scene_.device();
@@ -113,6 +133,7 @@ void TimedScene::meet(const RTCIntersectFunctionNArguments* arguments) {
   for (unsigned i = 0; i < arguments->N; ++i) {
     if (arguments->valid[i] == 0) continue;
     const unsigned lane = RTCRayN_id(rays, arguments->N, i);
+    if (!window.reaches(arguments->primID, asked.time_s[lane], asked.origin[lane], asked.direction[lane])) continue;
     window.owner.meetBody(window.bodies[arguments->primID], asked, lane);
     // Boxes beyond what is met may still hold something in its cell of ranges, or be near a wide beam.
     RTCRayN_tfar(rays, arguments->N, i) = asked.ranges_m[lane] + static_cast<float>(window.owner.beam_m_) + 0.01F;
@@ -139,9 +160,16 @@ void TimedScene::meetBody(std::uint32_t body, Asked& asked, unsigned lane) {
 }
 
 const Pose& TimedScene::pose(std::uint32_t body, double time_s) {
-  Known& last = known_[body];
-  if (!last.known || last.time_s != time_s) last = {time_s, scene_.bodies()[body].local_from_rest->pose(time_s), true};
-  return last.local_from_rest;
+  Known& known = known_[body];
+  if (known.slot != kNoSlot && known.time_s == time_s) return known.local_from_rest;
+  const double slots = std::floor(time_s * kSlots_per_s);
+  if (const auto slot = static_cast<std::int64_t>(slots); known.slot != slot) {
+    known.slot = slot;
+    known.poses.sample(*scene_.bodies()[body].local_from_rest, Pose{}, slots / kSlots_per_s,
+                       (slots + 1) / kSlots_per_s);
+  }
+  known.time_s = time_s;
+  return known.local_from_rest = known.poses.at(time_s);
 }
 
 TimedScene::Window& TimedScene::windowOf(std::int64_t number) {

@@ -3,16 +3,18 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
 #include "scanners/engine/embree_scene.h"
+#include "scanners/engine/pose_window.h"
 
 namespace standpoint {
 
 // A scene at any time, as one thread of a scan sees it: what stands, and bodies that move. A ray is taken into the rest
-// frame of each body that it comes near, by the body's exact pose at the ray's own time: no body stands still for a
-// moment, and none jumps. What it answers depends on the question alone.
+// frame of each body that it comes near, by the body's pose at the ray's own time (pose_window.h): no body stands still
+// for a moment, and none jumps. What it answers depends on the question alone.
 //
 // Which bodies a ray comes near is asked of boxes around what they sweep in windows of 0.25 s; how far a body strays
 // from where eight poses a window say that it is, is taken from how far it gets between them.
@@ -34,14 +36,16 @@ class TimedScene {
   Facet at(const Facet& facet, double time_s);
 
  private:
-  static constexpr double kWindow_s = 0.25;
+  static constexpr double kWindow_s = 0.25, kSlots_per_s = 128;
+  static constexpr std::int64_t kNoSlot = std::numeric_limits<std::int64_t>::min();
   struct Window;
   // Rays that ask for bodies, in the local frame.
   struct Asked;
   struct Known {
-    double time_s = 0;
+    std::int64_t slot = kNoSlot;  // of 1/128 s: so many rays come near a body before it is another one
+    PoseWindow poses;
+    double time_s = 0;  // that was asked for last
     Pose local_from_rest;
-    bool known = false;
   };
 
   static void bounds(const RTCBoundsFunctionArguments* arguments);
@@ -53,7 +57,7 @@ class TimedScene {
 
   const EmbreeScene& scene_;
   double beam_m_;
-  std::vector<Known> known_;                          // of each body, the last time that was asked for
+  std::vector<Known> known_;                          // of each body
   std::array<std::unique_ptr<Window>, 2> windows_{};  // a column may lie in two
   std::size_t oldest_ = 0;
 };
