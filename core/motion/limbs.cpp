@@ -34,6 +34,7 @@ Pose LimbPose::pose(double time_s) const {
   const Pose body = path_->pose(time) * Pose{Eigen::Quaterniond::Identity(), {0, 0, -kHip_m * (1 - cosine_thigh)}};
   const bool left = limb_ == Limb::left_thigh || limb_ == Limb::left_shank || limb_ == Limb::left_arm;
   const double side = left ? 1 : -1;
+  const double forward = std::max(0.0, side * cosine);  // the leg, of how fast it swings most
   Pose placed = body;
   if (limb_ == Limb::left_arm || limb_ == Limb::right_arm)
     placed = body * swung(-side * kArmSwing * thigh, {0, side * kShoulderAside_m, kShoulder_m});
@@ -41,7 +42,7 @@ Pose LimbPose::pose(double time_s) const {
       limb_ == Limb::right_shank)
     placed = body * swung(side * thigh, {0, side * kHipAside_m, kHip_m});
   if (limb_ == Limb::left_shank || limb_ == Limb::right_shank)
-    placed = placed * swung(-stride.whole * kKneeBend_rad * (1 + side * cosine) / 2, {0, side * kHipAside_m, kKnee_m});
+    placed = placed * swung(-stride.whole * kKneeBend_rad * forward * forward, {0, side * kHipAside_m, kKnee_m});
   placed.rotation = unitRotation(placed.rotation);
   return placed;
 }

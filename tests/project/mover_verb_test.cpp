@@ -20,7 +20,7 @@ json passerby() {
   return {{"add", "Ada"}, {"through", {"500001,5600001", "500005,5600001:0.5", "500005,5600002"}}, {"repeat", true}};
 }
 
-Document with(Document document, const std::vector<std::pair<const char*, json>>& steps) {
+Document after(Document document, const std::vector<std::pair<const char*, json>>& steps) {
   for (const auto& [verb, options] : steps) {
     auto outcome = run(verb, document, options);
     EXPECT_TRUE(outcome) << verb << describe(outcome.error());
@@ -55,7 +55,7 @@ const json kQuick = {{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/3
 
 TEST(MoverVerb, KeepsEachKindWithTheProject) {
   const TemporaryFolder folder;
-  const Document made = with(
+  const Document made = after(
       twoStoreyDocument(),
       {{"mover", passerby()},
        {"mover", {{"add", "Van"}, {"kind", "vehicle"}, {"through", {"500001,5600003", "500003,5600003"}}}},
@@ -76,13 +76,13 @@ TEST(MoverVerb, KeepsEachKindWithTheProject) {
   ASSERT_TRUE(list);
   EXPECT_EQ(list->answer["movers"][1]["kind"], "vehicle");
   EXPECT_GT(list->answer["movers"][1]["seconds"].get<double>(), 1);
-  EXPECT_FALSE(list->answer["movers"][0].contains("seconds"));  // there and back again
+  EXPECT_TRUE(list->answer["movers"][0]["seconds"].is_null());  // there and back again
 }
 
 TEST(MoverVerb, PutsPeopleIntoScansThatAskForThem) {
   const TemporaryFolder folder;
   const Document made =
-      with(twoStoreyDocument(), {{"station", {{"add", "S1"}, {"on", {500003, 5600003, 0}}}}, {"mover", passerby()}});
+      after(twoStoreyDocument(), {{"station", {{"add", "S1"}, {"on", {500003, 5600003, 0}}}}, {"mover", passerby()}});
   const auto seen = of(scanOf(made, kQuick, folder.path() / "with.e57"), "Person");
   EXPECT_GT(seen.first, 50U);
   EXPECT_EQ(seen.second, seen.first);
@@ -98,13 +98,13 @@ TEST(MoverVerb, PutsPeopleIntoScansThatAskForThem) {
 
 TEST(MoverVerb, TurnsAProductOfTheModel) {
   const TemporaryFolder folder;
-  const Document made = with(twoStoreyDocument(), {{"station", {{"add", "S1"}, {"on", {500002, 5600002, 0}}}},
-                                                   {"mover",
-                                                    {{"add", "Carousel"},
-                                                     {"kind", "turning"},
-                                                     {"product", {"table"}},
-                                                     {"axis-at", {500004.5, 5600003, 0}},
-                                                     {"turn", 90}}}});
+  const Document made = after(twoStoreyDocument(), {{"station", {{"add", "S1"}, {"on", {500002, 5600002, 0}}}},
+                                                    {"mover",
+                                                     {{"add", "Carousel"},
+                                                      {"kind", "turning"},
+                                                      {"product", {"table"}},
+                                                      {"axis-at", {500004.5, 5600003, 0}},
+                                                      {"turn", 90}}}});
   const auto kept = scanOf(made, kQuick, folder.path() / "s.e57");
   const auto seen = of(kept, "IfcFurniture");
   EXPECT_GT(seen.first, 50U);
@@ -130,18 +130,17 @@ TEST(MoverVerb, OpensADoorByItsLeaf) {
     if (p.ifc_class == "IfcDoor" && door.empty()) door = p.global_id;
   ASSERT_FALSE(door.empty());
   const Document made =
-      with(imported->document, {{"station", {{"add", "S1"}, {"on", {4.3, 1.6, 0}}}},
-                                {"mover", {{"add", "Door"}, {"kind", "door"}, {"product", {door}}, {"turn", 20}}}});
+      after(imported->document, {{"station", {{"add", "S1"}, {"on", {4.3, 1.6, 0}}}},
+                                 {"mover", {{"add", "Door"}, {"kind", "door"}, {"product", {door}}, {"turn", 20}}}});
   const auto seen = of(scanOf(made, kQuick, folder.path() / "s.e57"), "IfcDoor");
   EXPECT_GT(seen.first, seen.second);  // frames, and other doors, stand still
 }
 
 TEST(MoverVerb, ShowsWhoCarriesTheScanner) {
   const TemporaryFolder folder;
-  const Document made =
-      with(twoStoreyDocument(),
-           {{"trajectory", {{"add", "walk"}, {"through", {"500001,5600001", "500003,5600001", "500003,5600002"}}}}});
-  json along = {{"trajectory", "walk"}, {"instrument", "velodyne-vlp-16"}};
+  const Document made = after(twoStoreyDocument(),
+                              {{"trajectory", {{"add", "walk"}, {"through", {"500002,5600001", "500003,5600001"}}}}});
+  json along = {{"trajectory", "walk"}, {"instrument", "leica-blk2go"}};
   const auto seen = of(scanOf(made, along, folder.path() / "with.e57"), "Operator");
   EXPECT_GT(seen.first, 1000U);
   EXPECT_EQ(seen.second, seen.first);
@@ -153,16 +152,16 @@ TEST(MoverVerb, LetsACrowdWalkOnTheWalkableSurface) {
   const auto none = run("mover", twoStoreyDocument(), {{"add", "crowd"}, {"kind", "crowd"}});
   ASSERT_FALSE(none);
   EXPECT_NE(describe(none.error()).find("'collide' first"), std::string::npos);
-  const Document made = with(twoStoreyDocument(), {{"collide", json::object()},
-                                                   {"mover", {{"add", "crowd"}, {"kind", "crowd"}, {"count", 12}}}});
+  const Document made = after(twoStoreyDocument(), {{"collide", json::object()},
+                                                    {"mover", {{"add", "crowd"}, {"kind", "crowd"}, {"count", 12}}}});
   ASSERT_GE(made.job->movers.size(), 10U);
   for (const Mover& mover : made.job->movers)
     for (const Waypoint& w : mover.waypoints) {
       EXPECT_TRUE(w.floor_m.x() > 0 && w.floor_m.x() < 6) << w.floor_m;
       EXPECT_TRUE(w.floor_m.y() > 0 && w.floor_m.y() < 4) << w.floor_m;
     }
-  const auto again = with(twoStoreyDocument(), {{"collide", json::object()},
-                                                {"mover", {{"add", "crowd"}, {"kind", "crowd"}, {"count", 12}}}});
+  const auto again = after(twoStoreyDocument(), {{"collide", json::object()},
+                                                 {"mover", {{"add", "crowd"}, {"kind", "crowd"}, {"count", 12}}}});
   EXPECT_EQ(again.job->movers, made.job->movers);
   const auto removed = run("mover", made, {{"remove", "crowd"}});
   ASSERT_TRUE(removed);
@@ -170,7 +169,7 @@ TEST(MoverVerb, LetsACrowdWalkOnTheWalkableSurface) {
 }
 
 TEST(MoverVerb, RefusesWhatCannotMoveWithARemedy) {
-  const Document made = with(twoStoreyDocument(), {{"mover", passerby()}});
+  const Document made = after(twoStoreyDocument(), {{"mover", passerby()}});
   const auto refused = [&](const json& options, const char* words) {
     const auto outcome = run("mover", made, options);
     ASSERT_FALSE(outcome) << options;
@@ -193,7 +192,7 @@ TEST(MoverVerb, RefusesWhatCannotMoveWithARemedy) {
 
 TEST(MoverVerb, SaysWhichMoverTheModelHasLost) {
   const TemporaryFolder folder;
-  Document made = with(twoStoreyDocument(), {{"station", {{"add", "S1"}, {"on", {500003, 5600003, 0}}}}});
+  Document made = after(twoStoreyDocument(), {{"station", {{"add", "S1"}, {"on", {500003, 5600003, 0}}}}});
   Job job = *made.job;
   job.movers.push_back({.name = "Gate", .kind = MoverKind::sliding, .products = {"gone"}, .extent = 1});
   made.job = std::make_shared<const Job>(job);
