@@ -15,7 +15,7 @@ constexpr std::array<Limb, 7> kLimbs = {Limb::trunk,       Limb::left_thigh, Lim
                                         Limb::right_shank, Limb::left_arm,   Limb::right_arm};
 
 // Where the joints of a body of 1.75 m are, above the floor and aside.
-constexpr double kHip_m = 0.92, kKnee_m = 0.48, kShoulder_m = 1.42, kHipAside_m = 0.09, kShoulderAside_m = 0.25;
+constexpr double kHip_m = 0.92, kKnee_m = 0.48, kShoulder_m = 1.42, kHipAside_m = 0.09, kShoulderAside_m = 0.2;
 
 // A limb of a walker along a path of upright poses on the floor, whose stride it is: local_from_rest. Thighs swing so
 // far that the feet are a step apart, arms the other way by 0.7 of it; a knee bends by up to 50° while its leg swings

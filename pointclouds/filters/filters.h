@@ -39,6 +39,15 @@ struct StrayOptions {
 };
 MadeFilter makeStrayFilter(const StrayOptions& options);
 
+// What another scan saw past: of the same file, or of another.
+struct MovingOptions {
+  std::optional<std::string> against;  // a file
+  double distance_m = 0.03;            // that it must have seen farther
+  std::uint64_t votes = 1;             // of so many scans
+  std::optional<double> cell_deg;      // of directions; nothing: as the scans are spaced
+};
+MadeFilter makeMovingFilter(const MovingOptions& options);
+
 struct GateOptions {
   std::optional<double> from, to;  // m, degrees, or as intensities are stored in the file
 };

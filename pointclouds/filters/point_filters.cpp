@@ -149,6 +149,14 @@ const std::vector<FilterKind>& filterKinds() {
                      {"distance", &StrayOptions::distance_m, {.minimum = 1e-4, .maximum = 100}},
                      {"share", &StrayOptions::share, {.minimum = 0, .maximum = 1}}},
                  makeStrayFilter),
+      // points that another scan saw past, of the same station or of another
+      FilterKind("moving",
+                 std::vector<FilterField<MovingOptions>>{
+                     {"against", &MovingOptions::against},
+                     {"distance", &MovingOptions::distance_m, {.minimum = 1e-4, .maximum = 100}},
+                     {"votes", &MovingOptions::votes, {.minimum = 1, .maximum = 1000}},
+                     {"cell", &MovingOptions::cell_deg, {.minimum = 0.01, .maximum = 5}}},
+                 makeMovingFilter),
       FilterKind("range",
                  std::vector<FilterField<GateOptions>>{{"from", &GateOptions::from, {.minimum = 0, .maximum = kFar}},
                                                        {"to", &GateOptions::to, {.minimum = 0, .maximum = kFar}}},

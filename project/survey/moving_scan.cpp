@@ -2,13 +2,17 @@
 #include "project/survey/moving_scan.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "core/motion/carriers.h"
+#include "core/motion/rotation_vector.h"
 #include "core/random.h"
+#include "core/units.h"
+#include "project/answers.h"
 #include "project/survey/scan_header.h"
 #include "project/survey/scan_request.h"
 #include "survey/scanning/scan_identity.h"
@@ -61,16 +65,33 @@ const ErrorProfile* profileOf(const ScanRequest& request, TrajectoryError error)
   return named("handheld");
 }
 
+// "x=0.1 yaw=2": place and turn on what carries it, and what its clock is ahead.
+Result<Mounting> mountingFrom(const KeyValues& texts, const char* option) {
+  static constexpr std::array<const char*, 7> kKeys = {"x", "y", "z", "roll", "pitch", "yaw", "clock"};
+  std::array<double, 7> figures{};
+  for (const auto& [key, text] : texts) {
+    const auto at = std::find(kKeys.begin(), kKeys.end(), key);
+    if (at == kKeys.end())
+      return failure(ErrorKind::usage, fmt::format("'{}' must be x, y, z, roll, pitch, yaw or clock", key), option);
+    const auto number = parseNumbers(text);
+    if (!number || number->size() != 1)
+      return failure(ErrorKind::usage, fmt::format("'{}' must be a number, not '{}'", key, text), option);
+    figures[static_cast<std::size_t>(at - kKeys.begin())] = (*number)[0];
+  }
+  const EulerAngles angles{figures[3] * kRadPerDeg, figures[4] * kRadPerDeg, figures[5] * kRadPerDeg};
+  return Mounting{{unitRotation(rotationOf(angles)), {figures[0], figures[1], figures[2]}}, figures[6]};
+}
+
 // Somebody on foot who holds the scanner, or has it on the back. Of a recorded trajectory it is not known.
-std::optional<ScanCarrier> carrierOf(const CarriedTrajectory& trajectory, const CarriedMotion& carried,
-                                     const ScanVerbOptions& options) {
+std::optional<ScanOperator> operatorOf(const CarriedTrajectory& trajectory, const CarriedMotion& carried,
+                                       const ScanVerbOptions& options) {
   const auto carrier =
       std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == trajectory.carrier; });
   if (!trajectory.file.empty() || carrier == kCarriers.end() || carrier->gait <= 0) return std::nullopt;
-  return ScanCarrier{.scanner_path = carried.path,
-                     .height_m = trajectory.height_m > 0 ? trajectory.height_m : carrier->limits.height_m,
-                     .in_front = carrier->id == "hand",
-                     .ahead_s = options.movers_from_s};
+  return ScanOperator{.scanner_path = carried.path,
+                      .height_m = trajectory.height_m > 0 ? trajectory.height_m : carrier->limits.height_m,
+                      .in_front = carrier->id == "hand",
+                      .ahead_s = options.movers_from_s};
 }
 
 Result<void> writeTrajectory(const PoseFunction& function, const Georeference& georeference, fs::path beside,
@@ -108,6 +129,8 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
   const auto started = std::chrono::steady_clock::now();
   TRY_ASSIGN(auto request, scanRequestFrom(document, options));
   TRY_ASSIGN(const auto trajectory, trajectoryNamed(*document.job, options.trajectory));
+  TRY_ASSIGN(const auto mounting, mountingFrom(options.mounting, "--mounting"));
+  TRY_ASSIGN(const auto believed, mountingFrom(options.mounting_error, "--mounting-error"));
   Answered<ScanAnswer> outcome{document};
   Report& report = outcome.report;
   noteDefaultRules(document, report);
@@ -115,9 +138,9 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
   TRY_ASSIGN(const auto carried, carriedMotion(trajectory, *document.georeference, report, progress));
   ScanSurroundings at_hand = company;
   const bool with_movers = options.movers == Switch::on;
-  const auto carrier = options.carrier == Switch::on ? carrierOf(trajectory, carried, options) : std::nullopt;
-  if (carrier || !at_hand.preparation || !at_hand.preparation->fits(document, with_movers)) {
-    TRY_ASSIGN(at_hand.preparation, prepareScan(document, nullptr, progress, with_movers, carrier));
+  const auto carries = options.operator_there == Switch::on ? operatorOf(trajectory, carried, options) : std::nullopt;
+  if (carries || !at_hand.preparation || !at_hand.preparation->fits(document, with_movers)) {
+    TRY_ASSIGN(at_hand.preparation, prepareScan(document, nullptr, progress, with_movers, carries));
   }
   const RayScene& scene = *at_hand.preparation->scene;
   findObstacles(carried, scene, *document.georeference, trajectory.name, report);
@@ -135,6 +158,8 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
   if (options.deskew != Deskew::pulse)
     for (const auto& deskew : choices(options.deskew))
       if (deskew.value == options.deskew) request.notes.push_back(std::string("deskew=") + deskew.name);
+  for (const auto& [key, text] : options.mounting) request.notes.push_back("mounting-" + key + "=" + text);
+  for (const auto& [key, text] : options.mounting_error) request.notes.push_back("mounting-error-" + key + "=" + text);
   if (options.shard) request.notes.push_back(fmt::format("shard={}/{}", options.shard->index, options.shard->count));
   request.options.station_key = static_cast<std::uint32_t>(stableHash(trajectory.name.c_str()));
   request.settings.scan_seconds = carried.seconds();
@@ -151,6 +176,9 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
   ScanMotion motion{.true_pose = *carried.truth, .solved_pose = solved.pose.get()};
   motion.from_s = carried.truth->first_s(), motion.to_s = carried.truth->last_s();
   motion.deskew = options.deskew;
+  motion.truth = mounting;
+  motion.assumed = {mounting.body_from_device * believed.body_from_device,
+                    mounting.clock_ahead_s + believed.clock_ahead_s};
   motion.local_from_points = start;
   if (options.shard) {
     const std::uint64_t blocks = blocksOf(request.instrument, request.settings, carried.seconds());

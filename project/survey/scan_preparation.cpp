@@ -26,18 +26,17 @@ bool ScanPreparation::fits(const Document& document, bool with_movers) const {
 
 Result<std::shared_ptr<const ScanPreparation>> prepareScan(const Document& document,
                                                            std::shared_ptr<const RayScene> of_model, Progress& progress,
-                                                           bool with_movers,
-                                                           const std::optional<ScanCarrier>& carrier) {
+                                                           bool with_movers, const std::optional<ScanOperator>& who) {
   auto made = std::make_shared<ScanPreparation>();
   made->model = document.environment();
   made->materials = document.materials;
   made->targets = document.job->targets;
   if (with_movers) made->movers = document.job->movers;
-  made->carried = carrier.has_value();
+  made->carried = who.has_value();
   TRY_ASSIGN(auto assignment, scanAssignment(document, progress));
   made->world = scanWorld(document.environment(), document.job->targets, assignment);
   TRY(addMovers(made->movers, made->world));
-  if (carrier) addOperator(carrier->scanner_path, carrier->height_m, carrier->in_front, carrier->ahead_s, made->world);
+  if (who) addOperator(who->scanner_path, who->height_m, who->in_front, who->ahead_s, made->world);
   if (of_model && &of_model->environment() == made->world.environment.get()) {
     made->scene = std::move(of_model);
   } else {

@@ -28,7 +28,7 @@ struct ScanPreparation {
 };
 
 // Who carries a scanner along a trajectory.
-struct ScanCarrier {
+struct ScanOperator {
   PoseFunctionPtr scanner_path;
   double height_m = 0;
   bool in_front = true;  // … of whom it is held; else above
@@ -39,7 +39,7 @@ struct ScanCarrier {
 Result<std::shared_ptr<const ScanPreparation>> prepareScan(const Document& document,
                                                            std::shared_ptr<const RayScene> of_model, Progress& progress,
                                                            bool with_movers = true,
-                                                           const std::optional<ScanCarrier>& carrier = {});
+                                                           const std::optional<ScanOperator>& who = {});
 
 // Whom a scan is made for: what was prepared for it, who watches its points beside the file, and where its crew
 // believes that it stands. Each may be missing.

@@ -239,6 +239,9 @@ const Fields<ScanVerbOptions>& scanFields() {
       {"trajectory-error", &O::trajectory_error,
        "how the trajectory is known: with the error of the instrument's kind, none, or that of a profile"},
       {"closures", &O::closures, "off: places that the trajectory comes back to are not recognised"},
+      {"mounting", &O::mounting,
+       "how the scanner sits on what carries it: x, y, z in m, roll, pitch, yaw in degrees, x ahead and y to the left"},
+      {"mounting-error", &O::mounting_error, "by how much this is believed to be otherwise: the same, and clock in s"},
       {"anchors", &O::anchors, "on: scanned stations within 3 m of the trajectory hold it"},
       {"deskew", &O::deskew, "pose by which points are placed: that of each pulse, firing, or an even turn; none"},
       {"instrument", &O::instrument, "id or file of the instrument, such as leica-rtc360", {.required = true}},
@@ -270,7 +273,7 @@ const Fields<ScanVerbOptions>& scanFields() {
        &O::movers_from_s,
        "time of the movers' clock when the scan begins",
        {.unit = "s", .minimum = -1e6, .maximum = 1e6}},
-      {"carrier", &O::carrier, "off: who carries the scanner along a trajectory is not in its sight"},
+      {"operator", &O::operator_there, "off: who carries the scanner along a trajectory is not in its sight"},
       {"truth", &O::truth, "write the truth of each point: time, return, true place, range, incidence, power, origin"},
       {"as",
        &O::as,
@@ -292,7 +295,11 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const ScanVerbOpti
   ScanRequest request;
   TRY_ASSIGN(request.instrument, instrumentNamed(options.instrument));
   const bool carried = !options.trajectory.empty();
-  if (carried) TRY(checkCarried(options));
+  if (carried)
+    TRY(checkCarried(options));
+  else if (!options.mounting.empty() || !options.mounting_error.empty())
+    return failure(ErrorKind::usage, "a mounting belongs to what is carried along a --trajectory",
+                   options.mounting.empty() ? "--mounting-error" : "--mounting");
   TRY_ASSIGN(request.settings, carried ? resolveMovingSettings(request.instrument, options.settings)
                                        : resolveSettings(request.instrument, options.settings));
   request.instrument.camera = request.settings.camera;

@@ -255,6 +255,7 @@ struct ScanVerbOptions {
   Switch closures = Switch::on;
   Switch anchors = Switch::off;
   Deskew deskew = Deskew::pulse;
+  KeyValues mounting, mounting_error;  // x, y, z in m; roll, pitch, yaw in degrees; clock in s
   std::string instrument;  // id
   KeyValues settings;      // in the device's own words
   std::uint64_t seed = 1;
@@ -270,8 +271,8 @@ struct ScanVerbOptions {
   std::optional<std::uint32_t> panorama_columns;
   Switch compensator = Switch::on;
   Switch movers = Switch::on;
-  double movers_from_s = 0;     // their clock when the scan's own shows 0
-  Switch carrier = Switch::on;  // who carries the scanner is in its sight
+  double movers_from_s = 0;            // their clock when the scan's own shows 0
+  Switch operator_there = Switch::on;  // of a scanner that is carried: in its sight
   bool truth = false;
   std::string as;   // variant of the format
   int threads = 0;  // 0: all

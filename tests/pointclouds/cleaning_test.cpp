@@ -6,6 +6,7 @@
 #include <functional>
 #include <set>
 
+#include "core/random.h"
 #include "tests/pointclouds/same_points.h"
 
 namespace standpoint {
@@ -152,6 +153,54 @@ TEST(Cleaning, TakesAsStrayThinThingsAndWhatStandsAlone) {
   const auto done = clean(folder / "in.e57", folder / "out.e57", {"stray"});
   ASSERT_OK(done);
   EXPECT_EQ(done->filters[0].points.taken, 101u);
+}
+
+// A wall at 5 m with 3 mm of noise and somebody 3 m away before it, from column `from` to `to`.
+MadeScan corridor(const std::string& name, std::uint32_t from, std::uint32_t to, std::uint64_t seed) {
+  MadeScan scan;
+  scan.name = name;
+  scan.columns = 300;
+  const auto walks = [from, to](std::uint32_t column, std::uint32_t row) {
+    return column >= from && column < to && row >= 10 && row < 90;
+  };
+  scan.range_m = [walks, seed](std::uint32_t column, std::uint32_t row, const Eigen::Vector3d& beam) {
+    const auto draw = philox({seed, 0}, column, row, 0);
+    const double noise =
+        0.003 * (uniform(draw[0]) + uniform(draw[1]) + uniform(draw[2]) + uniform(draw[3]) - 2) * 1.732;
+    return (walks(column, row) ? 3.0 : 5 / beam.x()) + noise;
+  };
+  scan.flags = [walks](std::uint32_t column, std::uint32_t row) {
+    return walks(column, row) ? point_flag::kMoving : std::uint8_t{0};
+  };
+  return scan;
+}
+
+TEST(Cleaning, TakesAsMovingWhatAnotherScanSawPast) {
+  const TemporaryFolder folder;
+  const MadeScan first = corridor("S1", 40, 90, 1), second = corridor("S2", 180, 230, 2);
+  writeMade(folder / "a.e57", {first});
+  writeMade(folder / "b.e57", {second});
+  writeMade(folder / "both.e57", {first, second});
+  const auto against = "moving:cell=0.1,against=" + (folder / "b.e57").string();
+  const auto done = clean(folder / "a.e57", folder / "out.e57", {against});
+  ASSERT_OK(done);
+  const Taken moving = done->filters[0].flags[5];
+  EXPECT_EQ(moving.in, 4000u);
+  EXPECT_EQ(moving.taken, 4000u);
+  EXPECT_EQ(done->filters[0].good.taken, 0u);
+  const auto together = clean(folder / "both.e57", folder / "out.e57", {"moving:cell=0.1"});
+  ASSERT_OK(together);
+  EXPECT_EQ(together->filters[0].flags[5].taken, 8000u);
+  EXPECT_EQ(together->filters[0].good.taken, 0u);
+  // Who stays is in both.
+  writeMade(folder / "still.e57", {first, corridor("S2", 40, 90, 3)});
+  const auto stays = clean(folder / "still.e57", folder / "out.e57", {"moving:cell=0.1"});
+  ASSERT_OK(stays);
+  EXPECT_EQ(stays->filters[0].points.taken, 0u);
+  const auto alone = clean(folder / "a.e57", folder / "out.e57", {"moving"});
+  ASSERT_FALSE(alone);
+  EXPECT_NE(describe(alone.error()).find("moving:against=FILE"), std::string::npos);
+  EXPECT_FALSE(clean(folder / "a.e57", folder / "out.e57", {"moving:against=" + (folder / "none.e57").string()}));
 }
 
 TEST(Cleaning, LeavesAFloorThatIsSeenVeryFlatly) {

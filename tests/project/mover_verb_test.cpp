@@ -144,7 +144,7 @@ TEST(MoverVerb, ShowsWhoCarriesTheScanner) {
   const auto seen = of(scanOf(made, along, folder.path() / "with.e57"), "Operator");
   EXPECT_GT(seen.first, 1000U);
   EXPECT_EQ(seen.second, seen.first);
-  along["carrier"] = "off";
+  along["operator"] = "off";
   EXPECT_EQ(of(scanOf(made, along, folder.path() / "without.e57"), "Operator").first, 0U);
 }
 

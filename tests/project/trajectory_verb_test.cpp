@@ -170,6 +170,27 @@ TEST(MovingScanVerb, PlacesPointsByTheTrajectoryThatTheSurveyorKnows) {
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "o.true.csv"));
 }
 
+// A lever arm that is 30 mm longer than it is believed shifts each point by as much.
+TEST(MovingScanVerb, PutsPointsOffByWhatIsWronglyBelievedOfItsMounting) {
+  const TemporaryFolder folder;
+  json options = along(folder.path() / "o.e57");
+  options["ideal"] = true, options["truth"] = true;
+  options["mounting"] = {"x=0.1", "z=0.2", "pitch=10"};
+  options["mounting-error"] = {"y=0.03"};
+  const auto outcome = run("scan", withLoop(), options);
+  ASSERT_TRUE(outcome) << describe(outcome.error());
+  const auto kept = pointsOf(folder.path() / "o.e57");
+  const auto& scan = kept.scans[0];
+  ASSERT_GT(scan.points.size(), 100000U);
+  for (std::size_t i = 0; i < scan.points.size(); i += 101) {
+    const auto& t = scan.points.truth;
+    const Eigen::Vector3d off =
+        scan.header.file_from_scanner * Eigen::Vector3d(scan.points.x_m[i], scan.points.y_m[i], scan.points.z_m[i]) -
+        truePose(scan.header) * Eigen::Vector3d(t.x_m[i], t.y_m[i], t.z_m[i]);
+    ASSERT_NEAR(off.norm(), 0.03, 1e-4);
+  }
+}
+
 TEST(MovingScanVerb, InShardsHasThePointsOfTheWhole) {
   const TemporaryFolder folder;
   const Document document = withLoop();
@@ -244,6 +265,8 @@ TEST(MovingScanVerb, RefusesWhatBelongsToStations) {
   refused("panorama", true, "belongs to stations");
   refused("field-fault", {"until=0.5"}, "belongs to stations");
   refused("resume", true, "belongs to stations");
+  refused("mounting", {"left=1"}, "must be x, y, z");
+  refused("mounting-error", {"clock=soon"}, "must be a number");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "o.e57"));
 }
 
