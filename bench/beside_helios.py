@@ -384,8 +384,8 @@ def rays(bench):
     inside = (r >= 0) & (r < len(grid[3])) & (c >= 0) & (c < columns)
     ranges[1, r[inside] * columns + c[inside]] = np.linalg.norm(theirs[inside, :3] - at, axis=1)
     off = np.abs(column - c)[~steep]
-    print(f"  their columns by azimuth and by pulse differ by {np.minimum(off, columns - off).max():.3f} at most, rows by "
-          f"{np.abs(row - r)[~steep].max():.3f} of a step; grid misfit {misfit:.1e} rad")
+    print(f"  their columns by azimuth and by pulse differ by {np.minimum(off, columns - off).max():.3f} at most, rows "
+          f"by {np.abs(row - r)[~steep].max():.3f} of a step; grid misfit {misfit:.1e} rad")
     both = ~np.isnan(ranges).any(0)
     difference = np.abs(ranges[0] - ranges[1])[both]
     same = difference < 0.005
@@ -480,8 +480,8 @@ def helios_walk(bench, place, rate, elevations, heights=(0,) * 16, mount=(0, 0, 
               f'<survey name="walk" scene="scene.xml#scene" platform="interpolated" basePlatform="platforms.xml#post" '
               f'rotationSpec="CANONICAL" scanner="scanner.xml#vlp16">\n'
               f'<scannerMount x="{mount[0]}" y="{mount[1]}" z="{mount[2]}"/>\n<leg>'
-              f'<platformSettings trajectory="walk.trj" tIndex="0" rollIndex="1" pitchIndex="2" yawIndex="3" xIndex="4" '
-              f'yIndex="5" zIndex="6" slopeFilterThreshold="0.0" toRadians="true" syncGPSTime="true"/>'
+              f'<platformSettings trajectory="walk.trj" tIndex="0" rollIndex="1" pitchIndex="2" yawIndex="3" '
+              f'xIndex="4" yIndex="5" zIndex="6" slopeFilterThreshold="0.0" toRadians="true" syncGPSTime="true"/>'
               f'<scannerSettings template="s"/></leg>\n</survey>\n</document>\n')
     points = bench.helios_run(place, survey, "--splitByChannel", *(["--writePulse"] if pulses else []))
     table = np.full((int(points[:, 6].max()), 16, 3), np.nan)
