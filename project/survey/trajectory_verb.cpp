@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "core/motion/carriers.h"
 #include "core/output_place.h"
-#include "project/answers.h"
+#include "project/survey/clicked_places.h"
 #include "project/survey/survey_verbs.h"
-#include "survey/stations/station_places.h"
 #include "survey/trajectories/carried_motion.h"
 #include "survey/trajectories/trajectory_file.h"
 
@@ -37,45 +35,6 @@ Result<void> checkTrajectoryName(Job& job, const std::string& name, const char* 
   return {};
 }
 
-// "X,Y[,Z][:STOP]"
-struct Clicked {
-  FloorPlace place;
-  double stop_s = 0;
-};
-
-Result<Clicked> clickedFrom(const std::string& text) {
-  const auto colon = std::min(text.find(':'), text.size());
-  const auto numbers = parseNumbers(text.substr(0, colon));
-  if (!numbers || numbers->size() < 2 || numbers->size() > 3)
-    return failure(ErrorKind::usage, fmt::format("'{}' must be X,Y or X,Y,Z in metres, and may end in :SECONDS", text),
-                   "--through");
-  Clicked clicked{{(*numbers)[0], (*numbers)[1], {}}};
-  if (numbers->size() == 3) clicked.place.z_m = (*numbers)[2];
-  if (colon == text.size()) return clicked;
-  const auto stop = parseNumbers(text.substr(colon + 1));
-  if (!stop || stop->size() != 1 || (*stop)[0] < 0 || (*stop)[0] > 3600)
-    return failure(ErrorKind::usage, fmt::format("'{}' must stop from 0 to 3600 seconds", text), "--through");
-  clicked.stop_s = (*stop)[0];
-  return clicked;
-}
-
-// On the floor there, or in the air where its height is stated and no floor is.
-Result<Waypoint> waypointAt(const RayScene& scene, const Georeference& g, const Clicked& clicked, double height_m) {
-  const double x = clicked.place.x_m - g.shift_m.x(), y = clicked.place.y_m - g.shift_m.y();
-  const auto floors = floorsAt(scene, x, y, height_m);
-  const auto near = [&](double z) { return std::abs(z + g.shift_m.z() - *clicked.place.z_m) <= 0.5; };
-  if (clicked.place.z_m && std::none_of(floors.begin(), floors.end(), near))
-    return Waypoint{{x, y, *clicked.place.z_m - g.shift_m.z()}, clicked.stop_s};
-  if (floors.empty())
-    return failure(ErrorKind::unusable,
-                   fmt::format("no floor at ({}, {}) with {:.2f} m of free height; choose another place, or state its "
-                               "height as X,Y,Z",
-                               clicked.place.x_m, clicked.place.y_m, height_m + kRoomAbove_m),
-                   "--through");
-  TRY_ASSIGN(const auto floor, chosenFloor(floors, clicked.place.z_m, g.shift_m.z()));
-  return Waypoint{{x, y, floor}, clicked.stop_s};
-}
-
 Result<CarriedTrajectory> newTrajectory(const RayScene& scene, const Georeference& georeference,
                                         const TrajectoryOptions& options) {
   CarriedTrajectory made;
@@ -101,11 +60,7 @@ Result<CarriedTrajectory> newTrajectory(const RayScene& scene, const Georeferenc
       std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == made.carrier; });
   made.height_m = options.height_m.value_or(0), made.speed_mps = options.speed_mps.value_or(0);
   const double height = options.height_m.value_or(carrier->limits.height_m);
-  for (const std::string& text : options.through) {
-    TRY_ASSIGN(const auto clicked, clickedFrom(text));
-    TRY_ASSIGN(const auto waypoint, waypointAt(scene, georeference, clicked, height));
-    made.waypoints.push_back(waypoint);
-  }
+  TRY_ASSIGN(made.waypoints, waypointsOf(options.through, scene, georeference, height, "--through"));
   return made;
 }
 

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/georeference.h"
+#include "core/result.h"
+#include "core/survey.h"
+#include "scanners/engine/ray_engine.h"
+
+namespace standpoint {
+
+// "X,Y" or "X,Y,Z" in the model's own frame, which may end in ":SECONDS" of a stop: on the floor there with that much
+// free height, or in the air where its height is stated and no floor is. An error says which text is wrong, at
+// `option`.
+Result<std::vector<Waypoint>> waypointsOf(const std::vector<std::string>& texts, const RayScene& scene,
+                                          const Georeference& georeference, double height_m, const char* option);
+
+}  // namespace standpoint
