@@ -28,6 +28,12 @@ const Quaterniond kTheirsFromOurs(std::sqrt(0.5), 0, 0, std::sqrt(0.5));  // ahe
 
 Quaterniond about(const Vector3d& axis, double degrees) { return rotationBy(axis * (degrees * kRadPerDeg)); }
 double degrees(double y, double x) { return 360 * portable::turnOf(y, x); }
+// The same angle at most half a turn from the one before: HELIOS++ interpolates each angle by itself, so a heading that
+// came back at 180° would whirl its platform round.
+double onwards(double angle, double& before) {
+  before = angle + 360 * std::round((before - angle) / 360);
+  return before;
+}
 
 Quaterniond canonical(double roll, double pitch, double yaw) {
   return about(Vector3d::UnitX(), roll) * about(Vector3d::UnitY(), pitch) * about(Vector3d::UnitZ(), yaw);
@@ -78,6 +84,7 @@ Result<ReadTrajectory> readOf(const char* id, RotationOf rotation, const std::fi
 Result<Report> writeOf(RotationOf rotation, const std::filesystem::path& file, const Trajectory& samples,
                        const TrajectoryFrame& frame) {
   constexpr const char* kHead = "#TIME_COLUMN: 0\n#HEADER: \"t\", \"roll\", \"pitch\", \"yaw\", \"x\", \"y\", \"z\"\n";
+  double last_roll = 0, last_pitch = 0, last_yaw = 0;
   TRY(writeTextTrack(file, kHead, samples, frame, [&](std::string& text, const TimedPose& s) {
     const Eigen::Matrix3d r = (s.pose.rotation * kTheirsFromOurs.conjugate()).normalized().toRotationMatrix();
     const Vector3d& p = s.pose.translation;
@@ -86,7 +93,10 @@ Result<Report> writeOf(RotationOf rotation, const std::filesystem::path& file, c
     const double roll = is_canonical ? degrees(-r(1, 2), r(2, 2)) : sine(-r(2, 0));
     const double pitch = is_canonical ? sine(r(0, 2)) : degrees(r(2, 1), r(2, 2));
     const double yaw = is_canonical ? degrees(-r(0, 1), r(0, 0)) : degrees(-r(1, 0), r(0, 0));
-    appendNumbers(text, {s.time_s, roll, pitch, yaw, p.x(), p.y(), p.z()}, ',');
+    appendNumbers(
+        text,
+        {s.time_s, onwards(roll, last_roll), onwards(pitch, last_pitch), onwards(yaw, last_yaw), p.x(), p.y(), p.z()},
+        ',');
   }));
   return Report{};
 }

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "survey/trajectories/trajectory_file.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -143,6 +148,31 @@ TEST_F(TrajectoryFile, OfHeliosTurnsAsItsPlatformDoes) {
   EXPECT_LT(
       (arinc->samples.pose[1].rotation * Vector3d::UnitY() - Vector3d(-std::cos(kPi / 6), 0, std::sin(kPi / 6))).norm(),
       1e-12);
+}
+
+// HELIOS++ goes linearly from angle to angle: none may come back from 180° to -180° on the way round.
+TEST_F(TrajectoryFile, OfHeliosTurnsOnPastHalfATurn) {
+  const Trajectory samples = winding();
+  for (const char* id : {"helios", "helios-arinc"}) {
+    SCOPED_TRACE(id);
+    const auto file = folder_.path() / (std::string(id) + ".trj");
+    ASSERT_TRUE(trajectoryFormat(id)->write(file, samples, {}));
+    std::ifstream in(file);
+    std::vector<std::array<double, 7>> rows;
+    for (std::string line; std::getline(in, line);) {
+      if (line.starts_with('#')) continue;
+      std::replace(line.begin(), line.end(), ',', ' ');
+      std::istringstream numbers(line);
+      for (double& number : rows.emplace_back()) numbers >> number;
+    }
+    ASSERT_EQ(rows.size(), samples.pose.size());
+    double farthest_deg = 0;
+    for (std::size_t i = 1; i < rows.size(); ++i)
+      for (std::size_t angle = 1; angle <= 3; ++angle)
+        farthest_deg = std::max(farthest_deg, std::abs(rows[i][angle] - rows[i - 1][angle]));
+    EXPECT_LT(farthest_deg, 10);
+    EXPECT_GT(std::abs(rows.back()[3] - rows.front()[3]), 360);
+  }
 }
 
 // Against GeographicLib's UTM, which is not what reads it.
