@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include "core/motion/carriers.h"
+#include "core/number_text.h"
 #include "core/output_place.h"
+#include "core/units.h"
 #include "project/answers.h"
 #include "project/survey/survey_verbs.h"
 #include "survey/stations/station_places.h"
@@ -37,25 +39,43 @@ Result<void> checkTrajectoryName(Job& job, const std::string& name, const char* 
   return {};
 }
 
-// "X,Y[,Z][:STOP]"
+// "X,Y[,Z][:STOP[:LOOK]]"
 struct Clicked {
   FloorPlace place;
   double stop_s = 0;
+  std::optional<double> look_rad;
 };
 
+// The number after a waypoint's colon; nothing where there is none. `wrong` is what is said of another text.
+Result<std::optional<double>> partFrom(const std::string& text, double least, double most, std::string wrong) {
+  if (text.empty()) return std::nullopt;
+  const auto number = parseNumbers(text);
+  if (!number || number->size() != 1 || (*number)[0] < least || (*number)[0] > most)
+    return failure(ErrorKind::usage, std::move(wrong), "--through");
+  return (*number)[0];
+}
+
 Result<Clicked> clickedFrom(const std::string& text) {
-  const auto colon = std::min(text.find(':'), text.size());
-  const auto numbers = parseNumbers(text.substr(0, colon));
-  if (!numbers || numbers->size() < 2 || numbers->size() > 3)
-    return failure(ErrorKind::usage, fmt::format("'{}' must be X,Y or X,Y,Z in metres, and may end in :SECONDS", text),
-                   "--through");
-  Clicked clicked{{(*numbers)[0], (*numbers)[1], {}}};
+  std::vector<std::string> parts(1);
+  for (const char c : text)
+    if (c == ':')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  const auto numbers = parseNumbers(parts.front());
+  if (!numbers || numbers->size() < 2 || numbers->size() > 3 || parts.size() > 3)
+    return failure(
+        ErrorKind::usage,
+        fmt::format("'{}' must be X,Y or X,Y,Z in metres, and may end in :SECONDS or :SECONDS:DEGREES", text),
+        "--through");
+  Clicked clicked{{(*numbers)[0], (*numbers)[1], {}}, 0, {}};
   if (numbers->size() == 3) clicked.place.z_m = (*numbers)[2];
-  if (colon == text.size()) return clicked;
-  const auto stop = parseNumbers(text.substr(colon + 1));
-  if (!stop || stop->size() != 1 || (*stop)[0] < 0 || (*stop)[0] > 3600)
-    return failure(ErrorKind::usage, fmt::format("'{}' must stop from 0 to 3600 seconds", text), "--through");
-  clicked.stop_s = (*stop)[0];
+  parts.resize(3);
+  TRY_ASSIGN(const auto stop, partFrom(parts[1], 0, 3600, fmt::format("'{}' must stop from 0 to 3600 seconds", text)));
+  TRY_ASSIGN(const auto look,
+             partFrom(parts[2], -360, 360, fmt::format("'{}' must look from -360 to 360 degrees", text)));
+  clicked.stop_s = stop.value_or(0);
+  if (look) clicked.look_rad = *look * kRadPerDeg;
   return clicked;
 }
 
@@ -65,7 +85,7 @@ Result<Waypoint> waypointAt(const RayScene& scene, const Georeference& g, const 
   const auto floors = floorsAt(scene, x, y, height_m);
   const auto near = [&](double z) { return std::abs(z + g.shift_m.z() - *clicked.place.z_m) <= 0.5; };
   if (clicked.place.z_m && std::none_of(floors.begin(), floors.end(), near))
-    return Waypoint{{x, y, *clicked.place.z_m - g.shift_m.z()}, clicked.stop_s};
+    return Waypoint{{x, y, *clicked.place.z_m - g.shift_m.z()}, clicked.stop_s, clicked.look_rad};
   if (floors.empty())
     return failure(ErrorKind::unusable,
                    fmt::format("no floor at ({}, {}) with {:.2f} m of free height; choose another place, or state its "
@@ -73,14 +93,43 @@ Result<Waypoint> waypointAt(const RayScene& scene, const Georeference& g, const 
                                clicked.place.x_m, clicked.place.y_m, height_m + kRoomAbove_m),
                    "--through");
   TRY_ASSIGN(const auto floor, chosenFloor(floors, clicked.place.z_m, g.shift_m.z()));
-  return Waypoint{{x, y, floor}, clicked.stop_s};
+  return Waypoint{{x, y, floor}, clicked.stop_s, clicked.look_rad};
+}
+
+double heightOf(const CarriedTrajectory& t) {
+  const auto carrier =
+      std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == t.carrier; });
+  return t.height_m > 0 || carrier == kCarriers.end() ? t.height_m : carrier->limits.height_m;
+}
+
+// Of the trajectory that they are for. A waypoint that it has there already keeps its place to the last digit.
+Result<std::vector<Waypoint>> waypointsFrom(const RayScene& scene, const Georeference& g, const CarriedTrajectory& of,
+                                            const std::vector<std::string>& through) {
+  constexpr double kSame_m = 1e-6;
+  if (through.size() < 2)
+    return failure(ErrorKind::usage, "specify at least two places as X,Y or X,Y,Z, or a file", "--through");
+  std::vector<Waypoint> waypoints;
+  for (const std::string& text : through) {
+    TRY_ASSIGN(const auto clicked, clickedFrom(text));
+    const Eigen::Vector3d there(clicked.place.x_m, clicked.place.y_m, clicked.place.z_m.value_or(0));
+    const auto kept = std::find_if(of.waypoints.begin(), of.waypoints.end(), [&](const Waypoint& w) {
+      return clicked.place.z_m && (w.floor_m + g.shift_m - there).norm() < kSame_m;
+    });
+    if (kept != of.waypoints.end()) {
+      waypoints.push_back({kept->floor_m, clicked.stop_s, clicked.look_rad});
+      continue;
+    }
+    TRY_ASSIGN(const auto waypoint, waypointAt(scene, g, clicked, heightOf(of)));
+    waypoints.push_back(waypoint);
+  }
+  return waypoints;
 }
 
 Result<CarriedTrajectory> newTrajectory(const RayScene& scene, const Georeference& georeference,
                                         const TrajectoryOptions& options) {
   CarriedTrajectory made;
   made.name = *options.add;
-  made.seed = options.seed;
+  made.seed = options.seed.value_or(1);
   made.carrier = options.carrier.empty() ? "hand" : options.carrier;
   if (!options.file.empty()) {
     if (!options.through.empty()) return failure(ErrorKind::usage, "use either waypoints or a file", "--through");
@@ -95,18 +144,25 @@ Result<CarriedTrajectory> newTrajectory(const RayScene& scene, const Georeferenc
     }
     return made;
   }
-  if (options.through.size() < 2)
-    return failure(ErrorKind::usage, "specify at least two places as X,Y or X,Y,Z, or a file", "--through");
-  const auto carrier =
-      std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == made.carrier; });
   made.height_m = options.height_m.value_or(0), made.speed_mps = options.speed_mps.value_or(0);
-  const double height = options.height_m.value_or(carrier->limits.height_m);
-  for (const std::string& text : options.through) {
-    TRY_ASSIGN(const auto clicked, clickedFrom(text));
-    TRY_ASSIGN(const auto waypoint, waypointAt(scene, georeference, clicked, height));
-    made.waypoints.push_back(waypoint);
-  }
+  TRY_ASSIGN(made.waypoints, waypointsFrom(scene, georeference, made, options.through));
   return made;
+}
+
+Result<CarriedTrajectory> changedTrajectory(const RayScene& scene, const Georeference& georeference,
+                                            CarriedTrajectory changed, const TrajectoryOptions& options) {
+  if (!changed.file.empty())
+    return failure(ErrorKind::usage,
+                   fmt::format("'{}' is what its file has; remove it and add the changed file", changed.name),
+                   "--change");
+  if (!options.file.empty()) return failure(ErrorKind::usage, "use either waypoints or a file", "--file");
+  if (!options.carrier.empty()) changed.carrier = options.carrier;
+  changed.height_m = options.height_m.value_or(changed.height_m);
+  changed.speed_mps = options.speed_mps.value_or(changed.speed_mps);
+  changed.seed = options.seed.value_or(changed.seed);
+  if (options.through.empty()) return changed;
+  TRY_ASSIGN(changed.waypoints, waypointsFrom(scene, georeference, changed, options.through));
+  return changed;
 }
 
 // Of what it takes to go it; a trajectory that cannot be made is listed with the reason.
@@ -148,8 +204,11 @@ const Fields<TrajectoryOptions>& trajectoryFields() {
   using O = TrajectoryOptions;
   static const Fields<O> fields = {
       {"add", &O::add, "name of a new trajectory, with --through or --file"},
+      {"change", &O::change,
+       "name of a trajectory that gets other places with --through, or another carrier, height, speed or seed"},
       {"through", &O::through,
-       "places on the floor that it passes, X,Y or X,Y,Z in the model's own frame; X,Y:SECONDS stops there"},
+       "places on the floor that it passes, X,Y or X,Y,Z in the model's own frame; X,Y:SECONDS stops there, "
+       "X,Y:SECONDS:DEGREES looks that way from there on, counter-clockwise from X"},
       {"file", &O::file, "file of a recorded trajectory, instead: CSV, SBET, TUM, KITTI, EuRoC, HELIOS++"},
       {"format",
        &O::format,
@@ -161,10 +220,13 @@ const Fields<TrajectoryOptions>& trajectoryFields() {
        {.choices = {"hand", "backpack", "trolley", "vehicle", "uav"}}},
       {"height",
        &O::height_m,
-       "of the scanner above the floor; without it the carrier's",
+       "of the scanner above the floor; without it, or 0, the carrier's",
        {.unit = "m", .minimum = 0, .maximum = 1000}},
-      {"speed", &O::speed_mps, "at most; without it the carrier's", {.unit = "m/s", .minimum = 0.01, .maximum = 100}},
-      {"seed", &O::seed, "of gait and shaking", {.minimum = 0, .maximum = 9007199254740991.0}},
+      {"speed",
+       &O::speed_mps,
+       "at most; without it, or 0, the carrier's",
+       {.unit = "m/s", .minimum = 0, .maximum = 100}},
+      {"seed", &O::seed, "of gait and shaking; without it 1", {.minimum = 0, .maximum = 9007199254740991.0}},
       {"rename", &O::rename, "name of the trajectory that gets another --name"},
       {"name", &O::name, "its new name"},
       {"remove", &O::remove, "name of a trajectory to remove; its scans stay where they are"},
@@ -188,28 +250,43 @@ const AnswerFields<TrajectoryAnswer>& answerFields(const TrajectoryAnswer*) {
   return fields;
 }
 
+std::string waypointText(const Waypoint& waypoint, const Georeference& georeference) {
+  const Eigen::Vector3d p = waypoint.floor_m + georeference.shift_m;
+  std::string text = exactText(p.x()) + "," + exactText(p.y()) + "," + exactText(p.z());
+  if (waypoint.stop_s > 0 || waypoint.look_rad) text += ":" + exactText(waypoint.stop_s);
+  if (waypoint.look_rad) text += ":" + exactText(*waypoint.look_rad / kRadPerDeg);
+  return text;
+}
+
 Result<Answered<TrajectoryAnswer>> runTrajectory(const Document& document, const TrajectoryOptions& options,
                                                  Progress& progress) {
   progress.stage("Trajectory");
-  const int asked = static_cast<int>(options.add.has_value()) + static_cast<int>(options.rename.has_value()) +
-                    static_cast<int>(options.remove.has_value()) + static_cast<int>(options.write.has_value());
+  int asked = 0;
+  for (const auto* name : {&options.add, &options.change, &options.rename, &options.remove, &options.write})
+    asked += static_cast<int>(name->has_value());
   if (asked > 1)
-    return failure(ErrorKind::usage, "specify one of --add NAME, --rename NAME, --remove NAME, --write NAME");
-  if (!options.add && (!options.through.empty() || !options.file.empty()))
-    return failure(ErrorKind::usage, "name the new trajectory with --add NAME", "--add");
+    return failure(ErrorKind::usage,
+                   "specify one of --add NAME, --change NAME, --rename NAME, --remove NAME, --write NAME");
+  if (!options.add && !options.change && (!options.through.empty() || !options.file.empty()))
+    return failure(ErrorKind::usage, "name the trajectory with --add NAME, or --change NAME", "--add");
   if (options.write.has_value() == options.output.empty())
     return failure(ErrorKind::usage, "--write NAME and --output FILE belong together", "--output");
   Answered<TrajectoryAnswer> outcome{document};
   Job job = *document.job;
   const auto& g = *document.georeference;
-  if (options.add) {
-    TRY(checkTrajectoryName(job, *options.add, "--add"));
+  if (options.add || options.change) {
+    if (options.add) TRY(checkTrajectoryName(job, *options.add, "--add"));
+    const auto at = options.change ? trajectoryAt(job, *options.change) : job.trajectories.end();
+    if (options.change && at == job.trajectories.end()) return noTrajectory(job, *options.change);
     TRY_ASSIGN(const auto scene, RayScene::build(document.environment(), progress));
-    TRY_ASSIGN(auto made, newTrajectory(*scene, g, options));
+    TRY_ASSIGN(auto made, options.add ? newTrajectory(*scene, g, options) : changedTrajectory(*scene, g, *at, options));
     TRY_ASSIGN(const auto carried, carriedMotion(made, g, outcome.report, progress));
     findObstacles(carried, *scene, g, made.name, outcome.report);
-    job.trajectories.push_back(std::move(made));
-    outcome.description = "Added trajectory " + *options.add;
+    outcome.description = (options.add ? "Added trajectory " : "Changed trajectory ") + made.name;
+    if (options.add)
+      job.trajectories.push_back(std::move(made));
+    else
+      *at = std::move(made);
   } else if (options.rename || options.remove || options.write) {
     const std::string& name = options.rename ? *options.rename : options.remove ? *options.remove : *options.write;
     const auto at = trajectoryAt(job, name);
@@ -228,7 +305,7 @@ Result<Answered<TrajectoryAnswer>> runTrajectory(const Document& document, const
   }
   for (const auto& t : job.trajectories)
     outcome.answer.trajectories.push_back(trajectoryRow(t, g, outcome.report, progress));
-  if (options.add || options.rename || options.remove)
+  if (options.add || options.change || options.rename || options.remove)
     outcome.document.job = std::make_shared<const Job>(std::move(job));
   return outcome;
 }
