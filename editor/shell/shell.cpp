@@ -85,7 +85,7 @@ void recentMenu(Editor& editor) {
 }
 
 void runMenu(Editor& editor) {
-  items(editor, {"add-station", "add-row", "add-target", "scan", ""});
+  items(editor, {"add-station", "add-row", "add-trajectory", "add-target", "scan", ""});
   for (const auto& verb : editor.session.verbs()) {
     const std::string_view name = verb.name;
     if (name.ends_with("-project") || name.ends_with("-recovery")) continue;

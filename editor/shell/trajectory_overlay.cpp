@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/shell/trajectory_overlay.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/motion/carriers.h"
+#include "core/units.h"
+#include "editor/model/trajectory_steps.h"
+#include "editor/shell/actions.h"
+#include "editor/shell/editor.h"
+#include "editor/shell/label_board.h"
+#include "editor/shell/overlay.h"
+#include "editor/shell/view_pen.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/number_field.h"
+#include "editor/widgets/theme.h"
+#include "editor/words/words.h"
+
+namespace standpoint {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kRibbonHalf_m = 0.16;
+constexpr double kRibbonAbove_m = 0.03;  // of the ribbon, so that the floor does not hide it
+constexpr std::size_t kSegments = 500, kSegmentsOfOthers = 160;
+constexpr double kArrowEvery_m = 2.5;
+
+ImU32 thinned(ImU32 tone, unsigned alpha) { return (tone & ~IM_COL32_A_MASK) | (alpha << IM_COL32_A_SHIFT); }
+
+// A moment of the way as the ribbon has it.
+Vector3d onRibbon(const TrajectoryWay& way, const PathSample& sample) {
+  return sample.position_m - Vector3d(0, 0, std::max(0.0, way.lift_m - kRibbonAbove_m));
+}
+
+Vector3d across(const Vector3d& way) {
+  const Vector3d side(-way.y(), way.x(), 0);
+  return side.norm() < 1e-9 ? Vector3d(0, 0, 0) : Vector3d(side.normalized() * kRibbonHalf_m);
+}
+
+void quad(const ViewPen& pen, const std::array<Vector3d, 4>& corners, ImU32 tone) {
+  std::array<ImVec2, 4> pixels;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto pixel = pen.at(corners[i]);
+    if (!pixel) return;
+    pixels[i] = *pixel;
+  }
+  ImGui::GetWindowDrawList()->AddQuadFilled(pixels[0], pixels[1], pixels[2], pixels[3], tone);
+}
+
+// Which way it goes.
+void arrow(const ViewPen& pen, const Vector3d& at, const Vector3d& way, ImU32 tone) {
+  const Vector3d ahead = way.normalized() * 0.22, side = across(way) * 0.75;
+  const auto tip = pen.at(at + ahead), left = pen.at(at - ahead * 0.4 + side), right = pen.at(at - ahead * 0.4 - side);
+  if (tip && left && right) ImGui::GetWindowDrawList()->AddTriangleFilled(*tip, *left, *right, tone);
+}
+
+// Where something hides it, it shines through.
+void drawRibbon(const Editor& editor, const ViewState& state, const ViewPen& pen, const TrajectoryWay& way, ImU32 tone,
+                bool chosen) {
+  const auto& samples = way.samples;
+  if (samples.size() < 2) return;
+  const std::size_t step = std::max<std::size_t>(1, samples.size() / (chosen ? kSegments : kSegmentsOfOthers));
+  auto& list = *ImGui::GetWindowDrawList();
+  const auto flags = list.Flags;
+  list.Flags &= ~ImDrawListFlags_AntiAliasedFill;  // no seams between the parts
+  Vector3d from = onRibbon(way, samples.front());
+  Vector3d side_before = Vector3d::Zero();
+  double since_arrow = kArrowEvery_m / 2;
+  for (std::size_t i = 0; i + 1 < samples.size(); i += step) {
+    const auto& sample = samples[std::min(i + step, samples.size() - 1)];
+    const Vector3d to = onRibbon(way, sample), leg = to - from;
+    if (leg.norm() < 1e-4) continue;  // it stands
+    const Vector3d side = across(leg), before = side_before.isZero() ? side : side_before;
+    const bool seen = editor.picker.sees(editor.view.camera.eyeOf(to), to, state);
+    quad(pen, {from + before, to + side, to - side, from - before},
+         thinned(tone, seen ? (chosen ? 215 : 150) : (chosen ? 70 : 40)));
+    since_arrow += leg.norm();
+    if (since_arrow > kArrowEvery_m && seen) {
+      arrow(pen, to, leg, IM_COL32(20, 22, 26, chosen ? 235 : 150));
+      since_arrow = 0;
+    }
+    from = to, side_before = side;
+  }
+  list.Flags = flags;
+}
+
+void drawObstacles(const ViewPen& pen, LabelBoard& labels, const TrajectoryWay& way, bool named) {
+  const ImU32 tone = verdictTone(Verdict::bad);
+  for (std::size_t i = 0; i < way.obstacles.size(); ++i) {
+    const auto at = pen.at(way.obstacles[i].place_m);
+    if (!at) continue;
+    auto& list = *ImGui::GetWindowDrawList();
+    const float r = ImGui::GetFontSize() * 0.5F;
+    list.AddCircleFilled(*at, r * 1.25F, IM_COL32(20, 22, 26, 220));
+    const ImVec2 size = ImGui::CalcTextSize(ICON_WARNING);
+    list.AddText({at->x - size.x / 2, at->y - size.y / 2}, tone, ICON_WARNING);
+    if (named)
+      labels.over(*at,
+                  {trf("{} after {:.1f} s", way.obstacle_products[i], way.obstacles[i].after_s),
+                   fmt::format("{:.1f} s", way.obstacles[i].after_s)},
+                  tone);
+  }
+}
+
+void drawWaypointsOf(const Editor& editor, const ViewPen& pen, LabelBoard& labels,
+                     const std::vector<Waypoint>& waypoints, double height_m, bool flown, int chosen) {
+  auto& list = *ImGui::GetWindowDrawList();
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    const auto& waypoint = waypoints[i];
+    const Vector3d knob = waypoint.floor_m + Vector3d(0, 0, kRibbonAbove_m);
+    const auto at = pen.at(knob);
+    if (flown) pen.line(knob, knob + Vector3d(0, 0, height_m), thinned(tone::kAccent, 120), 1.5F);
+    if (waypoint.look_rad)
+      pen.rod(knob, knob + 0.6 * Vector3d(std::cos(*waypoint.look_rad), std::sin(*waypoint.look_rad), 0), tone::kAccent,
+              2);
+    if (!at) continue;
+    const bool this_one = chosen == static_cast<int>(i);
+    list.AddCircleFilled(*at, editor.px(this_one ? 7 : 5), IM_COL32(20, 22, 26, 255));
+    list.AddCircleFilled(*at, editor.px(this_one ? 5 : 3.5F), this_one ? tone::kAccent : tone::kText);
+    if (!editor.view.labels) continue;
+    std::string text = std::to_string(i + 1);
+    if (waypoint.stop_s > 0) text += "   " + trf("stops {:.3g} s", waypoint.stop_s);
+    labels.over(*at, {text, std::to_string(i + 1)}, tone::kText);
+  }
+}
+
+void drawOf(const Editor& editor, const ViewState& state, const ViewPen& pen, LabelBoard& labels,
+            const CarriedTrajectory& trajectory, const TrajectoryWay* way, bool chosen) {
+  if (way != nullptr && way->problem.empty()) {
+    drawRibbon(editor, state, pen, *way, chosen ? tone::kAccent : tone::kStation, chosen);
+    drawObstacles(pen, labels, *way, chosen);
+  } else {
+    for (std::size_t i = 0; i + 1 < trajectory.waypoints.size(); ++i)
+      pen.line(trajectory.waypoints[i].floor_m, trajectory.waypoints[i + 1].floor_m, thinned(tone::kAccent, 120), 1.5F);
+  }
+  if (chosen)
+    drawWaypointsOf(editor, pen, labels, trajectory.waypoints, carriedHeight_m(trajectory.carrier, trajectory.height_m),
+                    trajectory.carrier == "uav", editor.survey.waypoint);
+  if (!editor.view.labels) return;
+  const auto begin = !trajectory.waypoints.empty()             ? std::optional(trajectory.waypoints.front().floor_m)
+                     : way != nullptr && !way->samples.empty() ? std::optional(way->samples.front().position_m)
+                                                               : std::nullopt;
+  if (const auto at = begin ? pen.at(*begin) : std::nullopt) labels.over(*at, {trajectory.name}, tone::kText);
+}
+
+// Of a field that is as wide as the chips are.
+bool figure(const Editor& editor, const char* id, double& value, const char* unit, double most,
+            const std::string& usual, const char* help) {
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(editor.px(128));
+  return ui::numberField(
+      id, value, {.kind = {.unit = unit, .least = 0, .most = most}, .decimals = 2, .zero = usual.c_str()}, help);
+}
+
+void chipButton(Editor& editor, const char* command, const char* text) {
+  ImGui::SameLine();
+  const auto& action = *findAction(command);
+  const auto label = fmt::format("{}  {}###chip-{}", action.icon, tr(text), command);
+  const auto tip = tr(action.title) + "  (" + shortcutText(action.shortcut) + ")";
+  if (ui::button(label.c_str(), whyNot(action, editor), {0, 0}, tip.c_str())) action.run(editor);
+}
+
+}  // namespace
+
+void drawTrajectories(Editor& editor, const ViewState& state, ImVec2 origin, LabelBoard& labels) {
+  const auto& job = editor.session.document().job;
+  if (!job) return;
+  const ViewPen pen(editor, origin);
+  const auto dragged = draggedTrajectory(editor);
+  for (std::size_t i = 0; i < job->trajectories.size(); ++i) {
+    const bool chosen = editor.survey.trajectory == static_cast<int>(i);
+    if (chosen && dragged) {
+      drawOf(editor, state, pen, labels, *dragged, editor.trajectory_ways.draft(), true);
+      continue;
+    }
+    drawOf(editor, state, pen, labels, job->trajectories[i], editor.trajectory_ways.of(i), chosen);
+  }
+  const auto& draft = editor.view.draft;
+  if (editor.view.tool != Tool::layTrajectory || draft.waypoints.empty()) return;
+  const auto* way = draft.waypoints.size() < 2 ? nullptr : editor.trajectory_ways.draft();
+  if (way != nullptr && way->problem.empty()) {
+    drawRibbon(editor, state, pen, *way, tone::kAccent, true);
+    drawObstacles(pen, labels, *way, true);
+  }
+  drawWaypointsOf(editor, pen, labels, draft.waypoints, carriedHeight_m(draft.carrier, draft.height_m),
+                  draft.carrier == "uav", -1);
+}
+
+void drawNextWaypoint(Editor& editor, ImVec2 origin) {
+  const auto& view = editor.view;
+  const auto scene = editor.picker.scene();
+  if (view.tool != Tool::layTrajectory || !view.hover || view.dragging || !scene) return;
+  const ViewPen pen(editor, origin);
+  const auto& draft = view.draft;
+  const auto refused = whyNoWaypoint(*scene, *view.hover, carriedHeight_m(draft.carrier, draft.height_m));
+  const Verdict verdict = refused ? Verdict::bad : Verdict::good;
+  const Vector3d floor = view.hover->position;
+  if (!draft.waypoints.empty()) pen.line(draft.waypoints.back().floor_m, floor, thinned(tone::kAccent, 150), 1.5F);
+  if (const auto at = pen.at(floor)) {
+    ImGui::GetWindowDrawList()->AddCircleFilled(*at, editor.px(6), IM_COL32(20, 22, 26, 255));
+    ImGui::GetWindowDrawList()->AddCircleFilled(*at, editor.px(4.5F), verdictTone(verdict));
+  }
+  std::string text = refused ? refused->brief : trf("Waypoint {}", draft.waypoints.size() + 1);
+  const auto* way = editor.trajectory_ways.draft();
+  if (!refused && way != nullptr && draft.waypoints.size() >= 2)
+    text += way->problem.empty() ? fmt::format("   {:.1f} m   {}", way->length_m, durationText(way->seconds))
+                                 : "   " + way->problem;
+  const ImVec2 pointer = ImGui::GetIO().MousePos;
+  pen.plate({pointer.x + editor.px(20), pointer.y + editor.px(16)}, verdictSign(verdict), verdictTone(verdict),
+            tr(text));
+}
+
+void trajectoryChips(Editor& editor) {
+  if (editor.view.tool != Tool::layTrajectory) return;
+  auto& draft = editor.view.draft;
+  const auto own =
+      std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == draft.carrier; });
+  ImGui::NewLine();
+  const std::string label = ICON_WALK "  " + carrierName(draft.carrier);
+  ImGui::SetNextItemWidth(chipWidth(editor, label, 110));
+  if (ImGui::BeginCombo("###draft-carrier", label.c_str(), ImGuiComboFlags_NoArrowButton)) {
+    for (const auto& carrier : kCarriers)
+      if (ImGui::Selectable((tr(std::string(carrier.name)) + "###draft-" + std::string(carrier.id)).c_str(),
+                            carrier.id == draft.carrier))
+        draft.carrier = carrier.id;
+    ImGui::EndCombo();
+  } else {
+    ui::tooltip("What carries the scanner: pace, gait and shaking follow from it");
+  }
+  figure(editor, "###draft-height", draft.height_m, "m", 1000, trf("usual, {:.2f} m", own->limits.height_m),
+         "Height of the scanner above the floor; 0 is the carrier's usual one");
+  figure(editor, "###draft-speed", draft.speed_mps, "m/s", 100, trf("usual, {:.1f} m/s", own->limits.speed_mps),
+         "It is slower in bends; 0 is the carrier's usual one");
+  ImGui::NewLine();
+  ImGui::SameLine(0, 0);
+  ImGui::Dummy({0, 0});
+  chipButton(editor, "end-trajectory", "Finish");
+  chipButton(editor, "take-back-waypoint", "Take back");
+}
+
+}  // namespace standpoint
