@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/motion/carriers.h"
 #include "core/units.h"
+#include "editor/colours/colour_scale.h"
 #include "editor/model/trajectory_steps.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/editor.h"
@@ -30,6 +32,47 @@ constexpr double kRibbonHalf_m = 0.16;
 constexpr double kRibbonAbove_m = 0.03;  // of the ribbon, so that the floor does not hide it
 constexpr std::size_t kSegments = 500, kSegmentsOfOthers = 160;
 constexpr double kArrowEvery_m = 2.5;
+
+enum class RibbonColour { plain, time, speed, turn };
+
+// By what the ribbons are coloured.
+struct RibbonChoice {
+  RibbonColour by = RibbonColour::plain;
+};
+
+struct NamedRibbon {
+  RibbonColour by;
+  const char *name, *unit;
+};
+constexpr std::array kRibbons = {
+    NamedRibbon{RibbonColour::plain, "plain", ""}, NamedRibbon{RibbonColour::time, "time", "s"},
+    NamedRibbon{RibbonColour::speed, "speed", "m/s"}, NamedRibbon{RibbonColour::turn, "turn rate", "°/s"}};
+
+double figureOf(const PathSample& sample, RibbonColour by) {
+  switch (by) {
+    case RibbonColour::time: return sample.after_s;
+    case RibbonColour::speed: return sample.speed_mps;
+    case RibbonColour::turn: return sample.turn_radps / kRadPerDeg;
+    case RibbonColour::plain: break;
+  }
+  return 0;
+}
+
+// The colours of one way: from nothing to the most that it has.
+struct RibbonScale {
+  RibbonColour by = RibbonColour::plain;
+  ImU32 plain = 0;
+  double most = 0;
+  ImU32 toneOf(const PathSample& sample) const {
+    return by == RibbonColour::plain ? plain : packed(viridis(most > 0 ? figureOf(sample, by) / most : 0));
+  }
+};
+
+RibbonScale scaleOf(const TrajectoryWay& way, RibbonColour by, ImU32 plain) {
+  RibbonScale scale{by, plain, 0};
+  for (const auto& sample : way.samples) scale.most = std::max(scale.most, figureOf(sample, by));
+  return scale;
+}
 
 ImU32 thinned(ImU32 tone, unsigned alpha) { return (tone & ~IM_COL32_A_MASK) | (alpha << IM_COL32_A_SHIFT); }
 
@@ -61,8 +104,8 @@ void arrow(const ViewPen& pen, const Vector3d& at, const Vector3d& way, ImU32 to
 }
 
 // Where something hides it, it shines through.
-void drawRibbon(const Editor& editor, const ViewState& state, const ViewPen& pen, const TrajectoryWay& way, ImU32 tone,
-                bool chosen) {
+void drawRibbon(const Editor& editor, const ViewState& state, const ViewPen& pen, const TrajectoryWay& way,
+                const RibbonScale& scale, bool chosen) {
   const auto& samples = way.samples;
   if (samples.size() < 2) return;
   const std::size_t step = std::max<std::size_t>(1, samples.size() / (chosen ? kSegments : kSegmentsOfOthers));
@@ -72,6 +115,7 @@ void drawRibbon(const Editor& editor, const ViewState& state, const ViewPen& pen
   Vector3d from = onRibbon(way, samples.front());
   Vector3d side_before = Vector3d::Zero();
   double since_arrow = kArrowEvery_m / 2;
+  std::vector<std::array<Vector3d, 2>> arrows;  // over the whole ribbon, which would cover parts of them
   for (std::size_t i = 0; i + 1 < samples.size(); i += step) {
     const auto& sample = samples[std::min(i + step, samples.size() - 1)];
     const Vector3d to = onRibbon(way, sample), leg = to - from;
@@ -79,15 +123,16 @@ void drawRibbon(const Editor& editor, const ViewState& state, const ViewPen& pen
     const Vector3d side = across(leg), before = side_before.isZero() ? side : side_before;
     const bool seen = editor.picker.sees(editor.view.camera.eyeOf(to), to, state);
     quad(pen, {from + before, to + side, to - side, from - before},
-         thinned(tone, seen ? (chosen ? 215 : 150) : (chosen ? 70 : 40)));
+         thinned(scale.toneOf(sample), seen ? (chosen ? 215 : 150) : (chosen ? 70 : 40)));
     since_arrow += leg.norm();
     if (since_arrow > kArrowEvery_m && seen) {
-      arrow(pen, to, leg, IM_COL32(20, 22, 26, chosen ? 235 : 150));
+      arrows.push_back({to, leg});
       since_arrow = 0;
     }
     from = to, side_before = side;
   }
   list.Flags = flags;
+  for (const auto& [at, leg] : arrows) arrow(pen, at, leg, IM_COL32(20, 22, 26, chosen ? 235 : 150));
 }
 
 void drawObstacles(const ViewPen& pen, LabelBoard& labels, const TrajectoryWay& way, bool named) {
@@ -131,9 +176,10 @@ void drawWaypointsOf(const Editor& editor, const ViewPen& pen, LabelBoard& label
 }
 
 void drawOf(const Editor& editor, const ViewState& state, const ViewPen& pen, LabelBoard& labels,
-            const CarriedTrajectory& trajectory, const TrajectoryWay* way, bool chosen) {
+            const CarriedTrajectory& trajectory, const TrajectoryWay* way, bool chosen, RibbonColour colours) {
   if (way != nullptr && way->problem.empty()) {
-    drawRibbon(editor, state, pen, *way, chosen ? tone::kAccent : tone::kStation, chosen);
+    const RibbonColour by = chosen ? colours : RibbonColour::plain;
+    drawRibbon(editor, state, pen, *way, scaleOf(*way, by, chosen ? tone::kAccent : tone::kStation), chosen);
     drawObstacles(pen, labels, *way, chosen);
   } else {
     for (std::size_t i = 0; i + 1 < trajectory.waypoints.size(); ++i)
@@ -149,6 +195,48 @@ void drawOf(const Editor& editor, const ViewState& state, const ViewPen& pen, La
   if (const auto at = begin ? pen.at(*begin) : std::nullopt) labels.over(*at, {trajectory.name}, tone::kText);
 }
 
+// The way whose colours are shown: of what is laid, or chosen; null where there is none.
+const TrajectoryWay* colouredWay(const Editor& editor) {
+  const auto* way = editor.view.tool == Tool::layTrajectory ? editor.trajectory_ways.draft()
+                    : editor.survey.trajectory >= 0
+                        ? editor.trajectory_ways.of(static_cast<std::size_t>(editor.survey.trajectory))
+                        : nullptr;
+  return way != nullptr && way->samples.size() > 1 ? way : nullptr;
+}
+
+// At the lower left, as the other scales are.
+void drawRibbonScale(const Editor& editor, RibbonColour by, ImVec2 origin) {
+  const auto* way = colouredWay(editor);
+  if (way == nullptr || by == RibbonColour::plain) return;
+  const auto named = std::find_if(kRibbons.begin(), kRibbons.end(), [&](const auto& r) { return r.by == by; });
+  const RibbonScale scale = scaleOf(*way, by, 0);
+  constexpr int kSteps = 32;
+  auto& list = *ImGui::GetWindowDrawList();
+  const float width = editor.px(160), height = editor.px(8), x = origin.x + editor.px(14),
+              y = origin.y + static_cast<float>(editor.view.size.y()) - editor.px(70);
+  drawPlate(editor, {x, y}, {width, height + editor.px(2) + ImGui::GetTextLineHeight()});
+  for (int i = 0; i < kSteps; ++i)
+    list.AddRectFilled({x + width * static_cast<float>(i) / kSteps, y},
+                       {x + width * static_cast<float>(i + 1) / kSteps, y + height},
+                       packed(viridis((i + 0.5) / kSteps)));
+  list.AddText({x, y + height + editor.px(2)}, tone::kDim, "0");
+  const std::string most = fmt::format("{:.3g} {}", scale.most, named->unit);
+  list.AddText({x + width - ImGui::CalcTextSize(most.c_str()).x, y + height + editor.px(2)}, tone::kDim, most.c_str());
+}
+
+void ribbonChip(Editor& editor) {
+  auto& choice = editor.panels.of<RibbonChoice>();
+  const auto named = std::find_if(kRibbons.begin(), kRibbons.end(), [&](const auto& r) { return r.by == choice.by; });
+  const std::string label = trf("Path: {}", tr(named->name));
+  ImGui::NewLine();
+  ImGui::SetNextItemWidth(chipWidth(editor, label, 110));
+  if (!ImGui::BeginCombo("###ribbon-colour", label.c_str(), ImGuiComboFlags_NoArrowButton))
+    return ui::tooltip("By what the chosen path is coloured");
+  for (const auto& ribbon : kRibbons)
+    if (ImGui::Selectable(ui::Label(ribbon.name), ribbon.by == choice.by)) choice.by = ribbon.by;
+  ImGui::EndCombo();
+}
+
 // Of a field that is as wide as the chips are.
 bool figure(const Editor& editor, const char* id, double& value, const char* unit, double most,
             const std::string& usual, const char* help) {
@@ -159,7 +247,6 @@ bool figure(const Editor& editor, const char* id, double& value, const char* uni
 }
 
 void chipButton(Editor& editor, const char* command, const char* text) {
-  ImGui::SameLine();
   const auto& action = *findAction(command);
   const auto label = fmt::format("{}  {}###chip-{}", action.icon, tr(text), command);
   const auto tip = tr(action.title) + "  (" + shortcutText(action.shortcut) + ")";
@@ -173,19 +260,21 @@ void drawTrajectories(Editor& editor, const ViewState& state, ImVec2 origin, Lab
   if (!job) return;
   const ViewPen pen(editor, origin);
   const auto dragged = draggedTrajectory(editor);
+  const RibbonColour colours = editor.panels.of<RibbonChoice>().by;
   for (std::size_t i = 0; i < job->trajectories.size(); ++i) {
     const bool chosen = editor.survey.trajectory == static_cast<int>(i);
     if (chosen && dragged) {
-      drawOf(editor, state, pen, labels, *dragged, editor.trajectory_ways.draft(), true);
+      drawOf(editor, state, pen, labels, *dragged, editor.trajectory_ways.draft(), true, colours);
       continue;
     }
-    drawOf(editor, state, pen, labels, job->trajectories[i], editor.trajectory_ways.of(i), chosen);
+    drawOf(editor, state, pen, labels, job->trajectories[i], editor.trajectory_ways.of(i), chosen, colours);
   }
+  drawRibbonScale(editor, colours, origin);
   const auto& draft = editor.view.draft;
   if (editor.view.tool != Tool::layTrajectory || draft.waypoints.empty()) return;
   const auto* way = draft.waypoints.size() < 2 ? nullptr : editor.trajectory_ways.draft();
   if (way != nullptr && way->problem.empty()) {
-    drawRibbon(editor, state, pen, *way, tone::kAccent, true);
+    drawRibbon(editor, state, pen, *way, scaleOf(*way, colours, tone::kAccent), true);
     drawObstacles(pen, labels, *way, true);
   }
   drawWaypointsOf(editor, pen, labels, draft.waypoints, carriedHeight_m(draft.carrier, draft.height_m),
@@ -217,6 +306,7 @@ void drawNextWaypoint(Editor& editor, ImVec2 origin) {
 }
 
 void trajectoryChips(Editor& editor) {
+  if (colouredWay(editor) != nullptr) ribbonChip(editor);
   if (editor.view.tool != Tool::layTrajectory) return;
   auto& draft = editor.view.draft;
   const auto own =
@@ -238,9 +328,8 @@ void trajectoryChips(Editor& editor) {
   figure(editor, "###draft-speed", draft.speed_mps, "m/s", 100, trf("usual, {:.1f} m/s", own->limits.speed_mps),
          "It is slower in bends; 0 is the carrier's usual one");
   ImGui::NewLine();
-  ImGui::SameLine(0, 0);
-  ImGui::Dummy({0, 0});
   chipButton(editor, "end-trajectory", "Finish");
+  ImGui::SameLine();
   chipButton(editor, "take-back-waypoint", "Take back");
 }
 

@@ -320,6 +320,17 @@ TEST_F(ScanAlong, ATrajectoryIsScannedFromItsInspectorAndKeepsItsScan) {
   EXPECT_EQ(editor.cloud()->points_in_file, only().scans[0].points);
 }
 
+TEST_F(ScanAlong, TheInspectorGivesWayToTheScanPanelBesideIt) {
+  lay();
+  editor.wanted_tab[0] = "outliner";
+  editor.wanted_tab[1] = "inspector";
+  gui.frames(4);
+  ASSERT_EQ(gui.find("###run-scan"), nullptr);
+  ASSERT_TRUE(gui.click("###scan-along"));
+  gui.frames(4);
+  EXPECT_NE(gui.find("###run-scan"), nullptr);
+}
+
 TEST_F(ScanAlong, OfSeveralTrajectoriesOneIsChosen) {
   lay();
   lay();
