@@ -78,9 +78,10 @@ struct ControlPoint {
 // A place that somebody clicked for a path to pass.
 struct Waypoint {
   Eigen::Vector3d floor_m = Eigen::Vector3d::Zero();  // on the walkable surface, local frame; stairs by their heights
-  double stop_s = 0;                                  // how long the carrier stands there
+  double stop_s = 0;                                  // how long whoever passes stands there
   std::optional<double> look_rad =
       {};  // heading from here to the next one, counter-clockwise from x; else it looks ahead
+  bool operator==(const Waypoint&) const = default;
 };
 
 // A way along which a scanner is carried: through waypoints, or as a file has it.
@@ -94,6 +95,23 @@ struct CarriedTrajectory {
   std::vector<Scan> scans;
 };
 
+// Something that moves while it is scanned, by a clock that all movers share and that starts at 0 s.
+enum class MoverKind { person, vehicle, door, turning, sliding };
+struct Mover {
+  std::string name;
+  MoverKind kind = MoverKind::person;
+  std::vector<std::string> products;  // of the model, by id: doors whose leaves open, or what turns or slides
+  std::vector<Waypoint> waypoints;    // of a person or a vehicle
+  Eigen::Vector3d axis_at_m = Eigen::Vector3d::Zero();  // what turns does so about it, local frame …
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();      // … and what slides does so along it; unit
+  double speed = 0;                                     // m/s, of what turns rad/s; at most. 0: its kind's own
+  double extent = 0;     // of what slides m, of what turns and of leaves rad; 0: it goes on for ever
+  bool repeats = false;  // back and forth
+  double begins_s = 0;   // until then it stands
+  std::uint64_t seed = 1;
+  bool operator==(const Mover&) const = default;
+};
+
 // A surveying job: what the crew sets up and stores.
 struct Job {
   std::string name;
@@ -101,6 +119,7 @@ struct Job {
   std::vector<Target> targets;
   std::vector<ControlPoint> control_points;
   std::vector<CarriedTrajectory> trajectories;
+  std::vector<Mover> movers;
 };
 
 }  // namespace standpoint

@@ -11,10 +11,6 @@ namespace standpoint {
 
 namespace {
 
-constexpr double kStrideKnot_s = 0.05;
-constexpr double kWalkRatio_ms = 0.384;  // step length over step frequency
-constexpr double kUnevenness = 0.025;    // of the step frequency
-constexpr double kWalking_mps = 0.3;     // from here on a gait is whole
 constexpr double kMostSamples = 50e6;
 
 struct Wave {
@@ -25,12 +21,6 @@ Wave waveOf(double radians) {
   const double turns = radians / kRadPerTurn;
   portable::sinCos(kRadPerTurn * (turns - std::floor(turns)), wave.sine, wave.cosine);
   return wave;
-}
-
-// From 0 to 1 with two derivatives that begin and end at 0.
-double faded(double x) {
-  x = std::clamp(x, 0.0, 1.0);
-  return x * x * x * (10 + x * (6 * x - 15));
 }
 
 }  // namespace
@@ -59,33 +49,20 @@ void CarriedPose::walk(const MotionKey& key) {
   yaw_rad_ = between_degrees(2, 4, 2);
   second_rad_ = between_degrees(0, 360, 3);
   fourth_rad_ = between_degrees(0, 360, 4);
-  const BandNoise unevenness(key, 0.05, 0.3);
-  const double first = path_->first_s(), last = path_->last_s();
-  const auto count = static_cast<std::size_t>(std::ceil((last - first) / kStrideKnot_s));
-  double turns = 0, before = 0;
-  for (std::size_t i = 0; i <= count; ++i) {
-    const double time = i == count ? last : first + static_cast<double>(i) * kStrideKnot_s;
-    const double speed = velocity(*path_, time).linear_mps.norm();
-    const double frequency = 0.5 * std::sqrt(speed / kWalkRatio_ms) * (1 + kUnevenness * unevenness.at(time));
-    if (i > 0) turns += 0.5 * (before + frequency) * (time - stride_.back().at);
-    before = frequency;
-    stride_.push_back({time, {turns, speed}, {}});
-  }
-  fillSlopes<2>(stride_);
+  stride_.emplace(*path_, key);
 }
 
 // φ turns once in two steps. What the trunk gains on its mean speed, 7 % of it, is A_x = 0.07 v / 2φ' of way.
 void CarriedPose::addGait(double time_s, std::array<double, 6>& parts) const {
-  const std::size_t i = pieceAt<2>(stride_, 0, stride_.size() - 1, time_s);
-  const auto [turns, speed_or_less] = between(stride_[i], stride_[i + 1], time_s);
-  const double speed = std::max(speed_or_less, 0.0), whole = gait_ * faded(speed / kWalking_mps);
+  const Stride::At stride = stride_->at(time_s);
+  const double speed = stride.speed_mps, whole = gait_ * stride.whole;
   if (whole <= 0) return;
-  const double phase = kRadPerTurn * (turns - std::floor(turns));
+  const double phase = kRadPerTurn * (stride.turns - std::floor(stride.turns));
   const Wave one = waveOf(phase), two = waveOf(2 * phase), second = waveOf(2 * phase + second_rad_),
              fourth = waveOf(4 * phase + fourth_rad_);
   const double up_m = 0.5 * (0.027 + 0.023 * (speed - 0.7));
   const double across_m = 0.5 * std::max(0.0, 0.070 - 0.034 * (speed - 0.7));
-  const double along_m = 0.07 * speed / (kRadPerTurn * std::sqrt(speed / kWalkRatio_ms));
+  const double along_m = 0.07 * speed / (kRadPerTurn * Stride::stepFrequency_hz(speed));
   parts[0] += whole * along_m * second.sine;
   parts[1] += whole * across_m * one.sine;
   parts[2] += whole * up_m * (two.cosine + 0.25 * fourth.cosine);
@@ -97,7 +74,7 @@ void CarriedPose::addGait(double time_s, std::array<double, 6>& parts) const {
 Pose CarriedPose::pose(double time_s) const {
   const double time = std::clamp(time_s, first_s(), last_s());
   std::array<double, 6> parts{};
-  if (stride_.size() > 1) addGait(time, parts);
+  if (stride_) addGait(time, parts);
   for (const auto& shake : shakes_) parts[shake.part] += shake.amplitude * shake.noise.at(time);
   const Pose on_path = path_->pose(time);
   Pose pose = on_path * Pose{rotationOf({parts[3], parts[4], parts[5]}), {parts[0], parts[1], parts[2]}};

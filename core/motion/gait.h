@@ -2,13 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/motion/carriers.h"
-#include "core/motion/cubic_spline.h"
 #include "core/motion/pose_function.h"
 #include "core/motion/random_walk.h"
+#include "core/motion/stride.h"
 
 namespace standpoint {
 
@@ -40,7 +41,7 @@ class CarriedPose : public PoseFunction {
 
   PoseFunctionPtr path_;
   double gait_;
-  std::vector<SplineKnot<2>> stride_;                  // turns of the stride, speed in m/s, over time
+  std::optional<Stride> stride_;                       // none: it does not walk
   double roll_rad_ = 0, pitch_rad_ = 0, yaw_rad_ = 0;  // amplitudes
   double second_rad_ = 0, fourth_rad_ = 0;             // phases of the harmonics
   std::vector<Shake> shakes_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "project/storage/project_json.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -65,15 +67,29 @@ Scan scanFrom(const json& j) {
   return s;
 }
 
+json waypointsToJson(const std::vector<Waypoint>& waypoints) {
+  json list = json::array();
+  for (const Waypoint& w : waypoints) {
+    json& place = list.emplace_back(json{{"floor", toJson(w.floor_m)}});
+    if (w.stop_s > 0) place["stop_s"] = w.stop_s;
+    if (w.look_rad) place["look_rad"] = *w.look_rad;
+  }
+  return list;
+}
+
+std::vector<Waypoint> waypointsFrom(const json& of) {
+  std::vector<Waypoint> waypoints;
+  for (const auto& place : of.value("waypoints", json::array())) {
+    Waypoint& w = waypoints.emplace_back(Waypoint{vectorFrom(place.at("floor")), place.value("stop_s", 0.0)});
+    if (place.contains("look_rad")) w.look_rad = place.at("look_rad").get<double>();
+  }
+  return waypoints;
+}
+
 json trajectoryToJson(const CarriedTrajectory& t) {
   json row = {{"name", t.name}, {"carrier", t.carrier}, {"seed", t.seed}};
   if (t.file.empty()) {
-    json& waypoints = row["waypoints"] = json::array();
-    for (const Waypoint& w : t.waypoints) {
-      json& place = waypoints.emplace_back(json{{"floor", toJson(w.floor_m)}});
-      if (w.stop_s > 0) place["stop_s"] = w.stop_s;
-      if (w.look_rad) place["look_rad"] = *w.look_rad;
-    }
+    row["waypoints"] = waypointsToJson(t.waypoints);
     if (t.height_m > 0) row["height_m"] = t.height_m;
     if (t.speed_mps > 0) row["speed_mps"] = t.speed_mps;
   } else {
@@ -88,14 +104,40 @@ json trajectoryToJson(const CarriedTrajectory& t) {
 CarriedTrajectory trajectoryFrom(const json& j) {
   CarriedTrajectory t{.name = j.at("name"), .carrier = j.at("carrier")};
   t.seed = j.at("seed");
-  for (const auto& place : j.value("waypoints", json::array())) {
-    Waypoint& w = t.waypoints.emplace_back(Waypoint{vectorFrom(place.at("floor")), place.value("stop_s", 0.0)});
-    if (place.contains("look_rad")) w.look_rad = place.at("look_rad").get<double>();
-  }
+  t.waypoints = waypointsFrom(j);
   t.height_m = j.value("height_m", 0.0), t.speed_mps = j.value("speed_mps", 0.0);
   t.file = j.value("file", ""), t.format = j.value("format", "");
   for (const auto& scan : j.at("scans")) t.scans.push_back(scanFrom(scan));
   return t;
+}
+
+constexpr std::array<const char*, 5> kMoverKinds = {"person", "vehicle", "door", "turning", "sliding"};
+
+json moverToJson(const Mover& m) {
+  json row = {{"name", m.name},         {"kind", kMoverKinds[static_cast<std::size_t>(m.kind)]},
+              {"speed", m.speed},       {"repeats", m.repeats},
+              {"begins_s", m.begins_s}, {"seed", m.seed}};
+  if (m.kind == MoverKind::person || m.kind == MoverKind::vehicle) {
+    row["waypoints"] = waypointsToJson(m.waypoints);
+  } else {
+    row["products"] = m.products;
+    row["axis_at"] = toJson(m.axis_at_m), row["axis"] = toJson(m.axis);
+    row["extent"] = m.extent;
+  }
+  return row;
+}
+
+Mover moverFrom(const json& j) {
+  Mover m{.name = j.at("name")};
+  const auto kind = std::find(kMoverKinds.begin(), kMoverKinds.end(), j.at("kind").get<std::string>());
+  if (kind == kMoverKinds.end()) throw json::other_error::create(501, "unknown kind of mover", nullptr);
+  m.kind = static_cast<MoverKind>(kind - kMoverKinds.begin());
+  m.speed = j.at("speed"), m.repeats = j.at("repeats"), m.begins_s = j.at("begins_s"), m.seed = j.at("seed");
+  m.waypoints = waypointsFrom(j);
+  m.products = j.value("products", std::vector<std::string>{});
+  if (j.contains("axis")) m.axis_at_m = vectorFrom(j.at("axis_at")), m.axis = vectorFrom(j.at("axis"));
+  m.extent = j.value("extent", 0.0);
+  return m;
 }
 
 json jobToJson(const Job& job) {
@@ -118,6 +160,7 @@ json jobToJson(const Job& job) {
                {"targets", targetsToJson(job.targets)},
                {"control_points", controls}};
   for (const auto& t : job.trajectories) part["trajectories"].push_back(trajectoryToJson(t));
+  for (const auto& m : job.movers) part["movers"].push_back(moverToJson(m));
   return part;
 }
 
@@ -134,6 +177,7 @@ Job jobFrom(const json& j) {
   for (const auto& c : j.at("control_points"))
     job.control_points.push_back({c.at("name"), vectorFrom(c.at("position")), c.at("sigma_m")});
   for (const auto& t : j.value("trajectories", json::array())) job.trajectories.push_back(trajectoryFrom(t));
+  for (const auto& m : j.value("movers", json::array())) job.movers.push_back(moverFrom(m));
   return job;
 }
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/motion/carriers.h"
 #include "core/random.h"
 #include "project/survey/scan_header.h"
 #include "project/survey/scan_request.h"
@@ -61,6 +62,18 @@ const ErrorProfile* profileOf(const ScanRequest& request, TrajectoryError error)
   return named("handheld");
 }
 
+// Somebody on foot who holds the scanner, or has it on the back. Of a recorded trajectory it is not known.
+std::optional<ScanCarrier> carrierOf(const CarriedTrajectory& trajectory, const CarriedMotion& carried,
+                                     const ScanVerbOptions& options) {
+  const auto carrier =
+      std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == trajectory.carrier; });
+  if (!trajectory.file.empty() || carrier == kCarriers.end() || carrier->gait <= 0) return std::nullopt;
+  return ScanCarrier{.scanner_path = carried.path,
+                     .height_m = trajectory.height_m > 0 ? trajectory.height_m : carrier->limits.height_m,
+                     .in_front = carrier->id == "hand",
+                     .ahead_s = options.movers_from_s};
+}
+
 Result<void> writeTrajectory(const PoseFunction& function, const Georeference& georeference, fs::path beside,
                              const char* ending) {
   beside.replace_extension(ending);
@@ -102,8 +115,10 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
   progress.stage("Prepare " + trajectory.name, 0, 0.1);
   TRY_ASSIGN(const auto carried, carriedMotion(trajectory, *document.georeference, report, progress));
   ScanSurroundings at_hand = company;
-  if (!at_hand.preparation || !at_hand.preparation->fits(document)) {
-    TRY_ASSIGN(at_hand.preparation, prepareScan(document, nullptr, progress));
+  const bool with_movers = options.movers == Switch::on;
+  const auto carrier = options.carrier == Switch::on ? carrierOf(trajectory, carried, options) : std::nullopt;
+  if (carrier || !at_hand.preparation || !at_hand.preparation->fits(document, with_movers)) {
+    TRY_ASSIGN(at_hand.preparation, prepareScan(document, nullptr, progress, with_movers, carrier));
   }
   const RayScene& scene = *at_hand.preparation->scene;
   findObstacles(carried, scene, *document.georeference, trajectory.name, report);

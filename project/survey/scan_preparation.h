@@ -18,17 +18,28 @@ struct ScanPreparation {
   std::shared_ptr<const Environment> model;  // these three are what it was made for
   std::shared_ptr<const MaterialChoice> materials;
   std::vector<Target> targets;
+  std::vector<Mover> movers;
+  bool carried = false;  // by somebody, who is in it
   ScanWorld world;
   std::shared_ptr<const RayScene> scene;
   std::uint64_t fingerprint = 0;  // of the world
 
-  bool fits(const Document& document) const;
+  bool fits(const Document& document, bool with_movers = true) const;
+};
+
+// Who carries a scanner along a trajectory.
+struct ScanCarrier {
+  PoseFunctionPtr scanner_path;
+  double height_m = 0;
+  bool in_front = true;  // … of whom it is held; else above
+  double ahead_s = 0;    // the movers' clock of the trajectory's
 };
 
 // `of_model` is a scene of the document's environment, where there is one already; without targets it is the one.
 Result<std::shared_ptr<const ScanPreparation>> prepareScan(const Document& document,
-                                                           std::shared_ptr<const RayScene> of_model,
-                                                           Progress& progress);
+                                                           std::shared_ptr<const RayScene> of_model, Progress& progress,
+                                                           bool with_movers = true,
+                                                           const std::optional<ScanCarrier>& carrier = {});
 
 // Whom a scan is made for: what was prepared for it, who watches its points beside the file, and where its crew
 // believes that it stands. Each may be missing.

@@ -265,6 +265,12 @@ const Fields<ScanVerbOptions>& scanFields() {
        "width of --panorama, twice its height (default: that of the instrument's camera)",
        {.unit = "pixels", .minimum = 256, .maximum = 32768}},
       {"compensator", &O::compensator, "off: tilted points from a station out of level"},
+      {"movers", &O::movers, "off: nothing moves; people and vehicles are not there, and doors are closed"},
+      {"movers-from",
+       &O::movers_from_s,
+       "time of the movers' clock when the scan begins",
+       {.unit = "s", .minimum = -1e6, .maximum = 1e6}},
+      {"carrier", &O::carrier, "off: who carries the scanner along a trajectory is not in its sight"},
       {"truth", &O::truth, "write the truth of each point: time, return, true place, range, incidence, power, origin"},
       {"as",
        &O::as,
@@ -304,6 +310,8 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const ScanVerbOpti
   request.levelling = {.compensator = options.compensator == Switch::on,
                        .exact = !request.options.effects.has(Effect::levelling),
                        .seed = request.options.seed};
+  request.options.bodies_ahead_s = options.movers_from_s;
+  if (options.movers_from_s != 0) request.notes.push_back(fmt::format("movers-from={} s", options.movers_from_s));
   TRY(choosePanorama(request, options));
   const bool truth = options.truth;
   request.options.channels = {

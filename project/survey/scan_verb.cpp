@@ -312,8 +312,9 @@ Result<Answered<ScanAnswer>> runScan(const Document& document, const ScanVerbOpt
   }
   noteDefaultRules(document, outcome.report);
   ScanSurroundings at_hand = company;
-  if (!at_hand.preparation || !at_hand.preparation->fits(document)) {
-    TRY_ASSIGN(auto made, prepareScan(document, nullptr, progress));
+  const bool with_movers = options.movers == Switch::on;
+  if (!at_hand.preparation || !at_hand.preparation->fits(document, with_movers)) {
+    TRY_ASSIGN(auto made, prepareScan(document, nullptr, progress, with_movers));
     at_hand.preparation = std::move(made);
   }
   ScanRun scan_run(document, request, at_hand, std::move(believed));

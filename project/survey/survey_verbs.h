@@ -269,6 +269,9 @@ struct ScanVerbOptions {
   bool panorama = false;
   std::optional<std::uint32_t> panorama_columns;
   Switch compensator = Switch::on;
+  Switch movers = Switch::on;
+  double movers_from_s = 0;     // their clock when the scan's own shows 0
+  Switch carrier = Switch::on;  // who carries the scanner is in its sight
   bool truth = false;
   std::string as;   // variant of the format
   int threads = 0;  // 0: all
@@ -294,6 +297,33 @@ struct ScanAnswer {
 };
 const AnswerFields<ScanAnswer>& answerFields(const ScanAnswer*);
 Result<Answered<ScanAnswer>> runScan(const Document& document, const ScanVerbOptions& options, Progress& progress);
+
+struct MoverOptions {
+  std::optional<std::string> add, remove;
+  std::string kind;                              // empty: person
+  std::vector<std::string> through;              // waypoints: "X,Y[,Z][:STOP]"
+  std::vector<std::string> products;             // ids or GlobalIds
+  std::optional<Eigen::Vector3d> axis_at, axis;  // the model's own frame
+  std::optional<double> speed_mps, turn_dps;
+  std::optional<double> angle_deg, way_m;
+  bool repeat = false;
+  double begin_s = 0;
+  int count = 10;  // of a crowd
+  std::uint64_t seed = 1;
+};
+const Fields<MoverOptions>& moverFields();
+struct MoverRow {
+  std::string name, kind;
+  std::uint64_t waypoints = 0, products = 0;
+  double begins_s = 0;
+  std::optional<double> seconds;  // that its way takes; nothing: it goes on for ever
+};
+const AnswerFields<MoverRow>& answerFields(const MoverRow*);
+struct MoverAnswer {
+  std::vector<MoverRow> movers;
+};
+const AnswerFields<MoverAnswer>& answerFields(const MoverAnswer*);
+Result<Answered<MoverAnswer>> runMover(const Document& document, const MoverOptions& options, Progress& progress);
 
 struct TrajectoryOptions {
   std::optional<std::string> add, change, rename, remove, write;

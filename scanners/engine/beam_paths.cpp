@@ -27,13 +27,12 @@ void BeamPaths::follow(Ray ray, NearestHit hit, std::vector<PathEnd>& ends) {
   const double farthest = plan_.farthest_m - ray.travelled_m;
   for (int face = 0; face < kMostPanes && hit.facet != kNoFacet; ++face) {
     const MetFacet& seen = facets_.of(hit.facet);
-    if (seen.plain && seen.facet.ball == nullptr) {
+    if (seen.plain && seen.facet.stays()) {
       const double range = rangeOnPlane(seen.facet, ray.origin, ray.direction, hit.range_m);
       if (range <= farthest) addEnd(ray, passage, seen, range, ends);
       return;
     }
-    MetFacet met = seen;  // a copy: a mirror's image asks for others
-    met.facet = seen.facet.metBy(ray.origin, ray.direction);
+    const MetFacet met = facets_.met(hit.facet, ray.origin, ray.direction, time_s_);
     const double range = rangeOnPlane(met.facet, ray.origin, ray.direction, hit.range_m);
     if (range > farthest) return;
     if (met.plain) return addEnd(ray, passage, met, range, ends);
@@ -49,7 +48,7 @@ void BeamPaths::follow(Ray ray, NearestHit hit, std::vector<PathEnd>& ends) {
       if (!passes) return;
       ray.origin += passage.enter(*met.optics, ray.direction, met.facet, front, range);
     }
-    hit = plan_.scene.nearest(ray.origin, ray.direction, hit.range_m + kBehindFace_m, farthest);
+    hit = scene_.nearest(ray.origin, ray.direction, hit.range_m + kBehindFace_m, farthest, time_s_);
   }
 }
 
@@ -61,7 +60,8 @@ void BeamPaths::addEnd(const Ray& ray, const PanePassage& passage, const MetFace
   end.excess_m = ray.excess_m + passage.excess_m();
   end.gain = static_cast<float>(ray.gain * passage.gain());
   end.cosine = static_cast<float>(std::min(1.0, std::abs(met.facet.normal.dot(ray.direction))));
-  end.flags = static_cast<std::uint8_t>(ray.flags | (passage.gain() < 1 ? point_flag::kThroughPane : 0));
+  end.flags = static_cast<std::uint8_t>(ray.flags | (passage.gain() < 1 ? point_flag::kThroughPane : 0) |
+                                        (met.facet.body != kNoBody ? point_flag::kMoving : 0));
   const Eigen::Vector3d place = ray.origin + range_m * ray.direction;
   end.place = place.cast<float>();
   end.paint = met.painted ? met.factor * plan_.paint->factor(met.facet, place) : met.factor;
@@ -94,7 +94,7 @@ void BeamPaths::reflect(const Ray& ray, const MetFacet& met, double range_m, dou
     if (left < kShortestImage_m) return;
   }
   if (left <= kBehindFace_m) return;
-  const NearestHit hit = plan_.scene.nearest(image.origin, image.direction, kBehindFace_m, left);
+  const NearestHit hit = scene_.nearest(image.origin, image.direction, kBehindFace_m, left, time_s_);
   if (hit.facet == kNoFacet) return;
   if (!met.optics->smooth)
     image.gain *= roughMirrorFraction(met.optics->lobe_slope, beam, image.travelled_m,

@@ -28,7 +28,11 @@ constexpr std::uint32_t kNoSurface = ~0U;  // of drops, flakes, fog and dust
 // an end. A mirror image is followed while it could be detected at all, over at most eight mirrors.
 class BeamPaths {
  public:
-  BeamPaths(const ScanPlan& plan, FacetCache& facets) : plan_(plan), facets_(facets) {}
+  BeamPaths(const ScanPlan& plan, FacetCache& facets, TimedScene& scene)
+      : plan_(plan), facets_(facets), scene_(scene) {}
+  // When the light of what follows is sent, by the clock of what moves.
+  void setTime(double time_s) { time_s_ = time_s; }
+  double time_s() const { return time_s_; }
   // `first` is what the ray meets first; ends are appended.
   void follow(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit, const NearestHit& first,
               float fraction, std::vector<PathEnd>& ends);
@@ -48,6 +52,8 @@ class BeamPaths {
 
   const ScanPlan& plan_;
   FacetCache& facets_;
+  TimedScene& scene_;
+  double time_s_ = 0;
 };
 
 }  // namespace standpoint

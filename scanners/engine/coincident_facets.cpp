@@ -59,7 +59,7 @@ std::vector<std::uint64_t> notAlone(std::vector<InCell> cells) {
 CoincidentFacets::CoincidentFacets(const EmbreeScene& scene) {
   std::vector<InCell> cells;
   std::size_t count = 0;
-  for (std::uint64_t k = 0; k < scene.placementCount(); ++k) {
+  for (std::uint64_t k = 0; k < scene.stillCount(); ++k) {
     first_.push_back(count);
     const auto& mesh = *scene.environment().meshes[scene.placed(k).mesh];
     count += mesh.triangles.size();

@@ -39,10 +39,12 @@ STANDPOINT_CLONES void roundDirections(const AxisLanes& lanes, RayPacket& rays) 
 
 }  // namespace
 
-ColumnHits::ColumnHits(const ScanPlan& plan)
+ColumnHits::ColumnHits(const ScanPlan& plan, TimedScene& scene)
     : plan_(plan),
+      scene_(scene),
       facets_(plan.settings.rows + kPacket, kNoFacet),
-      ranges_(plan.settings.rows + kPacket, static_cast<float>(plan.farthest_m)) {
+      ranges_(plan.settings.rows + kPacket, static_cast<float>(plan.farthest_m)),
+      near_bodies_(plan.settings.rows / kPacket + 1, 0) {
   if (plan.moves()) {
     moving_ = std::make_unique<MovingColumn>(plan);
     return;
@@ -80,12 +82,20 @@ void ColumnHits::traceRows(std::uint32_t first_row) {
   axes(first_row);
   if (moving_) roundOrigins(lanes_, rays_);
   roundDirections(lanes_, rays_);
-  plan_.scene.intersect(rays_, count, static_cast<float>(plan_.farthest_m), facets_.data() + first_row,
-                        ranges_.data() + first_row);
+  if (scene_.moves())
+    for (int k = 0; k < count; ++k) rays_.time_s[k] = bodiesTime_s(first_row + static_cast<std::uint32_t>(k));
+  near_bodies_[first_row / kPacket] = scene_.intersect(rays_, count, static_cast<float>(plan_.farthest_m),
+                                                       facets_.data() + first_row, ranges_.data() + first_row);
   if (moving_)
     for (int k = 0; k < count; ++k)
       if (!moving_->pulse(first_row + static_cast<std::uint32_t>(k)).measured)
         facets_[first_row + static_cast<std::uint32_t>(k)] = kNoFacet;
+}
+
+double ColumnHits::bodiesTime_s(std::uint32_t row) const {
+  const double since_first_s = moving_ ? plan_.motion->from_s + moving_->pulse(row).time_s
+                                       : plan_.clock.time_s(column_, plan_.elevation_rad(row));
+  return since_first_s + plan_.options.bodies_ahead_s;
 }
 
 const AxisLanes& ColumnHits::axes(std::uint32_t first_row) {

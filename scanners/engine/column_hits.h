@@ -7,6 +7,7 @@
 #include "scanners/engine/footprint.h"
 #include "scanners/engine/moving_column.h"
 #include "scanners/engine/scan_plan.h"
+#include "scanners/engine/timed_scene.h"
 
 namespace standpoint {
 
@@ -19,7 +20,7 @@ struct alignas(64) AxisLanes {
 // The beams of one column: where they start and what their axes meet first.
 class ColumnHits {
  public:
-  explicit ColumnHits(const ScanPlan& plan);
+  ColumnHits(const ScanPlan& plan, TimedScene& scene);
   void trace(std::uint32_t column);
   std::uint32_t column() const { return column_; }
   NearestHit hit(std::uint32_t row) const { return {facets_[row], ranges_[row]}; }
@@ -30,6 +31,10 @@ class ColumnHits {
   // The same of the rows from one on; good until others are asked for.
   const AxisLanes& axes(std::uint32_t first_row);
   Beam beam(std::uint32_t row) const;
+  // When a row's pulse is sent, by the clock of what moves.
+  double bodiesTime_s(std::uint32_t row) const;
+  // Rows whose beams come near something that moves, of sixteen from `first_row` on, as bits.
+  std::uint32_t nearBodies(std::uint32_t first_row) const { return near_bodies_[first_row / kPacket]; }
   // For other rays from about where the axes begin; null of a scanner that moves.
   SeenFaces* seen() const { return seen_.get(); }
   const MovingColumn* moving() const { return moving_.get(); }  // null of a scanner that stands
@@ -51,6 +56,7 @@ class ColumnHits {
   void traceRows(std::uint32_t first_row);
 
   const ScanPlan& plan_;
+  TimedScene& scene_;
   std::uint32_t column_ = ~0U;
   Eigen::Vector3d ahead_, lateral_;  // up is the scanner's z
   Axes still_;                       // of a scanner that does not move
@@ -60,6 +66,7 @@ class ColumnHits {
   RayPacket rays_{};
   std::vector<std::uint64_t> facets_;
   std::vector<float> ranges_;
+  std::vector<std::uint32_t> near_bodies_;
 };
 
 }  // namespace standpoint

@@ -25,12 +25,13 @@ std::array<std::uint32_t, 4> interferenceDraw(const ScanOptions& options, std::u
 
 ColumnTracer::ColumnTracer(const ScanPlan& plan, const Edges& edges)
     : plan_(plan),
-      facets_(plan),
-      paths_(plan, facets_),
+      scene_(plan.scene, plan.wideBeams() ? kBeamEdge * beamRadius(plan.instrument, plan.farthest_m) : 0),
+      facets_(plan, scene_),
+      paths_(plan, facets_, scene_),
       edges_(edges),
       corner_light_(plan, facets_),
-      column_(plan),
-      wide_(plan, facets_, column_.seen()),
+      column_(plan, scene_),
+      wide_(plan, facets_, scene_, column_.seen()),
       powers_(plan.receiver),
       points_(plan),
       writer_(plan) {
@@ -84,6 +85,7 @@ void ColumnTracer::traceRows(std::uint32_t first_row) {
     specials_.push_back(pulse);
     const bool edge = (edges & left & -left) != 0;
     const std::uint32_t row = first_row + static_cast<std::uint32_t>(pulse.lane);
+    if (scene_.moves()) paths_.setTime(column_.bodiesTime_s(row));
     if (edge)
       while (!wide_[next_wide].several) ++next_wide;
     gatherEnds(row, edge ? &wide_[next_wide++] : nullptr);
@@ -111,20 +113,22 @@ ColumnTracer::Surfaces ColumnTracer::setSurfaces(std::uint32_t first_row) {
   const std::uint64_t* facets = column_.facets(first_row);
   std::uint64_t other = 0;
   for (int k = 0; k < kPacket; ++k) other |= facets[k] ^ held_[k];
-  if (other == 0 && !held_ball_) return held_surfaces_;
-  held_ball_ = false;
+  if (other == 0 && !held_passing_) return held_surfaces_;
+  held_passing_ = false;
   Surfaces surfaces;
   for (int from = 0, to = 1; from < kPacket; from = to++) {
     while (to < kPacket && facets[to] == facets[from]) ++to;
     if (facets[from] == kNoFacet) continue;
     const MetFacet& met = facets_.of(facets[from]);
-    if (met.facet.ball == nullptr) {
+    if (met.facet.stays()) {
       planes_.set(from, to, met.facet);
     } else {
-      held_ball_ = true;
+      held_passing_ = true;
       for (int k = from; k < to; ++k) {
-        const RayLine line = column_.axis(first_row + static_cast<std::uint32_t>(k));
-        planes_.set(k, k + 1, met.facet.metBy(line.origin, line.direction));
+        const std::uint32_t row = first_row + static_cast<std::uint32_t>(k);
+        const RayLine line = column_.axis(row);
+        planes_.set(k, k + 1, scene_.at(met.facet, column_.bodiesTime_s(row)).metBy(line.origin, line.direction));
+        if (met.facet.body != kNoBody) returns_.flag(k, point_flag::kMoving);
       }
     }
     returns_.setSurface(plan_, from, to, met);
@@ -139,12 +143,16 @@ ColumnTracer::Surfaces ColumnTracer::setSurfaces(std::uint32_t first_row) {
 std::uint32_t ColumnTracer::traceEdges(std::uint32_t first_row) {
   const std::uint32_t rows = std::min<std::uint32_t>(kPacket, plan_.settings.rows - first_row);
   const std::uint32_t all = plan_.everyBeamWide() ? column_.measured(first_row, rows) : 0;
-  const std::uint32_t marked = edgesKnown() ? found_.rows(first_row) : all;
+  // Bodies have no edges that are known.
+  const std::uint32_t bodies =
+      plan_.wideBeams() ? column_.nearBodies(first_row) & column_.measured(first_row, rows) : 0;
+  const std::uint32_t marked = (edgesKnown() ? found_.rows(first_row) : all) | bodies;
   if (marked == 0) return 0;
   wide_.clear();
   for (std::uint32_t left = marked; left != 0; left &= left - 1) {
     const std::uint32_t row = first_row + static_cast<std::uint32_t>(std::countr_zero(left));
-    wide_.add(column_.column(), row, column_.hit(row), column_.beam(row), edgesKnown() ? &found_.of(row) : nullptr);
+    const bool known = edgesKnown() && (bodies & left & -left) == 0;
+    wide_.add(column_, row, known ? &found_.of(row) : nullptr);
   }
   wide_.trace();
   std::uint32_t edges = 0;
@@ -234,7 +242,7 @@ void ColumnTracer::gatherWings(const Beam& beam) {
   const auto fraction = static_cast<float>(plan_.instrument.saturation.pedestal);
   for (const SubRay& ray : wingRays()) {
     const RayLine line = lineOf(beam, ray.across, ray.upward, plan_.instrument);
-    const NearestHit hit = plan_.scene.nearest(line.origin, line.direction, 0, plan_.farthest_m);
+    const NearestHit hit = scene_.nearest(line.origin, line.direction, 0, plan_.farthest_m, paths_.time_s());
     if (hit.facet != kNoFacet && facets_.of(hit.facet).optics->retro_gain > 0)
       paths_.follow(line.origin, line.direction, hit, fraction * ray.weight, ends_);
   }
@@ -288,7 +296,9 @@ void ColumnTracer::light(ReturnLanes& r, int count) {
               static_cast<double>(r.place_y[k] + kOff_m * r.normal_y[k]),
               static_cast<double>(r.place_z[k] + kOff_m * r.normal_z[k])},
              day.towards());
-  plan_.scene.intersect(rays, count, std::numeric_limits<float>::infinity(), shade, ranges);
+  if (scene_.moves())
+    for (int k = 0; k < count; ++k) rays.time_s[k] = column_.bodiesTime_s(r.row[k]);
+  scene_.intersect(rays, count, std::numeric_limits<float>::infinity(), shade, ranges);
   for (int k = 0; k < count; ++k) {
     r.signal.background[k] = day.ofDirection(column_.axis(r.row[k]).direction);
     if (shade[k] != kNoFacet && !plan_.passes(*facets_.of(shade[k]).optics)) continue;

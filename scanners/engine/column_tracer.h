@@ -73,6 +73,7 @@ class ColumnTracer {
   void writeSeveral(std::uint32_t detected);
 
   const ScanPlan& plan_;
+  TimedScene scene_;
   FacetCache facets_;
   BeamPaths paths_;
   Edges edges_;
@@ -84,7 +85,7 @@ class ColumnTracer {
   ReturnLanes returns_;          // a row each
   std::uint64_t held_[kPacket];  // facets whose surfaces and planes the lanes have
   Surfaces held_surfaces_;
-  bool held_ball_ = false;  // one of them: its plane is another for each beam
+  bool held_passing_ = false;  // one of them: a ball or a body's, whose plane is another for each beam
   std::vector<Special> specials_;
   std::vector<PathEnd> ends_;  // of all of them
   EndPowers powers_;

@@ -139,7 +139,7 @@ EdgeMap::EdgeMap(const ScanPlan& plan, Edges wanted) : plan_(plan) {
   };
   constexpr std::uint32_t kPart = 4096;
   std::vector<Part> parts;
-  for (std::uint32_t k = 0; k < plan.scene.placementCount(); ++k) {
+  for (std::uint32_t k = 0; k < plan.scene.stillCount(); ++k) {
     const auto count = static_cast<std::uint32_t>(plan.scene.edges(plan.scene.placed(k).mesh).size());
     for (std::uint32_t from = 0; from < count; from += kPart) parts.push_back({k, from, std::min(count, from + kPart)});
   }

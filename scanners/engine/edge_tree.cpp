@@ -86,7 +86,7 @@ STANDPOINT_CLONES std::uint32_t EdgeTree::BeamLanes::near(const Eigen::Vector3d&
 }
 
 EdgeTree::EdgeTree(const ScanPlan& plan) : plan_(plan) {
-  for (std::uint32_t placement = 0; placement < plan.scene.placementCount(); ++placement) {
+  for (std::uint32_t placement = 0; placement < plan.scene.stillCount(); ++placement) {
     const auto count = static_cast<std::uint32_t>(plan.scene.edges(plan.scene.placed(placement).mesh).size());
     for (std::uint32_t i = 0; i < count; ++i) {
       const std::uint64_t edge = std::uint64_t{placement} << 32U | i;

@@ -23,15 +23,21 @@
 namespace standpoint {
 
 constexpr std::uint64_t kNoFacet = ~std::uint64_t{0};
+constexpr std::uint32_t kNoBody = ~0U;
 
 // A triangle where it stands: the plane n·p = offset in double, so that a range does not suffer from the float BVH.
 // The number of a facet is placement << 32 | triangle; a placement is an instance that beams can meet. A ball is one
-// facet, without a plane of its own: `metBy` gives the one that touches it where a ray meets it.
+// facet, without a plane of its own: `metBy` gives the one that touches it where a ray meets it. Of a body that moves
+// it is where the body rests (timed_scene.h says where it is).
 struct Facet {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // unit, of either side; zero for a degenerate triangle and a ball
   double offset = 0;
   std::uint32_t product = 0, surface = 0, instance = 0, triangle = 0;
   const PlacedBall* ball = nullptr;  // null: a triangle
+  std::uint32_t body = kNoBody;      // of EmbreeScene::bodies
+
+  // Is it where it is whatever meets it, and whenever?
+  bool stays() const { return ball == nullptr && body == kNoBody; }
 
   Facet metBy(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit) const {
     if (ball == nullptr) return *this;
@@ -55,6 +61,7 @@ constexpr int kPacket = 16;
 struct alignas(64) RayPacket {
   float origin_x[kPacket], origin_y[kPacket], origin_z[kPacket];
   float direction_x[kPacket], direction_y[kPacket], direction_z[kPacket];
+  double time_s[kPacket];     // for what moves, and by its clock
   bool one_origin = false;    // of all lanes, the others included: that of `seen`, if any
   SeenFaces* seen = nullptr;  // from a place near all origins
 
@@ -68,6 +75,14 @@ struct alignas(64) RayPacket {
   }
 };
 
+// A body that moves, in its rest frame: the local frame as the environment has it.
+struct RestingBody {
+  RTCScene scene = nullptr;
+  Eigen::AlignedBox3d box;
+  PoseFunctionPtr local_from_rest;
+  double from_s = 0, to_s = 0;
+};
+
 class EmbreeScene final : public RayScene {
  public:
   EmbreeScene() = default;
@@ -76,7 +91,7 @@ class EmbreeScene final : public RayScene {
   ~EmbreeScene() override;
 
   Result<void> commit(std::shared_ptr<const Environment> environment, const std::vector<RoundInstance>& balls,
-                      const std::string& embree_settings, Progress& progress);
+                      const std::string& embree_settings, const std::vector<MovingBody>& bodies, Progress& progress);
   std::optional<RayHit> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
                                   double max_range_m) const override;
   const Environment& environment() const override { return *environment_; }
@@ -87,8 +102,16 @@ class EmbreeScene final : public RayScene {
   // One ray from `min_range_m` on.
   NearestHit nearest(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit, double min_range_m,
                      double max_range_m) const;
+  // What a ray in the rest frame meets of a body.
+  NearestHit nearestOf(std::uint32_t body, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
+                       double min_range_m, double max_range_m) const;
+  static void setRay(RTCRayHit16& rays, int lane, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                     float nearest_m, float farthest_m);
   Facet facet(std::uint64_t number) const;
-  std::size_t placementCount() const { return placements_.size(); }
+  const std::vector<RestingBody>& bodies() const { return bodies_; }
+  RTCDevice device() const { return device_; }
+  // Of what stands; those of bodies follow.
+  std::size_t stillCount() const { return still_count_; }
   bool isBall(std::uint32_t placement) const { return balls_.contains(placement); }
   // Of placement << 32 | index in `edges`: its ends, in the local frame.
   std::array<Eigen::Vector3d, 2> edgeEnds(std::uint64_t edge) const;
@@ -97,7 +120,9 @@ class EmbreeScene final : public RayScene {
   const Instance& placed(std::size_t placement) const { return environment_->instances[placements_[placement]]; }
 
  private:
-  void attachPlaced(std::uint32_t placement);
+  void listPlacements(const std::vector<MovingBody>& bodies);
+  void buildBodies(const std::vector<MovingBody>& bodies);
+  void attachPlaced(std::uint32_t placement, RTCScene scene);
   void attachInstanced(std::uint32_t placement);
   void attachBall(std::uint32_t placement, double radius_m);
   void buildTree(const std::vector<std::uint32_t>& uses, const std::vector<RoundInstance>& balls, Progress& progress);
@@ -106,7 +131,10 @@ class EmbreeScene final : public RayScene {
   double size() const;
 
   std::shared_ptr<const Environment> environment_;
-  std::vector<std::uint32_t> placements_;      // indices into Environment::instances
+  std::vector<std::uint32_t> placements_;  // indices into Environment::instances
+  std::size_t still_count_ = 0;            // of them: what stands
+  std::vector<std::uint32_t> body_of_;     // of those that follow
+  std::vector<RestingBody> bodies_;
   std::vector<std::vector<MeshEdge>> edges_;   // by mesh
   double size_m_ = 0;                          // how far from the origin anything is
   std::deque<RayFaces> faces_;                 // of Embree's geometries

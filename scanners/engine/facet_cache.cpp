@@ -7,7 +7,8 @@
 
 namespace standpoint {
 
-FacetCache::FacetCache(const ScanPlan& plan) : plan_(plan), entries_(std::size_t{1} << kBits) {}
+FacetCache::FacetCache(const ScanPlan& plan, TimedScene& scene)
+    : plan_(plan), scene_(scene), entries_(std::size_t{1} << kBits) {}
 
 std::int32_t FacetCache::materialAt(const Facet& facet) const {
   if (plan_.assignment.faces.empty()) return materialOf(plan_.assignment, facet.product, facet.surface);

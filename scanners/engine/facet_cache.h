@@ -6,6 +6,7 @@
 
 #include "scanners/engine/footprint.h"
 #include "scanners/engine/scan_plan.h"
+#include "scanners/engine/timed_scene.h"
 
 namespace standpoint {
 
@@ -32,12 +33,19 @@ struct MetFacet {
 // Facets looked up lately. For one thread; what it answers does not depend on what was asked before.
 class FacetCache {
  public:
-  explicit FacetCache(const ScanPlan& plan);
+  FacetCache(const ScanPlan& plan, TimedScene& scene);
   // Good until the next call.
   const MetFacet& of(std::uint64_t number) {
     MetFacet& entry = entries_[(number * 0x9E3779B97F4A7C15ULL) >> (64U - kBits)];
     if (entry.number != number) lookUp(number, entry);
     return entry;
+  }
+  // With the plane that a ray meets at that time.
+  MetFacet met(std::uint64_t number, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
+               double time_s) {
+    MetFacet met = of(number);
+    met.facet = scene_.at(met.facet, time_s).metBy(origin, direction_unit);
+    return met;
   }
 
  private:
@@ -46,6 +54,7 @@ class FacetCache {
   std::int32_t materialAt(const Facet& facet) const;
 
   const ScanPlan& plan_;
+  TimedScene& scene_;
   std::vector<MetFacet> entries_;
 };
 

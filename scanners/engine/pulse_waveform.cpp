@@ -20,10 +20,12 @@ constexpr double kTail = 5;                     // σ before the first surface a
 constexpr double kBinsPerPulse = 20;
 constexpr double kStep_rad = 1e-6;  // of the grid of one pulse
 
-std::vector<PathEnd> endsOf(const ScanPlan& plan, FacetCache& facets) {
-  ColumnHits hits(plan);
+std::vector<PathEnd> endsOf(const ScanPlan& plan, FacetCache& facets, TimedScene& scene) {
+  ColumnHits hits(plan, scene);
   hits.trace(0);
-  BeamPaths paths(plan, facets);
+  BeamPaths paths(plan, facets, scene);
+  const double time_s = hits.bodiesTime_s(0);
+  paths.setTime(time_s);
   std::vector<PathEnd> ends;
   const Beam beam = hits.beam(0);
   SubRay rays[kReferenceSubRays] = {{0, 0, 1}};
@@ -32,7 +34,7 @@ std::vector<PathEnd> endsOf(const ScanPlan& plan, FacetCache& facets) {
     drawFootprint(philox({plan.options.seed, plan.options.station_key}, 0, 0, kFootprintChannel), count, rays);
   for (int k = 0; k < count; ++k) {
     const RayLine line = lineOf(beam, rays[k].across, rays[k].upward, plan.instrument);
-    const NearestHit hit = plan.scene.nearest(line.origin, line.direction, 0, plan.farthest_m);
+    const NearestHit hit = scene.nearest(line.origin, line.direction, 0, plan.farthest_m, time_s);
     if (hit.facet != kNoFacet) paths.follow(line.origin, line.direction, hit, rays[k].weight, ends);
   }
   return ends;
@@ -57,8 +59,9 @@ Result<PulseWaveform> pulseWaveform(const RayScene& scene, const MaterialAssignm
   one.elevation_from_rad = request.elevation_rad - kStep_rad / 2;
   one.elevation_to_rad = request.elevation_rad + kStep_rad / 2;
   const ScanPlan plan(*embree, assignment, instrument, one, local_from_scanner, nullptr, options);
-  FacetCache facets(plan);
-  const auto ends = endsOf(plan, facets);
+  TimedScene timed(*embree, 0);
+  FacetCache facets(plan, timed);
+  const auto ends = endsOf(plan, facets, timed);
   EndPowers end_powers(plan.receiver);
   const auto& powers = end_powers.of(ends);
   std::vector<Contribution> light;

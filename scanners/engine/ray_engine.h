@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include <Eigen/Core>
 
 #include "core/environment.h"
+#include "core/motion/pose_function.h"
 #include "core/physical_material.h"
 #include "core/points.h"
 #include "core/progress.h"
@@ -37,15 +39,25 @@ struct RoundInstance {
   double radius_m = 0;
 };
 
+// Instances that move together as one rigid body, in a scene that is scanned meanwhile.
+struct MovingBody {
+  std::vector<std::uint32_t> instances;  // of Environment::instances, which has them at rest
+  PoseFunctionPtr local_from_rest;       // takes the body from there to where it is, by the clock of what moves
+  double from_s = -std::numeric_limits<double>::infinity();  // when it is there
+  double to_s = std::numeric_limits<double>::infinity();
+};
+
 // An Environment as rays see it (a tree of Embree's, instanced meshes). What a ray meets is the same on every
 // processor. Immutable after build; intersect is thread-safe. The editor picks with it, too. Products that are not in
 // the scene are left out.
 class RayScene {
  public:
+  // Bodies are met by scans alone, and an instance is in one of them at most; `intersect` knows nothing of them.
   // `embree_settings` are those of rtcNewDevice ("isa=sse2"): they alter how long rays take, and no byte of a scan.
   static Result<std::shared_ptr<const RayScene>> build(std::shared_ptr<const Environment> environment,
                                                        Progress& progress, const std::vector<RoundInstance>& balls = {},
-                                                       const std::string& embree_settings = {});
+                                                       const std::string& embree_settings = {},
+                                                       const std::vector<MovingBody>& bodies = {});
   virtual ~RayScene() = default;
   virtual std::optional<RayHit> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
                                           double max_range_m) const = 0;
@@ -66,8 +78,9 @@ struct ScanOptions {
   std::uint32_t station_key = 0;  // random numbers belong to the station: a stable hash of its name
   ScanChannels channels;
   Weather weather;
-  std::optional<Sun> sun;   // none: night, or a room without windows
-  double interference = 0;  // chance that a pulse finds another instrument's light and takes it for its own
+  std::optional<Sun> sun;     // none: night, or a room without windows
+  double bodies_ahead_s = 0;  // of the scan's clock, or the trajectory's: the clock of what moves in the scene
+  double interference = 0;    // chance that a pulse finds another instrument's light and takes it for its own
   std::uint32_t first_column = 0, end_column = ~0U;  // of the grid: a part of a scan has the points that the whole has
   ScanQuality quality = ScanQuality::standard;
 };

@@ -39,13 +39,15 @@ Result<void> checkDevice(RTCDevice device) {
 EmbreeScene::~EmbreeScene() {
   for (RTCScene scene : mesh_scenes_)
     if (scene != nullptr) rtcReleaseScene(scene);
+  for (const RestingBody& body : bodies_)
+    if (body.scene != nullptr) rtcReleaseScene(body.scene);
   if (scene_ != nullptr) rtcReleaseScene(scene_);
   if (device_ != nullptr) rtcReleaseDevice(device_);
 }
 
 Result<void> EmbreeScene::commit(std::shared_ptr<const Environment> environment,
                                  const std::vector<RoundInstance>& balls, const std::string& embree_settings,
-                                 Progress& progress) {
+                                 const std::vector<MovingBody>& bodies, Progress& progress) {
   environment_ = std::move(environment);
   if (auto wrong = validate(*environment_); !wrong.empty()) return failure(ErrorKind::unusable, wrong, "environment");
   device_ = rtcNewDevice(embree_settings.c_str());
@@ -54,19 +56,55 @@ Result<void> EmbreeScene::commit(std::shared_ptr<const Environment> environment,
   rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
   mesh_scenes_.assign(environment_->meshes.size(), nullptr);
 
+  listPlacements(bodies);
   std::vector<std::uint32_t> uses(environment_->meshes.size(), 0);
-  for (std::uint32_t i = 0; i < environment_->instances.size(); ++i) {
-    const Instance& instance = environment_->instances[i];
-    if (!environment_->products[instance.product].inScene() || environment_->meshes[instance.mesh]->triangles.empty())
-      continue;
-    placements_.push_back(i);
-    ++uses[instance.mesh];
-  }
+  for (std::size_t k = 0; k < still_count_; ++k) ++uses[placed(k).mesh];
   size_m_ = size();
   for (const std::uint32_t i : placements_) placed_at_.push_back(environment_->instances[i].world_from_mesh);
   tbb::parallel_invoke([&] { buildTree(uses, balls, progress); }, [&] { findEdges(uses, progress); });
+  buildBodies(bodies);
   if (auto go_on = progress.check(); !go_on) return go_on;
   return checkDevice(device_);
+}
+
+void EmbreeScene::listPlacements(const std::vector<MovingBody>& bodies) {
+  std::vector<std::uint32_t> body_of(environment_->instances.size(), kNoBody);
+  for (std::uint32_t b = 0; b < bodies.size(); ++b)
+    for (const std::uint32_t instance : bodies[b].instances) body_of[instance] = b;
+  for (const bool moving : {false, true}) {
+    for (std::uint32_t i = 0; i < environment_->instances.size(); ++i) {
+      const Instance& instance = environment_->instances[i];
+      if ((body_of[i] != kNoBody) != moving || !environment_->products[instance.product].inScene() ||
+          environment_->meshes[instance.mesh]->triangles.empty())
+        continue;
+      placements_.push_back(i);
+      if (moving) body_of_.push_back(body_of[i]);
+    }
+    if (!moving) still_count_ = placements_.size();
+  }
+}
+
+void EmbreeScene::buildBodies(const std::vector<MovingBody>& bodies) {
+  tbb::task_arena one_thread(1);  // as for what stands
+  one_thread.execute([&] {
+    for (const MovingBody& body : bodies) {
+      RestingBody& resting = bodies_.emplace_back();
+      resting.scene = rtcNewScene(device_);
+      resting.local_from_rest = body.local_from_rest;
+      resting.from_s = body.from_s, resting.to_s = body.to_s;
+      rtcSetSceneFlags(resting.scene, RTC_SCENE_FLAG_ROBUST);
+    }
+    for (std::size_t k = still_count_; k < placements_.size(); ++k) {
+      RestingBody& resting = bodies_[body_of_[k - still_count_]];
+      attachPlaced(static_cast<std::uint32_t>(k), resting.scene);
+      for (const auto& p : environment_->meshes[placed(k).mesh]->positions)
+        resting.box.extend(placed(k).world_from_mesh * p.cast<double>());
+    }
+    for (const RestingBody& resting : bodies_) rtcCommitScene(resting.scene);
+  });
+  // What stands at rest inside of nothing is no body to meet.
+  for (RestingBody& resting : bodies_)
+    if (resting.box.isEmpty()) resting.to_s = -std::numeric_limits<double>::infinity();
 }
 
 void EmbreeScene::buildTree(const std::vector<std::uint32_t>& uses, const std::vector<RoundInstance>& balls,
@@ -75,14 +113,14 @@ void EmbreeScene::buildTree(const std::vector<std::uint32_t>& uses, const std::v
   // depend on timing. A million triangles take about half a second.
   tbb::task_arena one_thread(1);
   one_thread.execute([&] {
-    for (std::uint32_t k = 0; k < placements_.size() && !progress.cancelled(); ++k) {
+    for (std::uint32_t k = 0; k < still_count_ && !progress.cancelled(); ++k) {
       const auto mesh = environment_->instances[placements_[k]].mesh;
       const auto ball = std::find_if(balls.begin(), balls.end(),
                                      [&](const RoundInstance& b) { return b.instance == placements_[k]; });
       if (ball != balls.end())
         attachBall(k, ball->radius_m);
       else if (uses[mesh] == 1 || environment_->meshes[mesh]->triangles.size() <= kSmallMesh)
-        attachPlaced(k);
+        attachPlaced(k, scene_);
       else
         attachInstanced(k);
     }
@@ -114,12 +152,12 @@ double EmbreeScene::size() const {
   return size_m;
 }
 
-void EmbreeScene::attachPlaced(std::uint32_t placement) {
+void EmbreeScene::attachPlaced(std::uint32_t placement, RTCScene scene) {
   const Instance& instance = environment_->instances[placements_[placement]];
   RayFaces& faces = faces_.emplace_back(*environment_->meshes[instance.mesh], instance.world_from_mesh);
   faces.swell = kSwell * size_m_;
   RTCGeometry geometry = newFaces(device_, faces);
-  rtcAttachGeometryByID(scene_, geometry, placement);
+  rtcAttachGeometryByID(scene, geometry, placement);
   rtcReleaseGeometry(geometry);
 }
 
@@ -211,8 +249,10 @@ void EmbreeScene::intersect(const RayPacket& rays, int count, float max_range_m,
   for (int k = 0; k < count; ++k) hits[k] = {facets[k], ranges_m[k]};
 }
 
-NearestHit EmbreeScene::nearest(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
-                                double min_range_m, double max_range_m) const {
+namespace {
+
+NearestHit nearestIn(RTCScene scene, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
+                     double min_range_m, double max_range_m) {
   RTCRayHit query{};
   query.ray.org_x = static_cast<float>(origin.x());
   query.ray.org_y = static_cast<float>(origin.y());
@@ -230,8 +270,33 @@ NearestHit EmbreeScene::nearest(const Eigen::Vector3d& origin, const Eigen::Vect
   MeetingQuery meeting(RayQuery::Rays::single);
   const float start[3] = {query.ray.org_x, query.ray.org_y, query.ray.org_z};
   meeting.set(start, direction, 1, 1, true, nullptr);
-  meeting.query.trace(scene_, query);
+  meeting.query.trace(scene, query);
   return {facetNumber(query.hit.instID[0], query.hit.geomID, query.hit.primID), query.ray.tfar};
+}
+
+}  // namespace
+
+NearestHit EmbreeScene::nearest(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
+                                double min_range_m, double max_range_m) const {
+  return nearestIn(scene_, origin, direction_unit, min_range_m, max_range_m);
+}
+
+NearestHit EmbreeScene::nearestOf(std::uint32_t body, const Eigen::Vector3d& origin,
+                                  const Eigen::Vector3d& direction_unit, double min_range_m, double max_range_m) const {
+  return nearestIn(bodies_[body].scene, origin, direction_unit, min_range_m, max_range_m);
+}
+
+void EmbreeScene::setRay(RTCRayHit16& rays, int lane, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                         float nearest_m, float farthest_m) {
+  rays.ray.org_x[lane] = static_cast<float>(origin.x());
+  rays.ray.org_y[lane] = static_cast<float>(origin.y());
+  rays.ray.org_z[lane] = static_cast<float>(origin.z());
+  rays.ray.dir_x[lane] = clearDirection(static_cast<float>(direction.x()));
+  rays.ray.dir_y[lane] = clearDirection(static_cast<float>(direction.y()));
+  rays.ray.dir_z[lane] = clearDirection(static_cast<float>(direction.z()));
+  rays.ray.tnear[lane] = nearest_m, rays.ray.tfar[lane] = farthest_m;
+  rays.ray.mask[lane] = ~0U, rays.ray.id[lane] = static_cast<unsigned>(lane);
+  rays.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID, rays.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
 }
 
 Facet EmbreeScene::facet(std::uint64_t number) const {
@@ -241,6 +306,7 @@ Facet EmbreeScene::facet(std::uint64_t number) const {
   const Instance& instance = environment_->instances[facet.instance];
   const Mesh& mesh = *environment_->meshes[instance.mesh];
   facet.product = instance.product;
+  if (const std::size_t k = number >> 32U; k >= still_count_) facet.body = body_of_[k - still_count_];
   facet.surface = mesh.surface_of_triangle[facet.triangle];
   if (const auto ball = balls_.find(static_cast<std::uint32_t>(number >> 32U)); ball != balls_.end()) {
     facet.normal = Eigen::Vector3d::Zero();
@@ -286,10 +352,11 @@ std::optional<RayHit> EmbreeScene::intersect(const Eigen::Vector3d& origin, cons
 
 Result<std::shared_ptr<const RayScene>> RayScene::build(std::shared_ptr<const Environment> environment,
                                                         Progress& progress, const std::vector<RoundInstance>& balls,
-                                                        const std::string& embree_settings) {
+                                                        const std::string& embree_settings,
+                                                        const std::vector<MovingBody>& bodies) {
   if (!environment) return failure(ErrorKind::internal, "there is no environment", "ray scene");
   auto scene = std::make_shared<EmbreeScene>();
-  TRY(scene->commit(std::move(environment), balls, embree_settings, progress));
+  TRY(scene->commit(std::move(environment), balls, embree_settings, bodies, progress));
   return scene;
 }
 

@@ -81,7 +81,7 @@ bool SurfacePaint::empty() const {
 }
 
 bool SurfacePaint::paints(const Facet& facet) const {
-  return facet.ball == nullptr && paints_[facet.surface].picture != nullptr &&
+  return facet.stays() && paints_[facet.surface].picture != nullptr &&
          !environment_.meshes[environment_.instances[facet.instance].mesh]->texture_coordinates.empty();
 }
 

@@ -7,18 +7,18 @@
 
 namespace standpoint {
 
-void WideBeams::add(std::uint32_t column, std::uint32_t row, const NearestHit& axis, const Beam& beam,
-                    const BeamEdges* edges) {
+void WideBeams::add(const ColumnHits& column, std::uint32_t row, const BeamEdges* edges) {
   if (count_ == beams_.size()) beams_.emplace_back();
   WideBeam& wide = beams_[count_++];
   wide.row = row;
-  wide.axis = axis;
-  wide.beam = beam;
+  wide.axis = column.hit(row);
+  wide.time_s = column.bodiesTime_s(row);
+  wide.beam = column.beam(row);
   wide.several = false;
   wide.ray_count = 0;
-  wide.numbers = philox({plan_.options.seed, plan_.options.station_key}, column, row, kFootprintChannel);
+  wide.numbers = philox({plan_.options.seed, plan_.options.station_key}, column.column(), row, kFootprintChannel);
   if (edges != nullptr) {
-    wide.ray_count = drawStrips(plan_.scene, plan_.instrument, beam, *edges, wide.numbers, wide.rays);
+    wide.ray_count = drawStrips(plan_.scene, plan_.instrument, wide.beam, *edges, wide.numbers, wide.rays);
     wide.hidden_m = edges->hidden_m;
   }
   wide.strips = wide.ray_count > 0;
@@ -49,6 +49,7 @@ void WideBeams::send(WideBeam& beam) {
   for (int k = 0; k < beam.ray_count; ++k) {
     const RayLine line = lineOf(beam.beam, beam.rays[k].across, beam.rays[k].upward, plan_.instrument);
     packet_.set(sent_count_, line.origin, line.direction);
+    packet_.time_s[sent_count_] = beam.time_s;
     sent_[sent_count_++] = {&beam, k};
     if (sent_count_ == kPacket) flush();
   }
@@ -57,7 +58,7 @@ void WideBeams::send(WideBeam& beam) {
 void WideBeams::flush() {
   if (sent_count_ == 0) return;
   NearestHit hits[kPacket];
-  plan_.scene.intersect(packet_, sent_count_, static_cast<float>(plan_.farthest_m), hits);
+  scene_.intersect(packet_, sent_count_, static_cast<float>(plan_.farthest_m), hits);
   for (int k = 0; k < sent_count_; ++k) sent_[k].beam->hits[sent_[k].ray] = hits[k];
   sent_count_ = 0;
 }
@@ -79,7 +80,11 @@ bool WideBeams::severalSurfaces(const WideBeam& beam) {
     return std::any_of(beam.hits, end, [](const NearestHit& hit) { return hit.facet != kNoFacet; });
   if (plan_.forReference())
     return std::any_of(beam.hits, end, [&](const NearestHit& hit) { return hit.facet != beam.axis.facet; });
-  const MetFacet& met = facets_.of(beam.axis.facet);
+  const MetFacet& seen = facets_.of(beam.axis.facet);
+  const MetFacet moved = seen.facet.body != kNoBody
+                             ? facets_.met(beam.axis.facet, beam.beam.origin, beam.beam.direction, beam.time_s)
+                             : MetFacet{};
+  const MetFacet& met = seen.facet.body != kNoBody ? moved : seen;
   const double tolerance = edgeTolerance(plan_.instrument, static_cast<double>(beam.axis.range_m));
   for (int k = 0; k < beam.ray_count; ++k)
     if (!met.holds(lineOf(beam.beam, beam.rays[k].across, beam.rays[k].upward, plan_.instrument), beam.hits[k],

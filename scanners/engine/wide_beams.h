@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "scanners/engine/beam_strips.h"
+#include "scanners/engine/column_hits.h"
 #include "scanners/engine/facet_cache.h"
 #include "scanners/engine/footprint.h"
 
@@ -13,6 +14,7 @@ namespace standpoint {
 struct WideBeam {
   std::uint32_t row = 0;
   NearestHit axis;
+  double time_s = 0;
   Beam beam;
   float hidden_m = 0;                      // of an edge that the axis' surface hides (edge_map.h)
   std::array<std::uint32_t, 4> numbers{};  // random, its own
@@ -28,12 +30,13 @@ struct WideBeam {
 class WideBeams {
  public:
   // `seen`: as that of a column.
-  WideBeams(const ScanPlan& plan, FacetCache& facets, SeenFaces* seen) : plan_(plan), facets_(facets) {
+  WideBeams(const ScanPlan& plan, FacetCache& facets, TimedScene& scene, SeenFaces* seen)
+      : plan_(plan), facets_(facets), scene_(scene) {
     packet_.seen = seen;
   }
   void clear() { count_ = 0; }
   // `edges`: null where they are not known.
-  void add(std::uint32_t column, std::uint32_t row, const NearestHit& axis, const Beam& beam, const BeamEdges* edges);
+  void add(const ColumnHits& column, std::uint32_t row, const BeamEdges* edges);
   // Traces them all and finds those that meet something else than their axis does: for reference another facet is, too.
   void trace();
   std::size_t size() const { return count_; }
@@ -54,6 +57,7 @@ class WideBeams {
 
   const ScanPlan& plan_;
   FacetCache& facets_;
+  TimedScene& scene_;
   std::vector<WideBeam> beams_;  // the first `count_`; the others are kept for their memory
   std::size_t count_ = 0;
   RayPacket packet_{};

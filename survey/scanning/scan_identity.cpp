@@ -71,6 +71,10 @@ std::uint64_t fingerprintOf(const ScanWorld& world) {
     hash = mix(mix(hash, p.id + p.global_id + p.ifc_class + p.name), static_cast<std::uint64_t>(p.inScene()));
   for (const auto& s : e.surfaces)
     hash = mix(hash, fmt::format("{} {} {} {}", s.colour.r, s.colour.g, s.colour.b, s.colour.a));
+  for (const auto& body : world.bodies) {  // of worlds that have some
+    hash = mixAll(hash, std::span<const std::uint32_t>(body.instances));
+    for (int k = 0; k < 100; ++k) hash = mix(hash, body.local_from_rest->pose(0.61 * k));
+  }
   for (const auto& m : world.assignment.materials) hash = mix(hash, m);
   for (const auto& s : world.assignment.surfaces)
     hash = mix(hash, fmt::format("{} {} {}", s.product, s.surface, s.material));

@@ -71,9 +71,9 @@ PhysicalMaterial paint(const char* id, const char* label, double reflectance) {
 
 ScanWorld scanWorld(const std::shared_ptr<const Environment>& model, const std::vector<Target>& targets,
                     const MaterialAssignment& assignment) {
-  if (targets.empty()) return {model, assignment, {}};
+  if (targets.empty()) return {model, assignment, {}, {}};
   auto environment = std::make_shared<Environment>(*model);
-  ScanWorld world{nullptr, assignment, {}};
+  ScanWorld world{nullptr, assignment, {}, {}};
   const auto white = static_cast<std::uint32_t>(environment->surfaces.size());
   environment->surfaces.push_back({"target white", {1, 1, 1, 1}, "target", {}, {}});
   environment->surfaces.push_back({"target black", {0.05F, 0.05F, 0.05F, 1}, "target", {}, {}});

@@ -17,6 +17,7 @@ struct ScanWorld {
   std::shared_ptr<const Environment> environment;
   MaterialAssignment assignment;
   std::vector<RoundInstance> balls;  // the targets that are spheres: rays meet the sphere, not its triangles
+  std::vector<MovingBody> bodies;    // what moves (survey/movers/moving_world.h); nothing until it is added
 };
 ScanWorld scanWorld(const std::shared_ptr<const Environment>& model, const std::vector<Target>& targets,
                     const MaterialAssignment& assignment);

@@ -83,6 +83,7 @@ const std::map<std::string, Words>& writingVerbs() {
        {"scan", "PROJECT", "--instrument", "faro-focus-s350", "--set", "resolution=1/32", "quality=4x", "-o",
         "FOLDER/new.e57"}},
       {"trajectory", {"trajectory", "PROJECT", "--add", "W", "--through", "500001,5600001", "500002,5600001"}},
+      {"mover", {"mover", "PROJECT", "--add", "M", "--through", "500001,5600001", "500002,5600001"}},
       {"register", {"register", "PROJECT", "FOLDER/cloud.e57", "--cloud"}}};
   return verbs;
 }

@@ -109,6 +109,7 @@ std::map<std::string, std::vector<json>> samplesOfVerbs(const fs::path& folder) 
         {{"change", "Walk 1"}, {"carrier", "backpack"}},
         {{"rename", "Walk 1"}, {"name", "Ground floor"}},
         {{"remove", "Walk 1"}}}},
+      {"mover", {{{"add", "Bea"}, {"through", {"4.3,1.6,0", "4.3,2.4,0"}}}, {{"remove", "Ada"}}}},
       {"register", {}},  // its line names only how many stations; a run needs overlapping scans
   };
 }
@@ -140,6 +141,7 @@ TEST(UndoNames, OfEveryVerbAreInPlainWords) {
       {"bookmark", {{"add", "Door"}}},
       {"measure", {{"add", "M1"}, {"kind", "distance"}, {"points", {"1,1,0", "2,1,0"}}}},
       {"trajectory", {{"add", "Walk 1"}, {"through", {"4.3,1.6,0", "4.5,2.2,0"}}}},
+      {"mover", {{"add", "Ada"}, {"through", {"4.3,1.6,0", "4.5,2.2,0"}}}},
       {"scan",
        {{"instrument", "faro-focus-s350"},
         {"stations", "S1"},

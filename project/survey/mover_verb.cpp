@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/motion/random_walk.h"
+#include "core/random.h"
+#include "core/units.h"
+#include "optimizer/walk/door_leaves.h"
+#include "optimizer/walk/walkable_map.h"
+#include "project/answers.h"
+#include "project/survey/clicked_places.h"
+#include "project/survey/survey_verbs.h"
+#include "survey/movers/moving_world.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr double kPersonHeight_m = 1.8, kVehicleHeight_m = 1.5;
+constexpr int kGoals = 4;              // of somebody in a crowd
+constexpr double kLeastIsland_m2 = 2;  // nobody walks up and down on less
+
+constexpr std::array<const char*, 5> kKinds = {"person", "vehicle", "door", "turning", "sliding"};
+
+const char* textOf(MoverKind kind) { return kKinds[static_cast<std::size_t>(kind)]; }
+
+bool isOf(const Mover& mover, const std::string& name) {
+  return mover.name == name || (mover.name.starts_with(name + " ") &&
+                                mover.name.find_first_not_of("0123456789", name.size() + 1) == std::string::npos);
+}
+
+// The model's frame, by id or GlobalId.
+Result<std::vector<std::string>> productsOf(const Environment& environment, const std::vector<std::string>& wanted,
+                                            bool doors) {
+  if (wanted.empty()) return failure(ErrorKind::usage, "name what moves by its id or GlobalId", "--product");
+  const DoorLeaves leaves = doors ? doorLeaves(environment) : DoorLeaves{};
+  std::vector<std::string> ids;
+  for (const std::string& id : wanted) {
+    const auto product = std::find_if(environment.products.begin(), environment.products.end(),
+                                      [&](const Product& p) { return p.id == id || p.global_id == id; });
+    if (product == environment.products.end() || !product->inScene())
+      return failure(ErrorKind::usage, fmt::format("the model has no product '{}' in the scene", id), "--product");
+    const auto number = static_cast<std::uint32_t>(product - environment.products.begin());
+    const auto of_product = [&](const DoorLeaf& leaf) { return leaves.doors[leaf.door].product == number; };
+    if (doors && std::none_of(leaves.leaves.begin(), leaves.leaves.end(), of_product))
+      return failure(ErrorKind::usage, fmt::format("'{}' is no door with a leaf that could be told from its frame", id),
+                     "--product");
+    ids.push_back(product->id);
+  }
+  return ids;
+}
+
+// Places at random on the surface, by area, from one island.
+class Strollers {
+ public:
+  Strollers(const WalkableMap& map, std::uint64_t seed, std::uint32_t key) : map_(map), key_{seed, key} {
+    for (std::uint32_t i = 0; i < map.size(); ++i)
+      if (map.islandArea(i) >= kLeastIsland_m2) boxes_.push_back(i), area_m2_ += map.area(i);
+  }
+  bool nowhere() const { return boxes_.empty(); }
+  Mover stroller(const std::string& name, std::uint32_t number, double speed_mps) const {
+    Mover mover{.name = fmt::format("{} {}", name, number + 1)};
+    mover.repeats = true;
+    mover.seed = key_.seed + number;
+    const std::uint32_t start = boxAt(number, 0, area_m2_, [](std::uint32_t) { return true; });
+    const auto island = map_.islandOf(start);
+    Eigen::Vector3d from = placeIn(start, number, 0);
+    mover.waypoints.push_back({from});
+    for (std::uint32_t goal = 1; goal <= kGoals; ++goal) {
+      const std::uint32_t box =
+          boxAt(number, goal, map_.islandArea(start), [&](std::uint32_t i) { return map_.islandOf(i) == island; });
+      const Eigen::Vector3d to = placeIn(box, number, goal);
+      if ((to - from).norm() < 1) continue;
+      const auto way = map_.way(from, to);
+      for (std::size_t k = 0; k < way.size(); ++k)
+        if ((way[k] - mover.waypoints.back().floor_m).norm() > 0.3) mover.waypoints.push_back({way[k]});
+      if (way.empty()) continue;
+      // Some pause: they are the ones that removal only half removes.
+      mover.waypoints.back().stop_s = draw(number, goal, 2) < 0.5 ? 0 : 1 + 4 * draw(number, goal, 3);
+      from = mover.waypoints.back().floor_m;
+    }
+    // Free speeds of pedestrians, N(1.34, 0.26) m/s (unsourced), within two standard deviations.
+    const double strays = std::clamp(normalNumber(keyOf(number, 9), 0, 0), -2.0, 2.0);
+    mover.speed = (speed_mps > 0 ? speed_mps : usualSpeed(MoverKind::person)) * (1 + 0.26 / 1.34 * strays);
+    mover.begins_s = -60 * draw(number, 0, 4);  // under way since then
+    return mover;
+  }
+
+ private:
+  MotionKey keyOf(std::uint32_t number, std::uint32_t component) const {
+    return {key_.seed, key_.trajectory + number, MotionProcess::gait, component};
+  }
+  double draw(std::uint32_t number, std::uint32_t goal, std::uint32_t what) const {
+    return uniformNumber(keyOf(number, 1), goal, what);
+  }
+  template <class Wanted>
+  std::uint32_t boxAt(std::uint32_t number, std::uint32_t goal, double area_m2, Wanted wanted) const {
+    double left = area_m2 * draw(number, goal, 0);
+    std::uint32_t last = boxes_.front();
+    for (const std::uint32_t i : boxes_) {
+      if (!wanted(i)) continue;
+      last = i;
+      if ((left -= map_.area(i)) < 0) break;
+    }
+    return last;
+  }
+  Eigen::Vector3d placeIn(std::uint32_t box, std::uint32_t number, std::uint32_t goal) const {
+    const Bounds& b = map_.box(box);
+    const double u = draw(number, goal, 5), v = draw(number, goal, 6);
+    return {b.min.x() + u * (b.max.x() - b.min.x()), b.min.y() + v * (b.max.y() - b.min.y()), b.max.z()};
+  }
+
+  const WalkableMap& map_;
+  MotionKey key_;
+  std::vector<std::uint32_t> boxes_;
+  double area_m2_ = 0;
+};
+
+Result<std::vector<Mover>> crowd(const Document& document, const MoverOptions& options, Report& report) {
+  const Mesh* const walkable = document.walkable();
+  if (walkable == nullptr || walkable->triangles.empty())
+    return failure(ErrorKind::unusable,
+                   "a crowd walks on the walkable surface, and there is none; make it with 'collide' first");
+  const WalkableMap map(*walkable);
+  const Strollers strollers(map, options.seed, static_cast<std::uint32_t>(stableHash(options.add->c_str())));
+  if (strollers.nowhere()) return failure(ErrorKind::unusable, "no walkable surface has room for a walk");
+  std::vector<Mover> movers;
+  std::size_t lost = 0;
+  for (int k = 0; k < options.count; ++k) {
+    Mover mover = strollers.stroller(*options.add, static_cast<std::uint32_t>(k), options.speed_mps.value_or(0));
+    if (mover.waypoints.size() < 2 || !moverPath(mover))
+      ++lost;
+    else
+      movers.push_back(std::move(mover));
+  }
+  if (lost > 0)
+    report.warn(*options.add, fmt::format("{} of {} people found no way and are left out", lost, options.count));
+  return movers;
+}
+
+Result<Mover> machine(const Document& document, const MoverOptions& options, Mover mover) {
+  TRY_ASSIGN(mover.products, productsOf(*document.environment(), options.products, mover.kind == MoverKind::door));
+  const bool slides = mover.kind == MoverKind::sliding;
+  if (slides && (options.turn_dps || options.angle_deg))
+    return failure(ErrorKind::usage, "what slides has --speed and --way", "--turn");
+  if (!slides && (options.speed_mps || options.way_m))
+    return failure(ErrorKind::usage, "what turns has --turn and --angle", "--speed");
+  mover.speed = slides ? options.speed_mps.value_or(0) : options.turn_dps.value_or(0) * kRadPerDeg;
+  mover.extent = slides ? options.way_m.value_or(0) : options.angle_deg.value_or(0) * kRadPerDeg;
+  if (mover.kind == MoverKind::door) {
+    if (!options.angle_deg) mover.extent = kRadPerTurn / 4;
+    return mover;
+  }
+  if (slides && mover.extent == 0) return failure(ErrorKind::usage, "say how far it slides", "--way");
+  if (options.axis) mover.axis = *options.axis;
+  if (!(mover.axis.norm() > 1e-9)) return failure(ErrorKind::usage, "the axis has no direction", "--axis");
+  mover.axis.normalize();
+  if (!slides && !options.axis_at)
+    return failure(ErrorKind::usage, "say where its axis is, as X,Y,Z in the model's own frame", "--axis-at");
+  if (options.axis_at) mover.axis_at_m = *options.axis_at - document.georeference->shift_m;
+  return mover;
+}
+
+Result<std::vector<Mover>> newMovers(const Document& document, const MoverOptions& options, Report& report,
+                                     Progress& progress) {
+  if (options.kind == "crowd") return crowd(document, options, report);
+  Mover mover{.name = *options.add};
+  const auto kind = std::find(kKinds.begin(), kKinds.end(), options.kind);
+  if (kind != kKinds.end()) mover.kind = static_cast<MoverKind>(kind - kKinds.begin());
+  mover.repeats = options.repeat;
+  mover.begins_s = options.begin_s;
+  mover.seed = options.seed;
+  if (mover.kind != MoverKind::person && mover.kind != MoverKind::vehicle) {
+    if (!options.through.empty()) return failure(ErrorKind::usage, "only people and vehicles have a way", "--through");
+    TRY_ASSIGN(mover, machine(document, options, mover));
+    return std::vector<Mover>{mover};
+  }
+  if (options.through.size() < 2)
+    return failure(ErrorKind::usage, "specify at least two places as X,Y or X,Y,Z", "--through");
+  if (!options.products.empty())
+    return failure(ErrorKind::usage, "people and vehicles have bodies of their own", "--product");
+  mover.speed = options.speed_mps.value_or(0);
+  TRY_ASSIGN(const auto scene, RayScene::build(document.environment(), progress));
+  const double height = mover.kind == MoverKind::person ? kPersonHeight_m : kVehicleHeight_m;
+  TRY_ASSIGN(mover.waypoints, waypointsOf(options.through, *scene, *document.georeference, height, "--through"));
+  TRY(moverPath(mover));
+  return std::vector<Mover>{mover};
+}
+
+MoverRow rowOf(const Mover& mover) {
+  MoverRow row{mover.name, textOf(mover.kind), mover.waypoints.size(), mover.products.size(), mover.begins_s, {}};
+  if (mover.kind != MoverKind::person && mover.kind != MoverKind::vehicle) {
+    const double speed = mover.speed > 0 ? mover.speed : usualSpeed(mover.kind);
+    if (mover.extent != 0 && !mover.repeats) row.seconds = 1.5 * std::abs(mover.extent) / speed;
+    return row;
+  }
+  if (const auto path = moverPath(mover); path && !mover.repeats) row.seconds = (*path)->last_s() - (*path)->first_s();
+  return row;
+}
+
+}  // namespace
+
+const Fields<MoverOptions>& moverFields() {
+  using O = MoverOptions;
+  static const Fields<O> fields = {
+      {"add", &O::add, "name of a new mover"},
+      {"kind",
+       &O::kind,
+       "what it is; a crowd is people who walk about at random on the walkable surface",
+       {.choices = {"person", "crowd", "vehicle", "door", "turning", "sliding"}}},
+      {"through", &O::through,
+       "places on the floor that a person or a vehicle passes, X,Y or X,Y,Z in the model's own frame; X,Y:SECONDS "
+       "stops there"},
+      {"product", &O::products, "ids or GlobalIds of the doors, or of what turns or slides"},
+      {"axis-at", &O::axis_at, "a place on the axis of what turns, in the model's own frame", {.unit = "m"}},
+      {"axis", &O::axis, "direction of the axis of what turns, or in which something slides; without it upwards"},
+      {"speed",
+       &O::speed_mps,
+       "at most; without it 1.34 on foot, 8.3 of a vehicle",
+       {.unit = "m/s", .minimum = 0.01, .maximum = 100}},
+      {"turn",
+       &O::turn_dps,
+       "how fast it turns, at most; without it 45",
+       {.unit = "deg/s", .minimum = 0.01, .maximum = 36000}},
+      {"angle",
+       &O::angle_deg,
+       "how far it turns, and a door 90 without it; 0: on and on",
+       {.unit = "deg", .minimum = -3600, .maximum = 3600}},
+      {"way", &O::way_m, "how far it slides", {.unit = "m", .minimum = -1000, .maximum = 1000}},
+      {"repeat", &O::repeat, "there and back again and again"},
+      {"begin", &O::begin_s, "when it begins, by the movers' clock", {.unit = "s", .minimum = -1e6, .maximum = 1e6}},
+      {"count", &O::count, "people in a crowd", {.minimum = 1, .maximum = 1000}},
+      {"seed", &O::seed, "of a crowd's ways and of strides", {.minimum = 0, .maximum = 9007199254740991.0}},
+      {"remove", &O::remove, "name of a mover, or of a crowd, to remove"}};
+  return fields;
+}
+
+const AnswerFields<MoverRow>& answerFields(const MoverRow*) {
+  using A = MoverRow;
+  static const AnswerFields<A> fields = {{"name", &A::name},           {"kind", &A::kind},
+                                         {"waypoints", &A::waypoints}, {"products", &A::products},
+                                         {"begins_s", &A::begins_s},   {"seconds", &A::seconds}};
+  return fields;
+}
+
+const AnswerFields<MoverAnswer>& answerFields(const MoverAnswer*) {
+  using A = MoverAnswer;
+  static const AnswerFields<A> fields = {{"movers", &A::movers}};
+  return fields;
+}
+
+Result<Answered<MoverAnswer>> runMover(const Document& document, const MoverOptions& options, Progress& progress) {
+  progress.stage("Movers");
+  if (options.add && options.remove) return failure(ErrorKind::usage, "specify one of --add NAME, --remove NAME");
+  if (!options.add && (!options.through.empty() || !options.products.empty()))
+    return failure(ErrorKind::usage, "name the new mover with --add NAME", "--add");
+  Answered<MoverAnswer> outcome{document};
+  Job job = *document.job;
+  const std::string name = options.add ? *options.add : options.remove.value_or("");
+  const bool known = std::any_of(job.movers.begin(), job.movers.end(), [&](const Mover& m) { return isOf(m, name); });
+  if (options.add) {
+    if (name.empty() || name.find_first_of("/\\:,\"\n") != std::string::npos)
+      return failure(ErrorKind::usage, fmt::format("'{}' cannot be a mover's name", name), "--add");
+    if (known) return failure(ErrorKind::usage, fmt::format("there is a mover '{}' already", name), "--add");
+    TRY_ASSIGN(auto made, newMovers(document, options, outcome.report, progress));
+    std::move(made.begin(), made.end(), std::back_inserter(job.movers));
+    outcome.description = "Added mover " + name;
+  } else if (options.remove) {
+    if (!known) {
+      std::string names;
+      for (const auto& m : job.movers) names += (names.empty() ? "" : ", ") + m.name;
+      return failure(ErrorKind::usage,
+                     fmt::format("unknown mover '{}'; available: {}", name, names.empty() ? "none" : names),
+                     "--remove");
+    }
+    std::erase_if(job.movers, [&](const Mover& m) { return isOf(m, name); });
+    outcome.description = "Removed mover " + name;
+  }
+  for (const auto& m : job.movers) outcome.answer.movers.push_back(rowOf(m));
+  if (options.add || options.remove) outcome.document.job = std::make_shared<const Job>(std::move(job));
+  return outcome;
+}
+
+}  // namespace standpoint
