@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "editor/model/station_steps.h"
+#include "editor/model/trajectory_steps.h"
 #include "editor/words/words.h"
 #include "project/model/import_verb.h"
 #include "project/model/product_match.h"
@@ -21,6 +22,7 @@ Model::Model(std::vector<Verb> verbs, std::function<void()> wake_up)
       budget_preview(wake_up),
       expected(wake_up),
       scan_outlook(wake_up),
+      trajectory_ways(wake_up),
       target_list(wake_up),
       wall(wake_up),
       panorama(wake_up),
@@ -198,7 +200,7 @@ void Model::update() {
   if (session.revision() != seen_revision_) {
     seen_revision_ = session.revision();
     view.refused_place.reset();
-    chooseWantedStation();
+    chooseWanted();
     adoptDocument();
     followOnlyCloud();
     followLocated();
@@ -206,6 +208,7 @@ void Model::update() {
   followPointColours();
   followWalking(*this);
   followStationView(*this);
+  followDraft(*this);
   followFieldwork(*this);
   followPreview();
   startWaitingCloud();
@@ -299,11 +302,14 @@ void Model::followLocated() {
     if (located.from == cloud_->file) return showClouds({located.to});
 }
 
-void Model::chooseWantedStation() {
+void Model::chooseWanted() {
   const auto& job = session.document().job;
   const auto name = std::exchange(survey_wanted, {});
   for (std::size_t i = 0; job && !name.empty() && i < job->stations.size(); ++i)
     if (job->stations[i].name == name) survey = {.station = static_cast<int>(i)};
+  const auto trajectory = std::exchange(trajectory_wanted, {});
+  for (std::size_t i = 0; job && !trajectory.empty() && i < job->trajectories.size(); ++i)
+    if (job->trajectories[i].name == trajectory) survey = {.trajectory = static_cast<int>(i)};
 }
 
 void Model::adoptDocument() {

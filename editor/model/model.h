@@ -53,6 +53,9 @@
 #include "editor/model/walking.h"
 #include "editor/placing/place_figures.h"
 #include "editor/placing/placement_view.h"
+#include "editor/trajectories/carried_scan.h"
+#include "editor/trajectories/trajectory_draft.h"
+#include "editor/trajectories/trajectory_ways.h"
 #include "project/survey/station_row.h"
 #include "survey/stations/levelling.h"
 
@@ -71,7 +74,8 @@ enum class Tool {
   fly,
   takeMaterial,
   paintMaterial,
-  layWay
+  layWay,
+  layTrajectory
 };
 
 // Which of the two models is looked at; there is one only until it has been optimised.
@@ -146,7 +150,10 @@ struct ViewportState {
   std::optional<Eigen::Vector2d> placed_at;  // the pointer, until it leaves the place where it has just set a station
   std::optional<Eigen::Vector3d> row_from;   // where a row of stations begins, on the floor
   RowSteps row{.count = 3, .spacing_m = {}};
-  std::size_t target_article = 0;  // what the next click puts up, of TargetList::kinds()
+  TrajectoryDraft draft;             // while the tool is Tool::layTrajectory
+  int dragged_waypoint = -1;         // of the chosen trajectory, by the pointer
+  bool waypoint_drag_begun = false;  // it has left the place where it was taken
+  std::size_t target_article = 0;    // what the next click puts up, of TargetList::kinds()
   StationHandle handle = StationHandle::none, hovered_handle = StationHandle::none;
   std::optional<HandledStation> handled_station;    // the chosen one, as its handle was dragged
   std::optional<ViewBeforeStation> before_station;  // while the camera is where an instrument is
@@ -168,6 +175,8 @@ struct SurveyChoice {
   int target = -1;
   int underlay = -1;
   int measurement = -1;
+  int trajectory = -1;
+  int waypoint = -1;  // of that trajectory
 };
 
 // Chosen in the lists of materials or with the eyedropper; a remedy and the brush use it.
@@ -228,16 +237,19 @@ struct Model : Style {
   ExpectedView expected;
   ScanOutlookView scan_outlook;
   ScanReadiness scan_readiness;
+  TrajectoryWays trajectory_ways;
   TargetList target_list;
   bool wants_deviation = false;                      // a panel shows it
   std::deque<std::filesystem::path> waiting_clouds;  // dropped, to become underlays when the document is free, or
                                                      // a project of their own where there is none
 
   SurveyChoice survey;
-  std::string survey_wanted;   // the station of this name, as soon as it is there
-  bool rename_wanted = false;  // the field of the chosen one's name is to be edited
+  std::string survey_wanted;      // the station of this name, as soon as it is there
+  std::string trajectory_wanted;  // likewise
+  bool rename_wanted = false;     // the field of the chosen one's name is to be edited
   ChosenMaterial material;
   ScanChoice scan_choice{.instrument = "leica-rtc360"};  // what the next scan is set to
+  CarriedScan carried_scan;
   SeenLimits seen;
   WallView wall;
   WallChoice wall_choice;
@@ -332,7 +344,7 @@ struct Model : Style {
  private:
   void adoptDocument();
   void followPointColours();
-  void chooseWantedStation();
+  void chooseWanted();
   void followOnlyCloud();
   void followLocated();
   void followPreview();

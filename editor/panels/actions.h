@@ -59,8 +59,10 @@ class Actions {
   // What several panels and the view share.
   virtual void choose(const SurveyChoice& choice) = 0;
   virtual void choose(const ChosenMaterial& material) = 0;
+  virtual void chooseTrajectory(const std::string& name) = 0;  // as soon as it is there
   virtual void renameBegun() = 0;
   virtual void set(const ScanChoice& scan) = 0;
+  virtual void set(const CarriedScan& scan) = 0;
   virtual void set(const SeenLimits& limits) = 0;
   virtual void set(const Body& walker) = 0;
   virtual void set(const WallChoice& wall) = 0;

@@ -11,6 +11,7 @@
 #include "editor/model/scan_form.h"
 #include "editor/panels/actions.h"
 #include "editor/panels/scan_panel.h"
+#include "editor/trajectories/carried_scan.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
@@ -75,6 +76,53 @@ void drawEffects(const Model& model, ScanChoice& asked) {
     ImGui::PopStyleColor();
   }
   ImGui::EndTable();
+}
+
+// An option of a list, as the verb has it and in words.
+template <class T>
+struct Named {
+  T value;
+  const char* name;
+};
+constexpr std::array kErrors = {Named<TrajectoryError>{TrajectoryError::of_instrument, "as the instrument's kind"},
+                                Named<TrajectoryError>{TrajectoryError::none, "none"},
+                                Named<TrajectoryError>{TrajectoryError::wearable, "wearable scanner"},
+                                Named<TrajectoryError>{TrajectoryError::handheld, "handheld scanner"},
+                                Named<TrajectoryError>{TrajectoryError::poor, "poor or hurried"},
+                                Named<TrajectoryError>{TrajectoryError::survey_mms, "survey vehicle"},
+                                Named<TrajectoryError>{TrajectoryError::uav, "UAV"},
+                                Named<TrajectoryError>{TrajectoryError::mems, "small inertial sensor"}};
+constexpr std::array kDeskews = {Named<Deskew>{Deskew::pulse, "by the pose of each pulse"},
+                                 Named<Deskew>{Deskew::firing, "by the pose of each firing"},
+                                 Named<Deskew>{Deskew::turn, "as an even turn"}, Named<Deskew>{Deskew::none, "none"}};
+
+template <class T, std::size_t kCount>
+void drawNamed(const char* id, T& value, const std::array<Named<T>, kCount>& all) {
+  const auto chosen = std::find_if(all.begin(), all.end(), [&](const auto& n) { return n.value == value; });
+  if (!ImGui::BeginCombo(id, tr(chosen->name).c_str())) return;
+  for (const auto& named : all)
+    if (ImGui::Selectable(ui::Label(named.name), named.value == value)) value = named.value;
+  ImGui::EndCombo();
+}
+
+void drawTrajectoryError(CarriedScan& carried) {
+  const auto error =
+      std::find_if(kErrors.begin(), kErrors.end(), [&](const auto& n) { return n.value == carried.error; });
+  if (!folded("Trajectory error", tr(error->name), "trajectory-error")) return;
+  if (!ui::beginProperties("trajectory-error", 0.36F)) return;
+  ui::propertyLabel("Error");
+  drawNamed("###error-profile", carried.error, kErrors);
+  ui::tooltip("How much the trajectory that the instrument finds differs from the true one");
+  ui::propertyLabel("Closures");
+  ui::checkbox("###closures", &carried.closures);
+  ui::tooltip("On: places that the trajectory comes back to are recognised and hold it");
+  ui::propertyLabel("Anchors");
+  ui::checkbox("###anchors", &carried.anchors);
+  ui::tooltip("On: scanned stations within 3 m of the trajectory hold it");
+  ui::propertyLabel("Deskew");
+  drawNamed("###deskew", carried.deskew, kDeskews);
+  ui::tooltip("By which pose points are placed");
+  ui::endProperties();
 }
 
 struct WeatherField {
@@ -143,26 +191,21 @@ void drawPanorama(ScanChoice& asked, const Instrument& instrument, const ScanSet
   ui::tooltip("A quarter of the pixels, a quarter of the time");
 }
 
-std::string extrasSummary(const ScanChoice& asked, bool resume) {
+std::string extrasSummary(const ScanChoice& asked, bool carried, bool resume) {
   std::string text;
   const auto add = [&](bool on, const char* word) {
     if (on) text += (text.empty() ? "" : ", ") + tr(word);
   };
   add(asked.truth, "truth");
-  add(asked.panorama, "panorama");
-  add(!asked.compensator, "no compensator");
-  add(!resume, "restart");
+  add(!carried && asked.panorama, "panorama");
+  add(!carried && !asked.compensator, "no compensator");
+  add(!carried && !resume, "restart");
   return text.empty() ? tr("points only") : text;
 }
 
-void drawExtras(ScanState& state, ScanChoice& asked, const Instrument& instrument, const ScanSettings& settings) {
-  if (!folded("Extra output", extrasSummary(asked, state.resume), "extras")) return;
-  if (!ui::beginProperties("extras", 0.36F)) return;
-  ui::propertyLabel("Truth");
-  ui::checkbox("###truth", &asked.truth);
-  ui::tooltip(
-      "Stores ground truth per point: time, return number, true position, range, incidence, power and cause. Files are "
-      "about three times larger.");
+// What a station has besides.
+void drawStationExtras(ScanState& state, ScanChoice& asked, const Instrument& instrument,
+                       const ScanSettings& settings) {
   drawPanorama(asked, instrument, settings);
   ui::propertyLabel("Compensator");
   ImGui::BeginDisabled(!instrument.compensator);
@@ -175,6 +218,18 @@ void drawExtras(ScanState& state, ScanChoice& asked, const Instrument& instrumen
   ui::tooltip(
       "Keeps stations finished by a cancelled or crashed run. Off: scans all stations; remove the files of the earlier "
       "run first.");
+}
+
+void drawExtras(ScanState& state, ScanChoice& asked, bool carried, const Instrument& instrument,
+                const ScanSettings& settings) {
+  if (!folded("Extra output", extrasSummary(asked, carried, state.resume), "extras")) return;
+  if (!ui::beginProperties("extras", 0.36F)) return;
+  ui::propertyLabel("Truth");
+  ui::checkbox("###truth", &asked.truth);
+  ui::tooltip(
+      "Stores ground truth per point: time, return number, true position, range, incidence, power and cause. Files are "
+      "about three times larger.");
+  if (!carried) drawStationExtras(state, asked, instrument, settings);
   ui::propertyLabel("Noise seed");
   auto seed = static_cast<double>(asked.seed);
   if (ui::numberField("###seed", seed, {.kind = {.least = 0, .most = 9007199254740991.0, .whole = true}},
@@ -185,11 +240,12 @@ void drawExtras(ScanState& state, ScanChoice& asked, const Instrument& instrumen
 
 }  // namespace
 
-void drawScanConditions(const Model& model, ScanState& state, ScanChoice& asked, const Instrument& instrument,
-                        const ScanSettings& settings) {
+void drawScanConditions(const Model& model, ScanState& state, ScanChoice& asked, CarriedScan* carried,
+                        const Instrument& instrument, const ScanSettings& settings) {
+  if (carried != nullptr) drawTrajectoryError(*carried);
   drawEffects(model, asked);
   drawWeather(model, asked);
-  drawExtras(state, asked, instrument, settings);
+  drawExtras(state, asked, carried != nullptr, instrument, settings);
 }
 
 std::string whyNotConditions(const ScanChoice& asked, const ScanSettings& settings) {

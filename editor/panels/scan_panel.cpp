@@ -36,23 +36,33 @@ void followDocument(const Model& model, ScanState& state, ScanChoice& asked) {
   if (scanning && state.started != *scanning) asked = *scanning;
 }
 
-const Instrument* chosenInstrument(const Model& model, ScanChoice& asked) {
+// Of those on a tripod, or of those that are carried; another way of scanning has another one.
+const Instrument* chosenInstrument(const Model& model, ScanChoice& asked, bool carried) {
   const auto& all = model.catalogue().instruments;
-  const auto on_tripod = [](const Instrument& i) { return !i.moving; };  // a station has no trajectory
-  auto found = std::find_if(all.begin(), all.end(),
-                            [&](const Instrument& i) { return on_tripod(i) && i.id == asked.instrument; });
-  if (found == all.end()) found = std::find_if(all.begin(), all.end(), on_tripod);
+  const auto fits = [&](const Instrument& i) { return i.moving.has_value() == carried; };
+  auto found =
+      std::find_if(all.begin(), all.end(), [&](const Instrument& i) { return fits(i) && i.id == asked.instrument; });
+  if (found == all.end()) found = std::find_if(all.begin(), all.end(), fits);
   if (found == all.end()) return nullptr;
   if (asked.instrument != found->id || asked.settings.empty()) chooseInstrument(asked, *found);
   return &*found;
 }
 
-void drawInstrumentChoice(const Model& model, ScanChoice& asked, const Instrument& chosen) {
+// The instrument decides whether stations or a trajectory are scanned.
+void drawInstrumentChoice(const Model& model, ScanChoice& standing, CarriedScan& carried, const Instrument& chosen) {
   ui::propertyLabel("Instrument");
-  if (!ImGui::BeginCombo("###instrument", fmt::format("{} {}", chosen.maker, chosen.model).c_str())) return;
-  for (const auto& i : model.catalogue().instruments)
-    if (!i.moving && ImGui::Selectable(fmt::format("{} {}###{}", i.maker, i.model, i.id).c_str(), i.id == chosen.id))
-      chooseInstrument(asked, i);
+  if (!ImGui::BeginCombo("###instrument", fmt::format("{} {}", chosen.maker, chosen.model).c_str(),
+                         ImGuiComboFlags_HeightLargest))
+    return;
+  for (const bool moving : {false, true}) {
+    ui::dimText(moving ? "Carried along a trajectory" : "On a tripod at stations");
+    for (const auto& i : model.catalogue().instruments) {
+      if (i.moving.has_value() != moving) continue;
+      if (!ImGui::Selectable(fmt::format("  {} {}###{}", i.maker, i.model, i.id).c_str(), i.id == chosen.id)) continue;
+      carried.wanted = moving;
+      chooseInstrument(moving ? carried.choice : standing, i);
+    }
+  }
   listBrokenInstruments(model);
   ImGui::EndCombo();
 }
@@ -162,6 +172,29 @@ void drawStationChoice(const Model& model, ScanState& state, Actions& actions) {
   ImGui::EndCombo();
 }
 
+// Index into the job: the chosen one, or the only one there is; nothing: none, or it is not clear which.
+std::optional<std::size_t> trajectoryWanted(const Model& model) {
+  const auto& trajectories = model.session.document().job->trajectories;
+  const auto chosen = static_cast<std::size_t>(model.survey.trajectory);
+  if (model.survey.trajectory >= 0 && chosen < trajectories.size()) return chosen;
+  return trajectories.size() == 1 ? std::optional<std::size_t>(0) : std::nullopt;
+}
+
+void drawTrajectoryChoice(const Model& model, Actions& actions) {
+  ui::propertyLabel("Trajectory");
+  const auto& trajectories = model.session.document().job->trajectories;
+  const auto wanted = trajectoryWanted(model);
+  if (!ImGui::BeginCombo("###along", wanted                 ? trajectories[*wanted].name.c_str()
+                                     : trajectories.empty() ? tr("none").c_str()
+                                                            : tr("Choose…").c_str()))
+    return;
+  for (std::size_t i = 0; i < trajectories.size(); ++i)
+    if (ImGui::Selectable(fmt::format("{}###along{}", trajectories[i].name, i).c_str(), wanted == i))
+      actions.choose(SurveyChoice{.trajectory = static_cast<int>(i)});
+  if (trajectories.empty()) ui::dimText("Add a trajectory in the Survey panel first");
+  ImGui::EndCombo();
+}
+
 std::vector<std::size_t> stationsWanted(const Model& model, const ScanState& state) {
   const auto& stations = model.session.document().job->stations;
   const auto text = stationsText(model, state);
@@ -204,26 +237,68 @@ void drawForecast(const Model& model, const ScanState& state, const ScanChoice& 
   ui::endProperties();
 }
 
+// The same of a scanner that is carried: its pulses are as many as its way is long.
+void drawCarriedForecast(const Model& model, const Instrument& instrument, const ScanSettings& settings) {
+  const auto wanted = trajectoryWanted(model);
+  const auto* way = wanted ? model.trajectory_ways.of(*wanted) : nullptr;
+  const bool known = way != nullptr && way->problem.empty();
+  if (!ui::beginProperties("forecast", 0.46F)) return;
+  const std::string waiting = wanted ? "…" : tr("no trajectory");
+  const auto& head = *instrument.moving;
+  const double a_second = static_cast<double>(head.channel_elevations_rad.size()) * head.heads / settings.firing_s;
+  ui::property("Instrument time", known ? durationText(way->seconds) : waiting);
+  ui::property("Length", known ? fmt::format("{:.1f} m", way->length_m) : waiting);
+  ui::property("Pulses", known ? trf("about {:.1f} million", way->seconds * a_second / 1e6) : waiting);
+  ui::property("Working range", fmt::format("{:.1f} – {:.0f} m", instrument.min_range_m, settings.max_range_m));
+  ui::property("Wavelength", fmt::format("{:.0f} nm", instrument.wavelength_nm));
+  ui::endProperties();
+}
+
 // Why there cannot be a scan now, beyond what the verb itself asks for.
-std::string whyNotScan(const Model& model, const ScanChoice& asked, const ScanSettings& settings) {
+std::string whyNotScan(const Model& model, const ScanChoice& asked, const ScanSettings& settings, bool carried) {
   if (auto why = model.session.whyNot("scan"); !why.empty()) return why;
-  if (model.session.document().job->stations.empty()) return "Add a station first: press Shift+T and click the floor";
+  const auto& job = *model.session.document().job;
+  if (carried) {
+    if (job.trajectories.empty()) return "This instrument is carried: add a trajectory in the Survey panel first";
+    const auto wanted = trajectoryWanted(model);
+    if (!wanted) return "This instrument is carried: choose its trajectory first";
+    if (const auto* way = model.trajectory_ways.of(*wanted); way != nullptr && !way->problem.empty())
+      return way->problem;
+  } else if (job.stations.empty()) {
+    return "Add a station first: press Shift+T and click the floor";
+  }
   return whyNotConditions(asked, settings);
 }
 
-void start(const Model& model, ScanState& state, const ScanChoice& asked, Actions& actions,
+ScanVerbOptions optionsAlong(const CarriedScan& carried, const std::string& trajectory) {
+  auto options = optionsOf(carried.choice);
+  options.trajectory = trajectory;
+  options.trajectory_error = carried.error;
+  options.closures = carried.closures ? Switch::on : Switch::off;
+  options.anchors = carried.anchors ? Switch::on : Switch::off;
+  options.deskew = carried.deskew;
+  return options;
+}
+
+void start(const Model& model, ScanState& state, const ScanChoice& asked, const CarriedScan& carried, Actions& actions,
            const std::filesystem::path& folder, const CloudFormat* format) {
-  const auto stations = stationsText(model, state);
+  const auto& job = *model.session.document().job;
+  const auto along = carried.wanted ? trajectoryWanted(model) : std::nullopt;
+  const auto stations = along ? job.trajectories[*along].name : stationsText(model, state);
+  const bool all = !along && stations == "all";
   const std::string extension = format != nullptr ? format->extension : ".e57";
-  const auto file = folder / ((stations == "all" ? model.session.document().name : stations) + extension);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  auto options = optionsOf(asked);
-  if (stations != "all") options.stations.names = {stations};
-  options.output = file;
-  options.resume = state.resume;
-  state.started = asked;
-  actions.startScan(options, stations == "all" ? tr("Scan all stations") : trf("Scan station {}", stations));
+  auto options = along ? optionsAlong(carried, stations) : optionsOf(asked);
+  options.output = folder / ((all ? model.session.document().name : stations) + extension);
+  if (!along) {
+    if (!all) options.stations.names = {stations};
+    options.resume = state.resume;
+    state.started = asked;
+  }
+  actions.startScan(options, along ? trf("Scan along {}", stations)
+                             : all ? tr("Scan all stations")
+                                   : trf("Scan station {}", stations));
 }
 
 bool lastWasCancelled(const Session& session) {
@@ -242,21 +317,26 @@ void drawLast(const Model& model) {
   ui::endProperties();
 }
 
-void drawForm(const Model& model, ScanState& state, ScanChoice& asked, Actions& actions) {
-  const Instrument* instrument = chosenInstrument(model, asked);
+void drawForm(const Model& model, ScanState& state, ScanChoice& standing, CarriedScan& carried, Actions& actions) {
+  const bool along = carried.wanted;
+  ScanChoice& asked = along ? carried.choice : standing;
+  const Instrument* instrument = chosenInstrument(model, asked, along);
   if (instrument == nullptr) {
     ui::emptyState(model, ICON_WARNING, "No instruments", model.catalogue().problem.c_str());
     return;
   }
   const auto formats = writableFormats();
   if (ui::beginProperties("scan", 0.36F)) {
-    drawInstrumentChoice(model, asked, *instrument);
-    for (const auto& setting : instrument->settings) drawSetting(asked, *instrument, setting);
-    drawStationChoice(model, state, actions);
+    drawInstrumentChoice(model, standing, carried, *instrument);
+    if (asked.instrument == instrument->id)
+      for (const auto& setting : instrument->settings) drawSetting(asked, *instrument, setting);
+    along ? drawTrajectoryChoice(model, actions) : drawStationChoice(model, state, actions);
     drawOutput(model, state, actions, formats);
     ui::endProperties();
   }
-  const auto settings = resolveSettings(*instrument, asked.settings);
+  if (asked.instrument != instrument->id) return;  // another was chosen: the next frame shows it
+  const auto settings =
+      along ? resolveMovingSettings(*instrument, asked.settings) : resolveSettings(*instrument, asked.settings);
   if (!settings) {
     const auto problem = trError(inWordsOfDevice(*instrument, settings.error()));
     ui::primaryButton(ICON_PLAY "  Scan###run-scan", problem, {-FLT_MIN, model.px(28)});
@@ -265,14 +345,15 @@ void drawForm(const Model& model, ScanState& state, ScanChoice& asked, Actions& 
     ui::wrapped(problem);
     return;
   }
-  drawScanConditions(model, state, asked, *instrument, *settings);
+  drawScanConditions(model, state, asked, along ? &carried : nullptr, *instrument, *settings);
   ui::gap(model, 4);
   const std::filesystem::path folder =
       state.folder.empty() ? standardFolder(model) : std::filesystem::path(state.folder);
   const CloudFormat* format = formats.empty() ? nullptr : formats[static_cast<std::size_t>(state.format)];
-  if (ui::primaryButton(ICON_PLAY "  Scan###run-scan", whyNotScan(model, asked, *settings), {-FLT_MIN, model.px(28)}))
-    start(model, state, asked, actions, folder, format);
-  if (state.resume && lastWasCancelled(model.session))
+  if (ui::primaryButton(ICON_PLAY "  Scan###run-scan", whyNotScan(model, asked, *settings, along),
+                        {-FLT_MIN, model.px(28)}))
+    start(model, state, asked, carried, actions, folder, format);
+  if (!along && state.resume && lastWasCancelled(model.session))
     ui::dimWrapped("The last scan was cancelled. With the same settings, Scan resumes it.");
   if (!model.session.document().materials) {
     ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
@@ -280,7 +361,10 @@ void drawForm(const Model& model, ScanState& state, ScanChoice& asked, Actions& 
     ui::wrapped("No physical materials assigned. The default rules will be used.");
   }
   ui::heading(model, "Estimate");
-  drawForecast(model, state, asked, actions, *instrument, *settings);
+  if (along)
+    drawCarriedForecast(model, *instrument, *settings);
+  else
+    drawForecast(model, state, asked, actions, *instrument, *settings);
   drawLast(model);
 }
 
@@ -289,11 +373,13 @@ void draw(const Model& model, ScanState& state, Actions& actions) {
     ui::emptyState(model, ICON_PLAY, "Nothing to scan", "Import a model and add stations first.");
     return;
   }
-  ScanChoice asked = model.scan_choice;
-  followDocument(model, state, asked);
+  ScanChoice standing = model.scan_choice;
+  CarriedScan carried = model.carried_scan;
+  followDocument(model, state, standing);
   actions.wantReadiness();
-  drawForm(model, state, asked, actions);
-  actions.set(asked);
+  drawForm(model, state, standing, carried, actions);
+  actions.set(standing);
+  actions.set(carried);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include "editor/panels/survey_inspector.h"
 
 #include <cmath>
-#include <filesystem>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -10,6 +9,8 @@
 #include "core/units.h"
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
+#include "editor/panels/survey_edit.h"
+#include "editor/panels/trajectory_inspector.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
@@ -23,45 +24,12 @@ namespace standpoint {
 
 namespace {
 
-// The fields of one thing: what stands in them, whose they are, and what came of the last change.
-struct SurveyEdit {
-  const void* of = nullptr;  // the value that they were filled from
-  std::string name;
-  Eigen::Vector3d at = Eigen::Vector3d::Zero();
-  double heading_deg = 0, height_m = 0, tilt_deg = 0, tilt_towards_deg = 0;
-  std::string asked, problem;  // the title of the task, and why it was refused
-};
-
 struct SurveyInspectorState {
   SurveyEdit station, target, underlay;
 };
 
 const NumberFormat kPlace{.kind = {.unit = "m"}, .decimals = 3};
 const NumberFormat kHeading{.kind = {.unit = "°", .least = -360, .most = 360}, .decimals = 2, .drag = 0.5};
-
-// True when the fields are to be filled: another thing, or it has changed.
-bool begins(SurveyEdit& edit, const void* of, Actions& actions) {
-  if (!edit.asked.empty())
-    if (auto why = actions.refused(edit.asked); !why.empty()) edit.problem = std::move(why), edit.asked.clear();
-  if (edit.of == of) return false;
-  edit = {.of = of};
-  return true;
-}
-
-void start(Actions& actions, SurveyEdit& edit, const VerbOptions& options, std::string title) {
-  edit.problem.clear();
-  edit.asked = title;
-  actions.start(options, std::move(title));
-}
-
-bool nameRow(const Model& model, Actions& actions, SurveyEdit& edit) {
-  ui::propertyLabel("Name");
-  if (model.rename_wanted) {
-    ui::focusNext();
-    actions.renameBegun();
-  }
-  return ui::textField("###inspected-name", edit.name);
-}
 
 bool placeRows(SurveyEdit& edit) {
   bool changed = false;
@@ -78,14 +46,6 @@ bool headingRow(SurveyEdit& edit, const char* help) {
   return ui::numberField("###inspected-heading", edit.heading_deg, kHeading, help);
 }
 
-void drawProblem(SurveyEdit& edit) {
-  if (edit.problem.empty()) return;
-  ImGui::PushStyleColor(ImGuiCol_Text, tone::kBad);
-  ui::wrapped(edit.problem);
-  ImGui::PopStyleColor();
-  if (ui::button("Revert###revert-inspected")) edit = {};
-}
-
 // It was let go where it cannot stand.
 void drawRefusal(const Model& model, const Station& station) {
   const auto& refused = model.view.refused_place;
@@ -94,74 +54,6 @@ void drawRefusal(const Model& model, const Station& station) {
   ui::wrapped(fmt::format(ICON_BAN "  {}. {} stays where it was", refused->brief, station.name));
   ImGui::PopStyleColor();
   ui::dimWrapped(refused->reason);
-}
-
-void bringNear(Actions& actions, const Eigen::Vector3d& place) {
-  Bounds around;
-  around.extend(place - Eigen::Vector3d(3, 3, 2));
-  around.extend(place + Eigen::Vector3d(3, 3, 2));
-  actions.bringIntoView(around);
-}
-
-float columnWidth(int columns) {
-  return (ImGui::GetContentRegionAvail().x - static_cast<float>(columns - 1) * ImGui::GetStyle().ItemSpacing.x) /
-         static_cast<float>(columns);
-}
-
-bool smallButton(const char* icon, const char* text, const char* id, float width, const std::string& why,
-                 const char* help) {
-  return ui::button(ui::fittingLabel(icon, text, id, width).c_str(), why, {width, 0}, help);
-}
-
-// Of the newest scan with the way to make it anew.
-void drawAge(const Model& model, Actions& actions, const std::string& age, bool newest) {
-  ImGui::PushStyleColor(ImGuiCol_Text, tone::kWarning);
-  ui::wrapped(std::string(ICON_WARNING "  ") + trf("Scan is {}", trSentence(age)));
-  ImGui::PopStyleColor();
-  if (newest && ui::button(ICON_PLAY "  Scan again…###scan-again", model.session.whyNot("scan"), {-FLT_MIN, 0}))
-    actions.run("scan");
-}
-
-void drawLocate(const Model& model, Actions& actions, const std::filesystem::path& missing) {
-  if (ui::button(ICON_SEARCH "  Locate…###locate", model.session.whyNot("locate"), {-FLT_MIN, 0},
-                 "Choose where the file is now"))
-    actions.locate(missing);
-}
-
-void drawScans(const Model& model, Actions& actions, const Station& station) {
-  if (station.scans.empty()) return;
-  const auto& targets = model.session.document().job->targets;
-  ui::heading(model, trf("Scans  {}", station.scans.size()).c_str());
-  for (std::size_t i = 0; i < station.scans.size(); ++i) {
-    const auto& scan = station.scans[i];
-    const std::filesystem::path file = scan.file;
-    ImGui::PushID(static_cast<int>(i));
-    const bool open =
-        ImGui::TreeNodeEx("###scan", ImGuiTreeNodeFlags_SpanAvailWidth, "%s   %s", file.filename().string().c_str(),
-                          trf("{} points", groupedDigits(scan.points)).c_str());
-    if (const auto age = ageText(scan, station, targets); !age.empty())
-      drawAge(model, actions, age, i + 1 == station.scans.size());
-    if (open) {
-      if (ui::beginProperties("scan", 0.36F)) {
-        ui::property("Instrument", scan.instrument);
-        for (const auto& [key, value] : scan.settings) ui::property(key, value);
-        ui::property("Points", groupedDigits(scan.points));
-        ui::property("Pulses", groupedDigits(scan.pulses));
-        ui::property("Instrument time", durationText(scan.instrument_seconds));
-        ui::property("Noise seed", std::to_string(scan.seed));
-        ui::property("File", scan.file);
-        ui::endProperties();
-      }
-      std::error_code ignored;
-      const bool there = std::filesystem::is_regular_file(file, ignored);
-      if (ui::button(ICON_EYE "  Show points###show-scan",
-                     there ? std::string() : trf("The file is missing: {}", scan.file), {-FLT_MIN, 0}))
-        actions.showScans({file});
-      if (!there) drawLocate(model, actions, file);
-      ImGui::TreePop();
-    }
-    ImGui::PopID();
-  }
 }
 
 StationOptions movedStation(const Station& station, const SurveyEdit& edit) {
@@ -190,8 +82,8 @@ void stationFieldRows(const Model& model, SurveyEdit& edit, Actions& actions, co
   const auto why = model.session.whyNot("station");
   ImGui::BeginDisabled(!why.empty());
   if (nameRow(model, actions, edit))
-    start(actions, edit, StationOptions{.rename = station.name, .name = edit.name},
-          trf("Rename station {}", station.name));
+    startEdit(actions, edit, StationOptions{.rename = station.name, .name = edit.name},
+              trf("Rename station {}", station.name));
   bool moved = placeRows(edit);
   ui::propertyLabel("Above floor");
   const double before = edit.height_m;
@@ -203,7 +95,7 @@ void stationFieldRows(const Model& model, SurveyEdit& edit, Actions& actions, co
   }
   moved = headingRow(edit, "Direction of the instrument's X axis, counter-clockwise from the file's X") || moved;
   moved = tiltRows(edit) || moved;
-  if (moved) start(actions, edit, movedStation(station, edit), trf("Move station {}", station.name));
+  if (moved) startEdit(actions, edit, movedStation(station, edit), trf("Move station {}", station.name));
   ImGui::EndDisabled();
   if (station.solved_pose) {
     const Pose& solved = *station.solved_pose;
@@ -241,7 +133,8 @@ void drawStation(const Model& model, SurveyEdit& edit, Actions& actions, const S
   actions.button("look-from-station", "Look from here", half);
   ImGui::SameLine();
   actions.button("duplicate-station", "Duplicate", half);
-  drawScans(model, actions, station);
+  const auto& targets = model.session.document().job->targets;
+  drawScans(model, actions, station.scans, [&](const Scan& scan) { return ageText(scan, station, targets); });
 }
 
 double headingOf(const Eigen::Vector3d& direction) { return std::atan2(direction.y(), direction.x()) / kRadPerDeg; }
@@ -264,15 +157,15 @@ void drawTarget(const Model& model, SurveyEdit& edit, Actions& actions, const Ta
   if (ui::beginProperties("target", 0.36F)) {
     ImGui::BeginDisabled(!why.empty());
     if (nameRow(model, actions, edit))
-      start(actions, edit, TargetOptions{.rename = target.name, .name = edit.name},
-            trf("Rename target {}", target.name));
+      startEdit(actions, edit, TargetOptions{.rename = target.name, .name = edit.name},
+                trf("Rename target {}", target.name));
     bool moved = placeRows(edit);
     if (plate) moved = headingRow(edit, "Direction that it faces, counter-clockwise from the file's X") || moved;
     if (moved) {
       TargetOptions options{.move = target.name};
       options.at = edit.at;
       if (plate) options.normal = turnedTo(target.normal, edit.heading_deg);
-      start(actions, edit, options, trf("Move target {}", target.name));
+      startEdit(actions, edit, options, trf("Move target {}", target.name));
     }
     ImGui::EndDisabled();
     ui::property("Kind", plate ? "checkerboard" : "sphere");
@@ -322,7 +215,7 @@ void drawUnderlay(const Model& model, SurveyEdit& edit, Actions& actions, const 
     if (nameRow(model, actions, edit)) {
       UnderlayOptions options{.name = edit.name};
       options.rename = underlay.name;
-      start(actions, edit, options, trf("Rename underlay {}", underlay.name));
+      startEdit(actions, edit, options, trf("Rename underlay {}", underlay.name));
     }
     bool moved = placeRows(edit);
     moved = headingRow(edit, "Angle from the file's X axis to the cloud's, counter-clockwise") || moved;
@@ -330,7 +223,7 @@ void drawUnderlay(const Model& model, SurveyEdit& edit, Actions& actions, const 
       UnderlayOptions options{.move = underlay.name};
       options.at = edit.at;
       options.yaw_deg = edit.heading_deg;
-      start(actions, edit, options, trf("Move underlay {}", underlay.name));
+      startEdit(actions, edit, options, trf("Move underlay {}", underlay.name));
     }
     ImGui::EndDisabled();
     ui::property("Points", groupedDigits(underlay.points));
@@ -370,6 +263,11 @@ bool drawSurveyInspector(const Model& model, PanelStates& states, Actions& actio
   if (job)
     if (const auto* target = chosenOf(job->targets, chosen.target)) {
       drawTarget(model, state.target, actions, *target);
+      any = true;
+    }
+  if (job)
+    if (const auto* trajectory = chosenOf(job->trajectories, chosen.trajectory)) {
+      drawTrajectory(model, states, actions, *trajectory);
       any = true;
     }
   if (const auto* underlay = chosenOf(underlays, chosen.underlay)) {

@@ -7,6 +7,7 @@
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
 #include "editor/panels/survey_inspector.h"
+#include "editor/panels/trajectory_inspector.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
@@ -152,6 +153,7 @@ void draw(const Model& model, PanelStates& states, Actions& actions) {
   if (model.survey.station >= static_cast<int>(job->stations.size()))
     actions.choose(SurveyChoice{-1, model.survey.target, model.survey.underlay});
   drawTargets(model, actions, *job);
+  drawTrajectories(model, actions);
   drawSurveyInspector(model, states, actions);
 }
 

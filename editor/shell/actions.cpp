@@ -10,6 +10,7 @@
 #include "core/data_folder.h"
 #include "editor/desktop/user_folders.h"
 #include "editor/model/station_steps.h"
+#include "editor/model/trajectory_steps.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/escape.h"
@@ -74,6 +75,7 @@ std::pair<const char*, std::string> chosenInSurvey(const Editor& e) {
     return {"station", job->stations[static_cast<std::size_t>(state.station)].name};
   if (job && state.target >= 0 && state.target < static_cast<int>(job->targets.size()))
     return {"target", job->targets[static_cast<std::size_t>(state.target)].name};
+  if (const auto* trajectory = chosenTrajectory(e)) return {"trajectory", trajectory->name};
   const auto& measurements = e.session.document().measurements;
   if (measurements && state.measurement >= 0 && state.measurement < static_cast<int>(measurements->size()))
     return {"measure", (*measurements)[static_cast<std::size_t>(state.measurement)].name};
@@ -81,12 +83,15 @@ std::pair<const char*, std::string> chosenInSurvey(const Editor& e) {
 }
 void removeChosen(Editor& e) {
   const auto [verb, name] = chosenInSurvey(e);
-  const bool measurement = std::string_view(verb) == "measure";
+  const bool measurement = std::string_view(verb) == "measure", trajectory = std::string_view(verb) == "trajectory";
   const auto title = measurement                          ? trf("Remove measurement {}", name)
+                     : trajectory                         ? trf("Remove trajectory {}", name)
                      : std::string_view(verb) == "target" ? trf("Remove target {}", name)
                                                           : trf("Remove station {}", name);
   if (std::string_view(verb) == "target")
     e.session.start(TargetOptions{.remove = name}, title);
+  else if (trajectory)
+    e.session.start(TrajectoryOptions{.remove = name}, title);
   else if (measurement)
     e.session.start(MeasureOptions{.remove = name}, title);
   else
@@ -103,8 +108,9 @@ void renameChosen(Editor& e) {
 }
 std::string whyRenameNot(const Editor& e) {
   const auto& chosen = e.survey;
-  const bool any = chosen.station >= 0 || chosen.target >= 0 || chosen.underlay >= 0 || chosen.measurement >= 0;
-  return any ? "" : "Select a station, target, underlay or measurement first";
+  const bool any = chosen.station >= 0 || chosen.target >= 0 || chosen.underlay >= 0 || chosen.measurement >= 0 ||
+                   chosen.trajectory >= 0;
+  return any ? "" : "Select a station, target, trajectory, underlay or measurement first";
 }
 std::string whyDuplicateNot(const Editor& e) {
   if (auto why = e.session.whyNot("station"); !why.empty()) return why;
@@ -114,7 +120,7 @@ std::string whyDuplicateNot(const Editor& e) {
 std::string whyRemoveNot(const Editor& e) {
   const auto [verb, name] = chosenInSurvey(e);
   if (auto why = e.session.whyNot(verb); !why.empty()) return why;
-  return name.empty() ? "Select a station, target or measurement in its list first" : "";
+  return name.empty() ? "Select a station, target, trajectory or measurement in its list first" : "";
 }
 std::string whyNoMaterials(const Editor& e) {
   if (auto why = whyNoModel(e); !why.empty()) return why;
@@ -144,6 +150,7 @@ std::string whyUpdateNot(const Editor& e) { return e.environment() ? e.session.w
 std::string whyOpenNot(const Editor& e) { return e.session.whyNot("open-project"); }
 std::string whyExportNot(const Editor& e) { return e.session.whyNot("export"); }
 std::string whyStationNot(const Editor& e) { return e.session.whyNot("station"); }
+std::string whyTrajectoryNot(const Editor& e) { return e.session.whyNot("trajectory"); }
 std::string whyTargetNot(const Editor& e) { return e.session.whyNot("target"); }
 std::string whyScanNot(const Editor& e) { return e.session.whyNot("scan"); }
 
@@ -213,14 +220,35 @@ const std::array kOwn = {
              showWorkspace(e, Workspace::survey);
            },
            whyTargetNot},
+    Action{"add-trajectory",
+           "Add trajectory by clicking waypoints",
+           ICON_WALK,
+           {},
+           [](Editor& e) {
+             beginTrajectory(e);
+             showWorkspace(e, Workspace::survey);
+           },
+           whyTrajectoryNot},
+    Action{"end-trajectory",
+           "Finish the trajectory at its last waypoint",
+           ICON_CHECK,
+           {kKeyEnter},
+           [](Editor& e) { endTrajectory(e); },
+           [](const Editor& e) { return whyNotEndTrajectory(e); }},
+    Action{"take-back-waypoint",
+           "Take the last waypoint back",
+           ICON_UNDO,
+           {kKeyBackspace},
+           [](Editor& e) { takeBackWaypoint(e); },
+           [](const Editor& e) { return whyNotTakeBack(e); }},
     Action{"rename",
-           "Rename selected station, target, underlay or measurement",
+           "Rename selected station, target, trajectory, underlay or measurement",
            ICON_PENCIL,
            {kKeyF2},
            renameChosen,
            whyRenameNot},
     Action{"remove",
-           "Remove selected station, target or measurement",
+           "Remove selected station, target, trajectory or measurement",
            ICON_TRASH,
            {kKeyDelete},
            removeChosen,
@@ -345,6 +373,8 @@ std::string shortcutText(const Shortcut& s) {
   std::string text = (s.ctrl ? tr("Ctrl+") : "") + (s.alt ? tr("Alt+") : "") + (s.shift ? tr("Shift+") : "");
   if (s.key == kKeyEscape) return text + "Esc";
   if (s.key == kKeyDelete) return text + tr("Del");
+  if (s.key == kKeyEnter) return text + tr("Enter");
+  if (s.key == kKeyBackspace) return text + tr("Backspace");
   if (s.key == kKeyLeft) return text + tr("Left");
   if (s.key == kKeyHome) return text + tr("Home");
   if (s.key == kKeyF1) return text + "F1";
@@ -367,7 +397,9 @@ void runShortcuts(Editor& editor) {
     if (io.WantTextInput && !leavesText(s)) continue;
     if (editor.device_has_keys && isTyped(s)) continue;
     const bool shifted = s.shift == io.KeyShift || s.key == kKeyPlus;  // some keyboards need Shift for a plus
-    if (s.key != 0 && s.ctrl == io.KeyCtrl && s.alt == io.KeyAlt && shifted && keyboard::pressed(s.key)) {
+    const bool pressed =
+        s.key != 0 && (keyboard::pressed(s.key) || (s.key == kKeyEnter && keyboard::pressed(kKeyPadEnter)));
+    if (pressed && s.ctrl == io.KeyCtrl && s.alt == io.KeyAlt && shifted) {
       invoke(editor, action.id);
       return;
     }

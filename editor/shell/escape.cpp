@@ -45,8 +45,9 @@ bool holdsWidget() {
 
 bool dragsInView(const Editor& editor) {
   const auto& view = editor.view;
-  return view.teleport.active() || view.dragged_station >= 0 || view.handle != StationHandle::none ||
-         view.probe.dragged || view.clip.face >= 0 || (view.dragging && view.dragged);
+  return view.teleport.active() || view.dragged_station >= 0 || view.dragged_waypoint >= 0 ||
+         view.handle != StationHandle::none || view.probe.dragged || view.clip.face >= 0 ||
+         (view.dragging && view.dragged);
 }
 
 void endDrag(Editor& editor) {
@@ -58,6 +59,8 @@ void endDrag(Editor& editor) {
     view.teleport = {};
   } else if (view.dragged_station >= 0) {
     view.dragged_station = -1;
+  } else if (view.dragged_waypoint >= 0) {
+    view.dragged_waypoint = -1;
   } else if (view.handle != StationHandle::none) {
     view.handle = StationHandle::none;
   } else if (view.probe.dragged) {
@@ -104,7 +107,7 @@ EscapeLayer escapeLayer(const Editor& editor) {
   if (editor.view.tool != Tool::select) return EscapeLayer::tool;
   const auto& survey = editor.survey;
   const bool chosen = !editor.selection.empty() || survey.station >= 0 || survey.target >= 0 || survey.underlay >= 0 ||
-                      survey.measurement >= 0;
+                      survey.measurement >= 0 || survey.trajectory >= 0;
   return chosen ? EscapeLayer::selection : EscapeLayer::none;
 }
 

@@ -18,7 +18,6 @@ namespace standpoint {
 namespace {
 
 constexpr double kReach_px = 5;  // of a point of a cloud
-constexpr int kKeyBackspace = 259;
 
 // Keeps what was clicked as a measurement of the project; the tool stays for the next one.
 void finish(Editor& editor) {

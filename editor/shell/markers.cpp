@@ -11,6 +11,7 @@
 #include "editor/shell/holes_overlay.h"
 #include "editor/shell/label_board.h"
 #include "editor/shell/overlay.h"
+#include "editor/shell/trajectory_overlay.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
@@ -215,6 +216,7 @@ void drawMarkers(Editor& editor, ImVec2 origin) {
       {origin.x + static_cast<float>(editor.view.size.x()), origin.y + static_cast<float>(editor.view.size.y())}, true);
   drawHoles(editor, state, origin);
   drawWay(editor, pen);
+  drawTrajectories(editor, state, origin, pen.labels);
   drawPreview(editor, pen);
   drawStations(editor, pen, state);
   drawTargets(editor, pen, state);

@@ -16,6 +16,7 @@
 #include "editor/shell/moving.h"
 #include "editor/shell/navigation_cube_view.h"
 #include "editor/shell/row_overlay.h"
+#include "editor/shell/trajectory_overlay.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
@@ -249,6 +250,11 @@ ui::Text toolHint(const Editor& editor) {
     case Tool::pickSection: hint = "Click a wall to cut along it   Esc to leave"; break;
     case Tool::takeMaterial: hint = "Click a surface to pick its material   Esc to leave"; break;
     case Tool::paintMaterial: hint = "Click surfaces to assign the selected material   Esc to leave"; break;
+    case Tool::layTrajectory:
+      hint = view.draft.waypoints.empty()
+                 ? "Click the floor where the path begins   Esc to leave"
+                 : "Click to add waypoints   Enter to finish   Backspace to take the last one back   Esc to give up";
+      break;
     case Tool::layWay: hint = "Click the floor to add a waypoint   Esc to leave"; break;
     case Tool::walk:
     case Tool::fly:
@@ -397,6 +403,7 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   expectedChips(editor);
   coverageChips(editor);
   rowChips(editor);
+  trajectoryChips(editor);
   targetChip(editor);
   movingChips(editor);
   ImGui::EndGroup();

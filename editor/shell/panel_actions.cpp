@@ -64,8 +64,10 @@ void PanelActions::drawScansAt(ScanPoses poses) { editor_.view.poses = poses; }
 
 void PanelActions::choose(const SurveyChoice& choice) { editor_.survey = choice; }
 void PanelActions::choose(const ChosenMaterial& material) { editor_.material = material; }
+void PanelActions::chooseTrajectory(const std::string& name) { editor_.trajectory_wanted = name; }
 void PanelActions::renameBegun() { editor_.rename_wanted = false; }
 void PanelActions::set(const ScanChoice& scan) { editor_.scan_choice = scan; }
+void PanelActions::set(const CarriedScan& scan) { editor_.carried_scan = scan; }
 void PanelActions::set(const SeenLimits& limits) { editor_.seen = limits; }
 void PanelActions::set(const Body& walker) { editor_.walker = walker; }
 void PanelActions::set(const WallChoice& wall) { editor_.wall_choice = wall; }

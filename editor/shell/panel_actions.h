@@ -42,8 +42,10 @@ class PanelActions final : public Actions {
 
   void choose(const SurveyChoice& choice) override;
   void choose(const ChosenMaterial& material) override;
+  void chooseTrajectory(const std::string& name) override;
   void renameBegun() override;
   void set(const ScanChoice& scan) override;
+  void set(const CarriedScan& scan) override;
   void set(const SeenLimits& limits) override;
   void set(const Body& walker) override;
   void set(const WallChoice& wall) override;

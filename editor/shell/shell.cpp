@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -85,7 +86,7 @@ void recentMenu(Editor& editor) {
 }
 
 void runMenu(Editor& editor) {
-  items(editor, {"add-station", "add-row", "add-target", "scan", ""});
+  items(editor, {"add-station", "add-row", "add-trajectory", "add-target", "scan", ""});
   for (const auto& verb : editor.session.verbs()) {
     const std::string_view name = verb.name;
     if (name.ends_with("-project") || name.ends_with("-recovery")) continue;
@@ -275,7 +276,8 @@ std::string tabLabel(const Panel& panel, TabLabels labels) {
 }
 
 void drawPanelTabs(Editor& editor, Area area, const char* id) {
-  auto& wanted = editor.wanted_tab[static_cast<std::size_t>(area)];
+  // A panel of this area may ask for another one of it, which is for the next frame.
+  const auto wanted = std::exchange(editor.wanted_tab[static_cast<std::size_t>(area)], {});
   const auto workspace = static_cast<std::size_t>(editor.workspace);
   const TabLabels labels = tabLabels(editor, area);
   ImGui::PushID(static_cast<int>(workspace));
@@ -297,7 +299,6 @@ void drawPanelTabs(Editor& editor, Area area, const char* id) {
     ImGui::EndTabBar();
   }
   ImGui::PopID();
-  wanted.clear();
 }
 
 bool anyPanel(const Editor& editor, Area area) {

@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 #include "editor/model/station_steps.h"
+#include "editor/model/trajectory_steps.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/clip_handles.h"
 #include "editor/shell/coverage_overlay.h"
@@ -28,6 +29,8 @@
 #include "editor/shell/station_handles.h"
 #include "editor/shell/teleport.h"
 #include "editor/shell/tour_card.h"
+#include "editor/shell/trajectory_overlay.h"
+#include "editor/shell/waypoint_drag.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keyboard.h"
 #include "editor/widgets/overlap.h"
@@ -122,6 +125,8 @@ void layWay(Editor& editor, const RayHit& hit) {
   if (editor.on_way) editor.on_way(hit.position + editor.shift_m());
 }
 
+void addTrajectoryPlace(Editor& editor, const RayHit& hit) { addWaypoint(editor, hit); }
+
 void click(Editor& editor) {
   const auto& hit = editor.view.hover;
   const bool add = ImGui::GetIO().KeyCtrl;
@@ -136,6 +141,7 @@ void click(Editor& editor) {
     case Tool::takeMaterial: act = takeMaterial; break;
     case Tool::paintMaterial: act = paintMaterial; break;
     case Tool::layWay: act = layWay; break;
+    case Tool::layTrajectory: act = addTrajectoryPlace; break;
     case Tool::walk: return clickWalking(editor);
     case Tool::fly: return;
     case Tool::select: break;
@@ -295,9 +301,11 @@ void drawViewport(Editor& editor) {
       !previewed && !on_probe && dragStationHandle(editor, view.in_right_half ? right : origin, hovered);
   const bool on_station =
       !previewed && !on_probe && !on_handle && dragStation(editor, view.in_right_half ? right : origin, hovered);
-  const bool on_clip = !previewed && !on_probe && !on_handle && !on_station &&
+  const bool on_waypoint = !previewed && !on_probe && !on_handle && !on_station &&
+                           dragWaypoint(editor, view.in_right_half ? right : origin, hovered);
+  const bool on_clip = !previewed && !on_probe && !on_handle && !on_station && !on_waypoint &&
                        dragClip(editor, view.in_right_half ? right : origin, hovered);
-  if (!on_probe && !on_handle && !on_station && !on_clip)
+  if (!on_probe && !on_handle && !on_station && !on_waypoint && !on_clip)
     handleMouse(editor, view.in_right_half ? right : origin, hovered);
   handleMoving(editor);
   if (view.dragging || ImGui::GetIO().MouseWheel != 0 || ImGui::GetIO().MouseWheelH != 0)
@@ -317,6 +325,7 @@ void drawViewport(Editor& editor) {
   drawOverlay(editor, origin, whole);
   drawStationHandles(editor, both ? right : origin);
   drawRow(editor, both ? right : origin);
+  drawNextWaypoint(editor, both ? right : origin);
   drawPlaceGhost(editor, both ? right : origin, size);
   drawTeleport(editor, both ? right : origin);
   drawTightPlaces(editor, both ? right : origin);

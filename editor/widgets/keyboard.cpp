@@ -33,7 +33,7 @@ constexpr struct {
                 {ImGuiKey_End, 269},
                 {ImGuiKey_Insert, 260},
                 {ImGuiKey_Delete, kKeyDelete},
-                {ImGuiKey_Backspace, 259},
+                {ImGuiKey_Backspace, kKeyBackspace},
                 {ImGuiKey_Space, ' '},
                 {ImGuiKey_Enter, kKeyEnter},
                 {ImGuiKey_Escape, kKeyEscape},

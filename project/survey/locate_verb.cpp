@@ -36,16 +36,17 @@ Result<const CloudFormat*> formatOf(const fs::path& file) {
   return format;
 }
 
-Result<void> fitsScan(const CloudInfo& info, const Station& station, const Scan& scan, const fs::path& file) {
+// `name`: of the station or trajectory that it is a scan of.
+Result<void> fitsScan(const CloudInfo& info, const std::string& name, const Scan& scan, const fs::path& file) {
   std::uint64_t all = 0;
   for (const auto& in_file : info.scans) {
-    if (in_file.points == scan.points && (info.scans.size() == 1 || in_file.header.name == station.name)) return {};
+    if (in_file.points == scan.points && (info.scans.size() == 1 || in_file.header.name == name)) return {};
     all += in_file.points;
   }
   return failure(
       ErrorKind::unusable,
       fmt::format("this is another file: it has {} points in {} scans, and none is that of {} with {} points", all,
-                  info.scans.size(), station.name, scan.points),
+                  info.scans.size(), name, scan.points),
       file.string());
 }
 
@@ -67,16 +68,23 @@ Result<void> fitsUnderlay(const Underlay& underlay, const fs::path& file, Progre
 // What the project knows of `old` is in `file`.
 Result<void> checkSame(const Document& document, const fs::path& old, const fs::path& file, Progress& progress) {
   progress.stage("Reading " + file.filename().string());
+  // The way itself may be another one: its file is taken as it is.
+  const auto& trajectories = document.job->trajectories;
+  if (std::any_of(trajectories.begin(), trajectories.end(), [&](const auto& t) { return old == t.file; })) return {};
   TRY_ASSIGN(const auto format, formatOf(file));
   std::optional<CloudInfo> info;
-  for (const auto& station : document.job->stations)
-    for (const auto& scan : station.scans) {
+  const auto check = [&](const auto& scanned) -> Result<void> {
+    for (const auto& scan : scanned.scans) {
       if (old != scan.file) continue;
       if (!info) {
         TRY_ASSIGN(info, format->info(file));
       }
-      TRY(fitsScan(*info, station, scan, file));
+      TRY(fitsScan(*info, scanned.name, scan, file));
     }
+    return {};
+  };
+  for (const auto& station : document.job->stations) TRY(check(station));
+  for (const auto& trajectory : trajectories) TRY(check(trajectory));
   for (const auto& underlay : document.underlays)
     if (old == underlay->file) TRY(fitsUnderlay(*underlay, file, progress));
   return {};
@@ -85,12 +93,17 @@ Result<void> checkSame(const Document& document, const fs::path& old, const fs::
 void pointTo(Document& document, const fs::path& old, const fs::path& file) {
   const auto job = std::make_shared<Job>(*document.job);
   bool in_job = false;
+  const auto point = [&](std::string& known) {
+    if (old != known) return;
+    known = file.string();
+    in_job = true;
+  };
   for (auto& station : job->stations)
-    for (auto& scan : station.scans)
-      if (old == scan.file) {
-        scan.file = file.string();
-        in_job = true;
-      }
+    for (auto& scan : station.scans) point(scan.file);
+  for (auto& trajectory : job->trajectories) {
+    point(trajectory.file);
+    for (auto& scan : trajectory.scans) point(scan.file);
+  }
   if (in_job) document.job = job;
   for (auto& underlay : document.underlays) {
     if (old != underlay->file) continue;
@@ -130,9 +143,15 @@ Result<fs::path> wantedOf(const std::vector<ProjectFile>& files, const fs::path&
 
 std::vector<ProjectFile> filesOf(const Document& document) {
   std::vector<ProjectFile> files;
-  if (document.job)
+  if (document.job) {
     for (const auto& station : document.job->stations)
       for (const auto& scan : station.scans) rowOf(files, scan.file).used_by.push_back("scan of " + station.name);
+    for (const auto& trajectory : document.job->trajectories) {
+      if (!trajectory.file.empty()) rowOf(files, trajectory.file).used_by.push_back("trajectory " + trajectory.name);
+      for (const auto& scan : trajectory.scans)
+        rowOf(files, scan.file).used_by.push_back("scan along " + trajectory.name);
+    }
+  }
   for (const auto& underlay : document.underlays)
     rowOf(files, underlay->file).used_by.push_back("underlay " + underlay->name);
   return files;

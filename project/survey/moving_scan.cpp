@@ -15,6 +15,7 @@
 #include "project/answers.h"
 #include "project/survey/scan_header.h"
 #include "project/survey/scan_request.h"
+#include "project/survey/watched_sink.h"
 #include "survey/scanning/scan_identity.h"
 #include "survey/trajectories/carried_motion.h"
 #include "survey/trajectories/trajectory_file.h"
@@ -192,10 +193,12 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
   ScanHeader header =
       scanHeader(document, at_hand.preparation->world, trajectory.name, start, guid, request, kFirstStart_gps_s);
   header.rows = header.columns = 0;
-  TRY(writer->begin(header));
+  const auto watched = company.watcher == nullptr ? nullptr : std::make_unique<WatchedSink>(*writer, *company.watcher);
+  PointSink& sink = watched ? static_cast<PointSink&>(*watched) : *writer;
+  TRY(sink.begin(header));
   TRY_ASSIGN(const auto count, scan(scene, at_hand.preparation->world.assignment, request.instrument, request.settings,
-                                    motion, request.options, *writer, progress));
-  TRY(writer->end());
+                                    motion, request.options, sink, progress));
+  TRY(sink.end());
   TRY(writer->close());
   report.append(writer->report());
   TRY(writeTrajectory(known, *document.georeference, file, ".trajectory.csv"));

@@ -12,6 +12,7 @@
 #include "project/survey/scan_preparation.h"
 #include "project/survey/scan_request.h"
 #include "project/survey/survey_verbs.h"
+#include "project/survey/watched_sink.h"
 #include "scanners/camera/panorama.h"
 #include "survey/scanning/empty_scan.h"
 #include "survey/scanning/scan_identity.h"
@@ -44,31 +45,6 @@ Scan record(const ScanCount& count, const ScanRequest& request, const fs::path& 
   s.as_scanned = AsScanned{pose, targets};
   return s;
 }
-
-// Whoever watches gets each block before the file does: it shall be seen soon.
-class WatchedSink : public PointSink {
- public:
-  WatchedSink(PointSink& file, PointSink& watcher) : file_(file), watcher_(watcher) {}
-  Result<void> begin(const ScanHeader& header) override {
-    return both([&](PointSink& s) { return s.begin(header); });
-  }
-  Result<void> write(const PointBlock& block) override {
-    return both([&](PointSink& s) { return s.write(block); });
-  }
-  Result<void> picture(const StationPicture& picture) override { return file_.picture(picture); }
-  Result<void> end() override {
-    return both([](PointSink& s) { return s.end(); });
-  }
-  Result<void> close() override { return {}; }
-
- private:
-  Result<void> both(const auto& act) {
-    if (auto ok = act(watcher_); !ok) return ok;
-    return act(file_);
-  }
-  PointSink& file_;
-  PointSink& watcher_;
-};
 
 // What one station is of the whole, and how that is called.
 struct ProgressSpan {

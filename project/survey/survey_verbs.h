@@ -327,18 +327,20 @@ const AnswerFields<MoverAnswer>& answerFields(const MoverAnswer*);
 Result<Answered<MoverAnswer>> runMover(const Document& document, const MoverOptions& options, Progress& progress);
 
 struct TrajectoryOptions {
-  std::optional<std::string> add, rename, remove, write;
+  std::optional<std::string> add, change, rename, remove, write;
   std::string name;                  // the new one, for `rename`
-  std::vector<std::string> through;  // waypoints of what is added: "X,Y[,Z][:STOP]"
+  std::vector<std::string> through;  // waypoints of what is added or changed: "X,Y[,Z][:STOP[:LOOK]]"
   std::filesystem::path file;        // or where it is
   std::string format;                // of the file, in or out; empty: as it looks
-  std::string carrier;               // id; empty: hand
+  std::string carrier;               // id; empty: hand, or as it was
   std::optional<double> height_m, speed_mps;
-  std::uint64_t seed = 1;
+  std::optional<std::uint64_t> seed;
   std::filesystem::path output;  // for `write`
   double rate_hz = 200;
 };
 const Fields<TrajectoryOptions>& trajectoryFields();
+// A waypoint as `through` has it, in the frame of the model's file: the text reads as the same place again.
+std::string waypointText(const Waypoint& waypoint, const Georeference& georeference);
 
 struct TrajectoryRow {
   std::string name, carrier;

@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include "core/motion/carriers.h"
+#include "core/number_text.h"
 #include "core/output_place.h"
+#include "core/units.h"
 #include "project/survey/clicked_places.h"
 #include "project/survey/survey_verbs.h"
 #include "survey/trajectories/carried_motion.h"
@@ -35,11 +37,24 @@ Result<void> checkTrajectoryName(Job& job, const std::string& name, const char* 
   return {};
 }
 
+double heightOf(const CarriedTrajectory& t) {
+  const auto carrier =
+      std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == t.carrier; });
+  return t.height_m > 0 || carrier == kCarriers.end() ? t.height_m : carrier->limits.height_m;
+}
+
+Result<std::vector<Waypoint>> waypointsFrom(const RayScene& scene, const Georeference& g, const CarriedTrajectory& of,
+                                            const std::vector<std::string>& through) {
+  if (through.size() < 2)
+    return failure(ErrorKind::usage, "specify at least two places as X,Y or X,Y,Z, or a file", "--through");
+  return waypointsOf(through, scene, g, heightOf(of), "--through", of.waypoints);
+}
+
 Result<CarriedTrajectory> newTrajectory(const RayScene& scene, const Georeference& georeference,
                                         const TrajectoryOptions& options) {
   CarriedTrajectory made;
   made.name = *options.add;
-  made.seed = options.seed;
+  made.seed = options.seed.value_or(1);
   made.carrier = options.carrier.empty() ? "hand" : options.carrier;
   if (!options.file.empty()) {
     if (!options.through.empty()) return failure(ErrorKind::usage, "use either waypoints or a file", "--through");
@@ -54,14 +69,25 @@ Result<CarriedTrajectory> newTrajectory(const RayScene& scene, const Georeferenc
     }
     return made;
   }
-  if (options.through.size() < 2)
-    return failure(ErrorKind::usage, "specify at least two places as X,Y or X,Y,Z, or a file", "--through");
-  const auto carrier =
-      std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == made.carrier; });
   made.height_m = options.height_m.value_or(0), made.speed_mps = options.speed_mps.value_or(0);
-  const double height = options.height_m.value_or(carrier->limits.height_m);
-  TRY_ASSIGN(made.waypoints, waypointsOf(options.through, scene, georeference, height, "--through"));
+  TRY_ASSIGN(made.waypoints, waypointsFrom(scene, georeference, made, options.through));
   return made;
+}
+
+Result<CarriedTrajectory> changedTrajectory(const RayScene& scene, const Georeference& georeference,
+                                            CarriedTrajectory changed, const TrajectoryOptions& options) {
+  if (!changed.file.empty())
+    return failure(ErrorKind::usage,
+                   fmt::format("'{}' is what its file has; remove it and add the changed file", changed.name),
+                   "--change");
+  if (!options.file.empty()) return failure(ErrorKind::usage, "use either waypoints or a file", "--file");
+  if (!options.carrier.empty()) changed.carrier = options.carrier;
+  changed.height_m = options.height_m.value_or(changed.height_m);
+  changed.speed_mps = options.speed_mps.value_or(changed.speed_mps);
+  changed.seed = options.seed.value_or(changed.seed);
+  if (options.through.empty()) return changed;
+  TRY_ASSIGN(changed.waypoints, waypointsFrom(scene, georeference, changed, options.through));
+  return changed;
 }
 
 // Of what it takes to go it; a trajectory that cannot be made is listed with the reason.
@@ -103,8 +129,11 @@ const Fields<TrajectoryOptions>& trajectoryFields() {
   using O = TrajectoryOptions;
   static const Fields<O> fields = {
       {"add", &O::add, "name of a new trajectory, with --through or --file"},
+      {"change", &O::change,
+       "name of a trajectory that gets other places with --through, or another carrier, height, speed or seed"},
       {"through", &O::through,
-       "places on the floor that it passes, X,Y or X,Y,Z in the model's own frame; X,Y:SECONDS stops there"},
+       "places on the floor that it passes, X,Y or X,Y,Z in the model's own frame; X,Y:SECONDS stops there, "
+       "X,Y:SECONDS:DEGREES looks that way from there on, counter-clockwise from X"},
       {"file", &O::file, "file of a recorded trajectory, instead: CSV, SBET, TUM, KITTI, EuRoC, HELIOS++"},
       {"format",
        &O::format,
@@ -116,10 +145,13 @@ const Fields<TrajectoryOptions>& trajectoryFields() {
        {.choices = {"hand", "backpack", "trolley", "vehicle", "uav"}}},
       {"height",
        &O::height_m,
-       "of the scanner above the floor; without it the carrier's",
+       "of the scanner above the floor; without it, or 0, the carrier's",
        {.unit = "m", .minimum = 0, .maximum = 1000}},
-      {"speed", &O::speed_mps, "at most; without it the carrier's", {.unit = "m/s", .minimum = 0.01, .maximum = 100}},
-      {"seed", &O::seed, "of gait and shaking", {.minimum = 0, .maximum = 9007199254740991.0}},
+      {"speed",
+       &O::speed_mps,
+       "at most; without it, or 0, the carrier's",
+       {.unit = "m/s", .minimum = 0, .maximum = 100}},
+      {"seed", &O::seed, "of gait and shaking; without it 1", {.minimum = 0, .maximum = 9007199254740991.0}},
       {"rename", &O::rename, "name of the trajectory that gets another --name"},
       {"name", &O::name, "its new name"},
       {"remove", &O::remove, "name of a trajectory to remove; its scans stay where they are"},
@@ -143,28 +175,43 @@ const AnswerFields<TrajectoryAnswer>& answerFields(const TrajectoryAnswer*) {
   return fields;
 }
 
+std::string waypointText(const Waypoint& waypoint, const Georeference& georeference) {
+  const Eigen::Vector3d p = waypoint.floor_m + georeference.shift_m;
+  std::string text = exactText(p.x()) + "," + exactText(p.y()) + "," + exactText(p.z());
+  if (waypoint.stop_s > 0 || waypoint.look_rad) text += ":" + exactText(waypoint.stop_s);
+  if (waypoint.look_rad) text += ":" + exactText(*waypoint.look_rad / kRadPerDeg);
+  return text;
+}
+
 Result<Answered<TrajectoryAnswer>> runTrajectory(const Document& document, const TrajectoryOptions& options,
                                                  Progress& progress) {
   progress.stage("Trajectory");
-  const int asked = static_cast<int>(options.add.has_value()) + static_cast<int>(options.rename.has_value()) +
-                    static_cast<int>(options.remove.has_value()) + static_cast<int>(options.write.has_value());
+  int asked = 0;
+  for (const auto* name : {&options.add, &options.change, &options.rename, &options.remove, &options.write})
+    asked += static_cast<int>(name->has_value());
   if (asked > 1)
-    return failure(ErrorKind::usage, "specify one of --add NAME, --rename NAME, --remove NAME, --write NAME");
-  if (!options.add && (!options.through.empty() || !options.file.empty()))
-    return failure(ErrorKind::usage, "name the new trajectory with --add NAME", "--add");
+    return failure(ErrorKind::usage,
+                   "specify one of --add NAME, --change NAME, --rename NAME, --remove NAME, --write NAME");
+  if (!options.add && !options.change && (!options.through.empty() || !options.file.empty()))
+    return failure(ErrorKind::usage, "name the trajectory with --add NAME, or --change NAME", "--add");
   if (options.write.has_value() == options.output.empty())
     return failure(ErrorKind::usage, "--write NAME and --output FILE belong together", "--output");
   Answered<TrajectoryAnswer> outcome{document};
   Job job = *document.job;
   const auto& g = *document.georeference;
-  if (options.add) {
-    TRY(checkTrajectoryName(job, *options.add, "--add"));
+  if (options.add || options.change) {
+    if (options.add) TRY(checkTrajectoryName(job, *options.add, "--add"));
+    const auto at = options.change ? trajectoryAt(job, *options.change) : job.trajectories.end();
+    if (options.change && at == job.trajectories.end()) return noTrajectory(job, *options.change);
     TRY_ASSIGN(const auto scene, RayScene::build(document.environment(), progress));
-    TRY_ASSIGN(auto made, newTrajectory(*scene, g, options));
+    TRY_ASSIGN(auto made, options.add ? newTrajectory(*scene, g, options) : changedTrajectory(*scene, g, *at, options));
     TRY_ASSIGN(const auto carried, carriedMotion(made, g, outcome.report, progress));
     findObstacles(carried, *scene, g, made.name, outcome.report);
-    job.trajectories.push_back(std::move(made));
-    outcome.description = "Added trajectory " + *options.add;
+    outcome.description = (options.add ? "Added trajectory " : "Changed trajectory ") + made.name;
+    if (options.add)
+      job.trajectories.push_back(std::move(made));
+    else
+      *at = std::move(made);
   } else if (options.rename || options.remove || options.write) {
     const std::string& name = options.rename ? *options.rename : options.remove ? *options.remove : *options.write;
     const auto at = trajectoryAt(job, name);
@@ -183,7 +230,7 @@ Result<Answered<TrajectoryAnswer>> runTrajectory(const Document& document, const
   }
   for (const auto& t : job.trajectories)
     outcome.answer.trajectories.push_back(trajectoryRow(t, g, outcome.report, progress));
-  if (options.add || options.rename || options.remove)
+  if (options.add || options.change || options.rename || options.remove)
     outcome.document.job = std::make_shared<const Job>(std::move(job));
   return outcome;
 }

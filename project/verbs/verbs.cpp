@@ -10,6 +10,7 @@
 #include "project/model/optimize_verb.h"
 #include "project/model/treatments.h"
 #include "project/survey/assess_verb.h"
+#include "project/survey/coverage_verb.h"
 #include "project/survey/locate_verb.h"
 #include "project/survey/measure_verb.h"
 #include "project/survey/register_verb.h"
@@ -76,9 +77,11 @@ const std::vector<Verb>& table() {
       carriedOver(verbOf("scan", "Scan from the stations with an instrument into point-cloud files", S::changes,
                          scanFields(), runScan),
                   scansCarriedOver),
+      verbOf("coverage", "Compare what is covered along trajectories, predicted or measured, and why the rest is blind",
+             S::reads, coverageFields(), runCoverage),
       verbOf("trajectory",
-             "Add, import, rename, remove, write or list the trajectories along which scanners are carried", S::changes,
-             trajectoryFields(), runTrajectory),
+             "Add, import, change, rename, remove, write or list the trajectories along which scanners are carried",
+             S::changes, trajectoryFields(), runTrajectory),
       verbOf("mover",
              "Add, remove or list what moves while it is scanned: people, vehicles, doors, what turns or slides",
              S::changes, moverFields(), runMover),

@@ -42,8 +42,7 @@ SampleCells::SampleCells(const RayScene& scene, const SurfaceSamples& samples, d
   });
 }
 
-void SampleCells::mark(const Eigen::Vector3d& point, const Eigen::Vector3d& origin,
-                       std::span<std::uint32_t> counts) const {
+void SampleCells::each(const Eigen::Vector3d& point, const Eigen::Vector3d& origin, const auto& visit) const {
   const std::uint64_t cell = hashOf(cellAt(point, radius_m_));
   for (auto e = begins_[cell & mask_]; e < begins_[(cell & mask_) + 1]; ++e) {
     if (entries_[e].cell != cell) continue;
@@ -53,8 +52,18 @@ void SampleCells::mark(const Eigen::Vector3d& point, const Eigen::Vector3d& orig
     if (!(way.squaredNorm() <= radius_m_ * radius_m_)) continue;
     if (std::abs(way.dot(place.normal)) > radius_m_ / 2) continue;
     if (thin_[k] != 0 && place.normal.dot(origin - place.position) <= 0) continue;
-    std::atomic_ref(counts[k]).fetch_add(1, std::memory_order_relaxed);
+    visit(k);
   }
+}
+
+void SampleCells::mark(const Eigen::Vector3d& point, const Eigen::Vector3d& origin,
+                       std::span<std::uint32_t> counts) const {
+  each(point, origin, [&](std::uint32_t k) { std::atomic_ref(counts[k]).fetch_add(1, std::memory_order_relaxed); });
+}
+
+void SampleCells::samplesAt(const Eigen::Vector3d& point, const Eigen::Vector3d& origin,
+                            std::vector<std::uint32_t>& found) const {
+  each(point, origin, [&](std::uint32_t k) { found.push_back(k); });
 }
 
 void EvenDraw::offer(const Eigen::Vector3d& point) {

@@ -20,8 +20,11 @@ class SampleCells {
   // Adds 1 to the count of each sample that the point lies on. Of a board thinner than the radius only the side counts
   // that looks to where the point was measured from. Thread-safe, also for the same counts.
   void mark(const Eigen::Vector3d& point, const Eigen::Vector3d& origin, std::span<std::uint32_t> counts) const;
+  // Appends the same samples.
+  void samplesAt(const Eigen::Vector3d& point, const Eigen::Vector3d& origin, std::vector<std::uint32_t>& found) const;
 
  private:
+  void each(const Eigen::Vector3d& point, const Eigen::Vector3d& origin, const auto& visit) const;
   struct Entry {
     std::uint64_t cell;
     std::uint32_t sample;

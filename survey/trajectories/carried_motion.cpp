@@ -125,11 +125,29 @@ Trajectory evenSamples(const PoseFunction& function, double rate_hz) {
   return samples;
 }
 
-void findObstacles(const CarriedMotion& carried, const RayScene& scene, const Georeference& georeference,
-                   const std::string& name, Report& report) {
+std::vector<PathSample> pathSamples(const CarriedMotion& carried, std::size_t most) {
+  constexpr double kStep_s = 0.1, kBeside_s = 0.02;
+  const PoseFunction& path = *carried.path;
+  const double first = path.first_s(), last = path.last_s();
+  const auto steps = static_cast<std::size_t>(
+      std::clamp(std::ceil((last - first) / kStep_s), 1.0, static_cast<double>(std::max<std::size_t>(most, 2) - 1)));
+  std::vector<PathSample> samples(steps + 1);
+  tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t k) {
+    const double time_s =
+        k < steps ? first + (last - first) * static_cast<double>(k) / static_cast<double>(steps) : last;
+    const double from_s = std::max(first, time_s - kBeside_s), to_s = std::min(last, time_s + kBeside_s);
+    const Pose from = path.pose(from_s), to = path.pose(to_s);
+    samples[k] = {time_s - first, path.pose(time_s).translation, 0, 0};
+    if (to_s <= from_s) return;
+    samples[k].speed_mps = (to.translation - from.translation).norm() / (to_s - from_s);
+    samples[k].turn_radps = from.rotation.angularDistance(to.rotation) / (to_s - from_s);
+  });
+  return samples;
+}
+
+std::vector<PathObstacle> obstaclesOf(const CarriedMotion& carried, const RayScene& scene) {
   constexpr double kStep_s = 0.1;
-  constexpr std::size_t kMost = 10;
-  std::size_t found = 0;
+  std::vector<PathObstacle> found;
   const double first = carried.path->first_s(), last = carried.path->last_s();
   Eigen::Vector3d before = carried.path->pose(first).translation;
   const auto steps = static_cast<std::uint64_t>(std::ceil((last - first) / kStep_s));
@@ -140,13 +158,22 @@ void findObstacles(const CarriedMotion& carried, const RayScene& scene, const Ge
     if (length < 1e-6) continue;
     const auto hit = scene.intersect(before, (here - before) / length, length);
     before = here;
-    if (!hit || ++found > kMost) continue;
-    const Eigen::Vector3d at = hit->position + georeference.shift_m;
-    report.warn(name, fmt::format("goes through {} at ({:.2f}, {:.2f}, {:.2f}), after {:.1f} s",
-                                  productText(scene.environment().products[hit->product]), at.x(), at.y(), at.z(),
-                                  time_s - first));
+    if (hit) found.push_back({hit->product, hit->position, time_s - first});
   }
-  if (found > kMost) report.warn(name, fmt::format("goes through {} more surfaces", found - kMost));
+  return found;
+}
+
+void findObstacles(const CarriedMotion& carried, const RayScene& scene, const Georeference& georeference,
+                   const std::string& name, Report& report) {
+  constexpr std::size_t kMost = 10;
+  const auto found = obstaclesOf(carried, scene);
+  for (std::size_t i = 0; i < std::min(kMost, found.size()); ++i) {
+    const Eigen::Vector3d at = found[i].place_m + georeference.shift_m;
+    report.warn(name, fmt::format("goes through {} at ({:.2f}, {:.2f}, {:.2f}), after {:.1f} s",
+                                  productText(scene.environment().products[found[i].product]), at.x(), at.y(), at.z(),
+                                  found[i].after_s));
+  }
+  if (found.size() > kMost) report.warn(name, fmt::format("goes through {} more surfaces", found.size() - kMost));
 }
 
 Result<SolvedMotion> solveMotion(const CarriedMotion& carried, const RayScene& scene, std::span<const Station> stations,

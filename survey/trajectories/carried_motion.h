@@ -33,8 +33,23 @@ Result<CarriedMotion> carriedMotion(const CarriedTrajectory& trajectory, const G
 // Poses at even steps from the first to the last time.
 Trajectory evenSamples(const PoseFunction& function, double rate_hz);
 
-// What the path runs through, as warnings of the report: where the body's centre goes from one side of a surface to the
-// other. At most ten, and how many more.
+// A moment on the way, without gait and shaking.
+struct PathSample {
+  double after_s = 0;                                    // since it begins
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // of the body, local frame
+  double speed_mps = 0, turn_radps = 0;                  // turn: of the body about any axis
+};
+// At even steps of 0.1 s, or longer ones so that they are no more than `most`; the first and the last moment are there.
+std::vector<PathSample> pathSamples(const CarriedMotion& carried, std::size_t most);
+
+// Where the body's centre goes from one side of a surface to the other, within 0.1 s.
+struct PathObstacle {
+  std::uint32_t product = 0;
+  Eigen::Vector3d place_m = Eigen::Vector3d::Zero();  // local frame
+  double after_s = 0;                                 // since it begins
+};
+std::vector<PathObstacle> obstaclesOf(const CarriedMotion& carried, const RayScene& scene);
+// The same as warnings of the report. At most ten, and how many more.
 void findObstacles(const CarriedMotion& carried, const RayScene& scene, const Georeference& georeference,
                    const std::string& name, Report& report);
 

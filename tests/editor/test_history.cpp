@@ -106,6 +106,7 @@ std::map<std::string, std::vector<json>> samplesOfVerbs(const fs::path& folder) 
       {"scan", {{{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/32", "quality=4x"}}, {"output", scan}}}},
       {"trajectory",
        {{{"add", "Walk 2"}, {"through", {"4.3,1.6,0", "4.3,2.4,0"}}},
+        {{"change", "Walk 1"}, {"carrier", "backpack"}},
         {{"rename", "Walk 1"}, {"name", "Ground floor"}},
         {{"remove", "Walk 1"}}}},
       {"mover", {{{"add", "Bea"}, {"through", {"4.3,1.6,0", "4.3,2.4,0"}}}, {{"remove", "Ada"}}}},

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 #include <fstream>
+#include <numbers>
 #include <set>
 
 #include <gtest/gtest.h>
 
 #include "pointclouds/formats.h"
 #include "project/storage/project_files.h"
+#include "project/survey/scan_preparation.h"
 #include "tests/pointclouds/kept_scans.h"
 #include "tests/project/support.h"
 
@@ -74,6 +76,65 @@ TEST(TrajectoryVerb, RenamesAndRemoves) {
   EXPECT_TRUE(removed->document.job->trajectories.empty());
 }
 
+TEST(TrajectoryVerb, ChangesWaypointsWithTheirStopsAndLooks) {
+  const Document made = withLoop();
+  const auto& before = made.job->trajectories[0];
+  json options = {{"change", "loop"}, {"carrier", "trolley"}, {"height", 1.5}, {"speed", 0.5}};
+  for (const auto& waypoint : before.waypoints)
+    options["through"].push_back(waypointText(waypoint, *made.georeference));
+  options["through"][1] = "500003,5600001,0:2:90";
+  options["through"].push_back("500001,5600003::-30");
+  const auto changed = run("trajectory", made, options);
+  ASSERT_TRUE(changed) << describe(changed.error());
+  EXPECT_EQ(changed->description, "Changed trajectory loop");
+  const auto& after = changed->document.job->trajectories[0];
+  ASSERT_EQ(after.waypoints.size(), 5U);
+  EXPECT_EQ(after.carrier, "trolley");
+  EXPECT_EQ(after.height_m, 1.5);
+  EXPECT_EQ(after.speed_mps, 0.5);
+  EXPECT_EQ(after.waypoints[0].floor_m, before.waypoints[0].floor_m) << "to the last digit";
+  EXPECT_EQ(after.waypoints[2].stop_s, 1.5);
+  EXPECT_NEAR(after.waypoints[1].floor_m.x(), 3, 1e-6);
+  EXPECT_EQ(after.waypoints[1].stop_s, 2);
+  EXPECT_NEAR(after.waypoints[1].look_rad.value_or(0), std::numbers::pi / 2, 1e-12);
+  EXPECT_NEAR(after.waypoints[4].look_rad.value_or(0), -std::numbers::pi / 6, 1e-12);
+  const auto usual = run("trajectory", changed->document, {{"change", "loop"}, {"height", 0}, {"speed", 0}});
+  ASSERT_TRUE(usual);
+  EXPECT_EQ(usual->document.job->trajectories[0].height_m, 0);
+  EXPECT_EQ(usual->document.job->trajectories[0].waypoints.size(), 5U);
+  EXPECT_EQ(usual->document.job->trajectories[0].carrier, "trolley") << "what is not said stays";
+}
+
+TEST(TrajectoryVerb, ChangesNoTrajectoryOfAFile) {
+  const TemporaryFolder folder;
+  const auto file = (folder.path() / "w.csv").string();
+  const Document made = withLoop();
+  ASSERT_TRUE(run("trajectory", made, {{"write", "loop"}, {"output", file}}));
+  const auto read = run("trajectory", made, {{"add", "again"}, {"file", file}});
+  ASSERT_TRUE(read);
+  const auto changed = run("trajectory", read->document, {{"change", "again"}, {"speed", 2}});
+  ASSERT_FALSE(changed);
+  EXPECT_NE(describe(changed.error()).find("is what its file has"), std::string::npos);
+}
+
+TEST(MovingScanVerb, IsShownToWhoeverWatchesIt) {
+  struct Watcher : PointSink {
+    Result<void> begin(const ScanHeader&) override { return {}; }
+    Result<void> write(const PointBlock& block) override { return points += block.size(), Result<void>(); }
+    Result<void> end() override { return {}; }
+    Result<void> close() override { return {}; }
+    std::uint64_t points = 0;
+  };
+  const TemporaryFolder folder;
+  auto options = optionsFrom(scanFields(), *checkOptions(*findVerb(verbs(), "scan"), along(folder.path() / "o.e57")));
+  ASSERT_TRUE(options);
+  const auto watcher = std::make_shared<Watcher>();
+  Progress progress;
+  const auto outcome = runScan(withLoop(), *options, {nullptr, watcher, {}}, progress);
+  ASSERT_TRUE(outcome) << describe(outcome.error());
+  EXPECT_EQ(watcher->points, outcome->answer.stations[0].points);
+}
+
 TEST(TrajectoryVerb, WritesWhatItReadsAgain) {
   const TemporaryFolder folder;
   const Document made = withLoop();
@@ -110,6 +171,10 @@ TEST(TrajectoryVerb, RefusesWhatIsNoTrajectoryWithARemedy) {
   refused({{"add", "short"}, {"through", {"500001,5600001"}}}, "at least two places");
   refused({{"add", "odd"}, {"through", {"500001,5600001", "north"}}}, "'north' must be X,Y");
   refused({{"add", "odd"}, {"through", {"500001,5600001", "500002,5600001:-3"}}}, "0 to 3600 seconds");
+  refused({{"add", "odd"}, {"through", {"500001,5600001", "500002,5600001:1:500"}}}, "-360 to 360 degrees");
+  refused({{"change", "x"}, {"speed", 1}}, "available: loop");
+  refused({{"change", "loop"}, {"remove", "loop"}}, "specify one of");
+  refused({{"change", "loop"}, {"through", {"500001,5600001", "500060,5600001"}}}, "no floor at");
   refused({{"add", "out"}, {"through", {"500001,5600001", "500060,5600001"}}}, "no floor at");
   refused({{"add", "none"}, {"file", (folder.path() / "none.tum").string()}}, "none.tum");
   refused({{"through", {"500001,5600001", "500002,5600001"}}}, "--add NAME");

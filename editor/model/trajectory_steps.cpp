@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/model/trajectory_steps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/motion/carriers.h"
+#include "editor/model/model.h"
+#include "editor/words/words.h"
+#include "survey/stations/station_places.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr double kOnFloor_m = 0.05;    // a floor there is the one that was pointed at
+constexpr double kSteepest = 0.7;      // upward part of the normal of a floor
+constexpr double kSamePlace_m = 0.05;  // two waypoints are not nearer than that
+
+const Carrier* carrierOf(const std::string& id) {
+  const auto found = std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == id; });
+  return found == kCarriers.end() ? nullptr : &*found;
+}
+
+CarriedTrajectory laid(const TrajectoryDraft& draft) {
+  CarriedTrajectory trajectory;
+  trajectory.name = "draft";
+  trajectory.carrier = draft.carrier;
+  trajectory.waypoints = draft.waypoints;
+  trajectory.height_m = draft.height_m, trajectory.speed_mps = draft.speed_mps;
+  return trajectory;
+}
+
+}  // namespace
+
+const CarriedTrajectory* chosenTrajectory(const Model& model) {
+  const auto& job = model.session.document().job;
+  const auto chosen = static_cast<std::size_t>(model.survey.trajectory);
+  return job && model.survey.trajectory >= 0 && chosen < job->trajectories.size() ? &job->trajectories[chosen]
+                                                                                  : nullptr;
+}
+
+std::string whyNoTrajectory(const Model& model) {
+  return chosenTrajectory(model) != nullptr ? "" : "Select a trajectory in the Survey panel first";
+}
+
+std::string freeTrajectoryName(const Job& job) {
+  for (int i = 1;; ++i) {
+    auto name = "W" + std::to_string(i);
+    if (std::none_of(job.trajectories.begin(), job.trajectories.end(), [&](const auto& t) { return t.name == name; }))
+      return name;
+  }
+}
+
+double carriedHeight_m(const std::string& carrier, double stated_m) {
+  const Carrier* known = carrierOf(carrier);
+  return stated_m > 0 || known == nullptr ? stated_m : known->limits.height_m;
+}
+
+std::string carrierName(const std::string& id) {
+  const Carrier* known = carrierOf(id);
+  return known == nullptr ? id : tr(std::string(known->name));
+}
+
+TrajectoryOptions changeTo(const CarriedTrajectory& changed, const Georeference& georeference) {
+  TrajectoryOptions options;
+  options.change = changed.name;
+  options.carrier = changed.carrier;
+  options.height_m = changed.height_m, options.speed_mps = changed.speed_mps;
+  options.seed = changed.seed;
+  for (const auto& waypoint : changed.waypoints) options.through.push_back(waypointText(waypoint, georeference));
+  return options;
+}
+
+std::optional<RefusedPlace> whyNoWaypoint(const RayScene& scene, const RayHit& hit, double height_m) {
+  const auto& p = hit.position;
+  const auto refuse = [&](std::string brief, std::string reason) {
+    return RefusedPlace{"", std::move(brief), std::move(reason), p};
+  };
+  if (std::abs(hit.normal.z()) < kSteepest)
+    return refuse("Too steep to walk on", "A waypoint lies on a floor, a stair or the ground.");
+  const auto floors = floorsAt(scene, p.x(), p.y(), height_m);
+  if (std::any_of(floors.begin(), floors.end(), [&](double z) { return std::abs(z - p.z()) < kOnFloor_m; }))
+    return std::nullopt;
+  if (const auto blocked = blockedFloorAt(scene, p.x(), p.y(), height_m, p.z()))
+    return refuse(trf("{:.2f} m free, {:.2f} m needed", blocked->free_m, height_m + kRoomAbove_m),
+                  "Choose another place, or carry the scanner lower.");
+  return refuse("No floor to walk on", "A waypoint lies on a floor, a stair or the ground.");
+}
+
+void beginTrajectory(Model& model) {
+  model.view.draft.waypoints.clear();
+  model.view.tool = Tool::layTrajectory;
+}
+
+void addWaypoint(Model& model, const RayHit& hit) {
+  auto& draft = model.view.draft;
+  const auto scene = model.picker.scene();
+  if (!scene) return;
+  if (auto refused = whyNoWaypoint(*scene, hit, carriedHeight_m(draft.carrier, draft.height_m))) {
+    model.view.refused_place = std::move(refused);
+    return;
+  }
+  if (!draft.waypoints.empty() && (draft.waypoints.back().floor_m - hit.position).norm() < kSamePlace_m) return;
+  draft.waypoints.push_back({hit.position, 0, {}});
+}
+
+std::string whyNotTakeBack(const Model& model) {
+  if (model.view.tool != Tool::layTrajectory) return "No trajectory is being added";
+  return model.view.draft.waypoints.empty() ? "There are no waypoints yet" : "";
+}
+
+void takeBackWaypoint(Model& model) { model.view.draft.waypoints.pop_back(); }
+
+std::string whyNotEndTrajectory(const Model& model) {
+  if (model.view.tool != Tool::layTrajectory) return "No trajectory is being added";
+  if (auto why = model.session.whyNot("trajectory"); !why.empty()) return why;
+  if (model.view.draft.waypoints.size() < 2) return "A trajectory has at least two waypoints";
+  const auto* way = model.trajectory_ways.draft();
+  return way == nullptr || model.trajectory_ways.draftIsOld() ? "" : way->problem;
+}
+
+void endTrajectory(Model& model) {
+  auto& draft = model.view.draft;
+  auto trajectory = laid(draft);
+  trajectory.name = freeTrajectoryName(*model.session.document().job);
+  auto options = changeTo(trajectory, *model.session.document().georeference);
+  options.add = std::exchange(options.change, std::nullopt);
+  if (!model.session.start(options, trf("Add trajectory {}", trajectory.name))) return;
+  model.trajectory_wanted = trajectory.name;
+  model.view.tool = Tool::select;
+  draft.waypoints.clear();
+}
+
+std::optional<CarriedTrajectory> draggedTrajectory(const Model& model) {
+  const auto* chosen = chosenTrajectory(model);
+  const auto& view = model.view;
+  if (chosen == nullptr || view.dragged_waypoint < 0 || !view.waypoint_drag_begun || !view.hover ||
+      view.dragged_waypoint >= static_cast<int>(chosen->waypoints.size()))
+    return std::nullopt;
+  CarriedTrajectory moved = *chosen;
+  moved.scans.clear();
+  moved.waypoints[static_cast<std::size_t>(view.dragged_waypoint)].floor_m = view.hover->position;
+  return moved;
+}
+
+void dropWaypoint(Model& model) {
+  const auto moved = draggedTrajectory(model);
+  const auto scene = model.picker.scene();
+  if (!moved || !scene) return;
+  if (auto refused = whyNoWaypoint(*scene, *model.view.hover, carriedHeight_m(moved->carrier, moved->height_m))) {
+    model.view.refused_place = std::move(refused);
+    return;
+  }
+  model.session.start(changeTo(*moved, *model.session.document().georeference),
+                      trf("Move waypoint {} of {}", model.view.dragged_waypoint + 1, moved->name));
+}
+
+void followDraft(Model& model) {
+  const auto& document = model.session.document();
+  const auto scene = model.picker.scene();
+  model.trajectory_ways.follow(document, scene);
+  std::optional<CarriedTrajectory> draft;
+  if (model.view.tool == Tool::layTrajectory && model.view.draft.waypoints.size() >= 2)
+    draft = laid(model.view.draft);
+  else
+    draft = draggedTrajectory(model);
+  if (draft && scene && document.georeference)
+    model.trajectory_ways.wantDraft({*std::move(draft), document.georeference, scene, {}});
+  else
+    model.trajectory_ways.dropDraft();
+}
+
+}  // namespace standpoint

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/trajectories/trajectory_ways.h"
+
+#include <algorithm>
+
+#include "core/motion/carriers.h"
+#include "editor/words/sentences.h"
+#include "survey/scene/bodies.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr std::size_t kMostSamples = 2000;
+
+bool same(const Waypoint& a, const Waypoint& b) {
+  return a.floor_m == b.floor_m && a.stop_s == b.stop_s && a.look_rad == b.look_rad;
+}
+
+std::filesystem::file_time_type writtenAt(const std::string& file) {
+  std::error_code ignored;
+  return file.empty() ? std::filesystem::file_time_type() : std::filesystem::last_write_time(file, ignored);
+}
+
+std::vector<WayWish> wishesOf(const Job& job, const std::shared_ptr<const Georeference>& georeference,
+                              const std::shared_ptr<const RayScene>& scene) {
+  std::vector<WayWish> wishes;
+  for (const auto& trajectory : job.trajectories) {
+    wishes.push_back({trajectory, georeference, scene, writtenAt(trajectory.file)});
+    wishes.back().trajectory.scans.clear();
+  }
+  return wishes;
+}
+
+double liftOf(const CarriedTrajectory& t) {
+  const auto carrier =
+      std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == t.carrier; });
+  if (!t.file.empty() || t.carrier == "uav" || carrier == kCarriers.end()) return 0;
+  return t.height_m > 0 ? t.height_m : carrier->limits.height_m;
+}
+
+}  // namespace
+
+bool WayWish::operator==(const WayWish& other) const {
+  const auto &a = trajectory, &b = other.trajectory;
+  return georeference == other.georeference && scene == other.scene && written == other.written && a.name == b.name &&
+         a.carrier == b.carrier && a.height_m == b.height_m && a.speed_mps == b.speed_mps && a.seed == b.seed &&
+         a.file == b.file && a.format == b.format &&
+         std::equal(a.waypoints.begin(), a.waypoints.end(), b.waypoints.begin(), b.waypoints.end(), same);
+}
+
+TrajectoryWay wayOf(const WayWish& wish, Progress& progress) {
+  TrajectoryWay way;
+  Report report;
+  const auto carried = carriedMotion(wish.trajectory, *wish.georeference, report, progress);
+  if (!carried) {
+    way.problem = trError(carried.error());
+    return way;
+  }
+  way.length_m = carried->length_m;
+  way.seconds = carried->seconds();
+  way.samples = pathSamples(*carried, kMostSamples);
+  way.lift_m = liftOf(wish.trajectory);
+  way.obstacles = obstaclesOf(*carried, *wish.scene);
+  for (const auto& obstacle : way.obstacles)
+    way.obstacle_products.push_back(productText(wish.scene->environment().products[obstacle.product]));
+  return way;
+}
+
+TrajectoryWays::TrajectoryWays(const std::function<void()>& wake)
+    : latest_("Trajectories", wake), draft_("Trajectory", wake) {}
+
+void TrajectoryWays::follow(const Document& document, const std::shared_ptr<const RayScene>& scene) {
+  constexpr std::chrono::seconds kBetweenLooks(2);
+  takeIn();
+  if (!document.job || !document.georeference || !scene) {
+    job_.reset();
+    wishes_.clear();
+    shown_.clear();
+    return;
+  }
+  const auto now = std::chrono::steady_clock::now();
+  const bool same_job = job_ == document.job && georeference_ == document.georeference && scene_ == scene;
+  const bool files =
+      std::any_of(wishes_.begin(), wishes_.end(), [](const auto& w) { return !w.trajectory.file.empty(); });
+  if (same_job && (!files || now - looked_ < kBetweenLooks)) return;
+  looked_ = now;
+  job_ = document.job, georeference_ = document.georeference, scene_ = scene;
+  auto wishes = wishesOf(*job_, georeference_, scene_);
+  if (wishes == wishes_) return;
+  wishes_ = std::move(wishes);
+  showKnown();
+  if (std::find(shown_.begin(), shown_.end(), nullptr) == shown_.end()) return;
+  auto work = [wishes = wishes_, known = known_](Progress& progress) -> Result<Known> {
+    Known made;
+    for (const auto& wish : wishes) {
+      const auto found = std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.first == wish; });
+      made.emplace_back(
+          wish, found != known.end() ? found->second : std::make_shared<const TrajectoryWay>(wayOf(wish, progress)));
+      TRY(progress.check());
+    }
+    return made;
+  };
+  latest_.want(wishes_, std::move(work), decltype(latest_)::Older::ends);
+}
+
+void TrajectoryWays::takeIn() {
+  latest_.poll();
+  draft_.poll();
+  const auto& latest = latest_.latest();
+  if (!latest || !latest->result || latest->result->empty()) return;
+  const bool news = known_.size() != latest->result->size() ||
+                    !std::equal(known_.begin(), known_.end(), latest->result->begin(),
+                                [](const auto& a, const auto& b) { return a.second == b.second; });
+  if (!news) return;
+  known_ = *latest->result;
+  showKnown();
+}
+
+void TrajectoryWays::showKnown() {
+  shown_.assign(wishes_.size(), nullptr);
+  for (std::size_t i = 0; i < wishes_.size(); ++i)
+    for (const auto& [wish, way] : known_)
+      if (wish == wishes_[i]) shown_[i] = way;
+}
+
+const TrajectoryWay* TrajectoryWays::of(std::size_t trajectory) const {
+  return trajectory < shown_.size() ? shown_[trajectory].get() : nullptr;
+}
+
+void TrajectoryWays::wantDraft(WayWish wish) {
+  if (draft_.wants(wish)) return;
+  auto work = [wish](Progress& progress) -> Result<Way> {
+    return std::make_shared<const TrajectoryWay>(wayOf(wish, progress));
+  };
+  draft_.want(std::move(wish), std::move(work), decltype(draft_)::Older::ends);
+}
+
+void TrajectoryWays::dropDraft() {
+  if (draft_.wanted()) draft_.drop();
+}
+
+const TrajectoryWay* TrajectoryWays::draft() const {
+  const auto& latest = draft_.latest();
+  return latest && latest->result ? latest->result->get() : nullptr;
+}
+
+void TrajectoryWays::wait() {
+  latest_.wait();
+  draft_.wait();
+  takeIn();
+}
+
+}  // namespace standpoint
