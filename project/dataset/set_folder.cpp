@@ -39,6 +39,16 @@ bool isLeft(const std::string& name) {
   return ::kill(process, 0) != 0 && errno == ESRCH;
 }
 
+// Anything that no set begins with.
+bool holdsOther(const fs::path& set) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(set, error)) {
+    const auto name = entry.path().filename();
+    if (name != kWorkFolder && name != "slurm" && name != "classes") return true;
+  }
+  return false;
+}
+
 tl::unexpected<Error> cannotMake(const fs::path& path, const std::error_code& error) {
   return failure(ErrorKind::file_system, "cannot create: " + error.message(), path.string());
 }
@@ -131,7 +141,7 @@ Result<SetEnvironmentRecord> readEnvironmentRecord(const fs::path& set, const Re
 Result<SetFolder> SetFolder::open(const fs::path& set, const Recipe& recipe) {
   std::error_code error;
   const bool is_new = !fs::exists(set / "recipe.json", error);
-  if (is_new && fs::exists(set, error) && !fs::is_empty(set, error) && !fs::exists(set / kWorkFolder, error))
+  if (is_new && holdsOther(set))
     return failure(ErrorKind::usage, "the folder is not empty and no set: choose a new folder", set.string());
   const auto work = set / kWorkFolder / fmt::format("{}.{}", hostName(), ::getpid());
   fs::create_directories(work, error);
