@@ -24,8 +24,8 @@ tl::unexpected<Error> unusableLabels(const fs::path& file, const std::string& me
 }
 
 struct NumpyArray {
-  char kind = 'u';          // 'u' or 'i'
-  std::size_t bytes = 1;    // of a number
+  char kind = 'u';        // 'u' or 'i'
+  std::size_t bytes = 1;  // of a number
   std::uint64_t rows = 0;
   std::size_t columns = 1;  // one or two
 };

@@ -21,7 +21,8 @@ struct PointLabels {
   std::vector<std::uint32_t> instances;                // of each point, 0: of none; empty where the file has none
 };
 
-// A file of labels: NumPy (.npy) of whole numbers, (n,), or (n, 2) with the instance in the second column; SemanticKITTI
+// A file of labels: NumPy (.npy) of whole numbers, (n,), or (n, 2) with the instance in the second column;
+// SemanticKITTI
 // (.label), 32 bits with the instance in the upper half; text (.labels, .txt), a number a line. Anything else, a number
 // that is none and a file that is cut short are errors with their place.
 Result<PointLabels> readPointLabels(const std::filesystem::path& file, Progress& progress);

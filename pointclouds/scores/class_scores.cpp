@@ -12,8 +12,8 @@ std::optional<double> fractionOf(std::uint64_t part, std::uint64_t whole) {
 }
 
 // Of those that there are; `count` is how many.
-std::optional<double> meanOf(const std::vector<ClassScore>& classes, std::optional<double> (ClassScore::*figure)() const,
-                             std::size_t& count) {
+std::optional<double> meanOf(const std::vector<ClassScore>& classes,
+                             std::optional<double> (ClassScore::*figure)() const, std::size_t& count) {
   double sum = 0;
   count = 0;
   for (const auto& one : classes)
@@ -45,8 +45,9 @@ Result<void> ClassTally::add(std::span<const std::uint32_t> truth, std::span<con
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const auto row = slot(truth[i]);
     if (row == scored_.size())
-      return failure(ErrorKind::unusable, "the truth has the id " + std::to_string(truth[i]) +
-                                              ", which is none of the classes; specify the classes that it was made with");
+      return failure(ErrorKind::unusable,
+                     "the truth has the id " + std::to_string(truth[i]) +
+                         ", which is none of the classes; specify the classes that it was made with");
     if (row == kIgnored) {
       ++ignored_;
       continue;

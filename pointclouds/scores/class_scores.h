@@ -24,15 +24,15 @@ struct ClassScore {
 
 // Of all points together, never the mean over files.
 struct ClassScores {
-  std::vector<ClassScore> classes;                       // that are scored, in the order of the map
-  std::vector<std::vector<std::uint64_t>> confusion;     // [truth][predicted]; the last column is `outside`
-  std::uint64_t points = 0, ignored = 0, outside = 0;    // scored; of an ignored truth; predicted as no scored class
-  std::size_t counted = 0;                               // classes in truth or prediction: those that mean_iou is of
+  std::vector<ClassScore> classes;                          // that are scored, in the order of the map
+  std::vector<std::vector<std::uint64_t>> confusion;        // [truth][predicted]; the last column is `outside`
+  std::uint64_t points = 0, ignored = 0, outside = 0;       // scored; of an ignored truth; predicted as no scored class
+  std::size_t counted = 0;                                  // classes in truth or prediction: those that mean_iou is of
   std::optional<double> mean_iou, mean_accuracy, accuracy;  // mean of IoU, mean of recall, share of right points
 };
 
-// Counts pairs of truth and prediction. A point whose truth is an ignored class does not count; a point of a scored class
-// that was predicted to be an ignored or an unknown one is missed there and is nobody else's mistake.
+// Counts pairs of truth and prediction. A point whose truth is an ignored class does not count; a point of a scored
+// class that was predicted to be an ignored or an unknown one is missed there and is nobody else's mistake.
 class ClassTally {
  public:
   explicit ClassTally(const ClassMap& map);

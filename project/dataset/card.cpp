@@ -13,7 +13,8 @@ namespace standpoint {
 
 namespace {
 
-constexpr const char* kCardStyle = R"(body{font:10pt sans-serif;color:#111;background:#fff;max-width:180mm;margin:2em auto}
+constexpr const char* kCardStyle =
+    R"(body{font:10pt sans-serif;color:#111;background:#fff;max-width:180mm;margin:2em auto}
 h1{font-size:16pt}h2{font-size:12pt;margin:1.4em 0 .4em}table{border-collapse:collapse;width:100%}
 td,th{border-bottom:1px solid #ccc;padding:3px 6px;text-align:left}td.n,th.n{text-align:right;white-space:nowrap}
 td.b{width:45%}td.b span{display:block;height:.8em;background:#0072B2}td.b span.s{background:#D55E00}
@@ -58,8 +59,8 @@ std::vector<CardRow> axesOf(const Recipe& recipe) {
     rows.push_back({m.id, m.rules.empty() && m.assign.empty() ? "materials by the rules of the environment"
                                                               : "materials, as in recipe.json"});
   for (const auto& f : recipe.field_faults)
-    rows.push_back({f.id, f.fault.any() ? fmt::format("field fault: {}", fmt::join(pairsOf(f.fault), " "))
-                                        : "no field fault"});
+    rows.push_back(
+        {f.id, f.fault.any() ? fmt::format("field fault: {}", fmt::join(pairsOf(f.fault), " ")) : "no field fault"});
   for (const auto& e : recipe.effects)
     rows.push_back({e.id, e.ideal     ? "no effects: the first surface on the axis of each pulse, exactly"
                           : e.without ? "without " + FieldValue<Effects>::write(*e.without).get<std::string>()
@@ -113,14 +114,16 @@ std::string cardHtml(const Recipe& recipe, const SetCheck& check) {
   text += "</table>\n";
   for (std::size_t m = 0; m < recipe.classes.size(); ++m)
     for (const auto& split : balanceOf(recipe, check, m)) {
-      text += fmt::format("<h2>Classes: {}, {}</h2>\n<table><tr><th class=\"n\">Id<th>Class<th class=\"n\">Points"
-                          "<th class=\"n\">Share<th></tr>\n",
-                          htmlText(recipe.classes[m].map.name), split.split);
+      text += fmt::format(
+          "<h2>Classes: {}, {}</h2>\n<table><tr><th class=\"n\">Id<th>Class<th class=\"n\">Points"
+          "<th class=\"n\">Share<th></tr>\n",
+          htmlText(recipe.classes[m].map.name), split.split);
       const auto& classes = recipe.classes[m].map.classes;
       for (std::size_t k = 0; k < classes.size(); ++k) {
         const auto& one = classes[k];
-        const double share =
-            one.ignored || split.counted == 0 ? 0 : static_cast<double>(split.points[k]) / static_cast<double>(split.counted);
+        const double share = one.ignored || split.counted == 0
+                                 ? 0
+                                 : static_cast<double>(split.points[k]) / static_cast<double>(split.counted);
         text += fmt::format("<tr><td class=\"n\">{}<td>{}<td class=\"n\">{}<td class=\"n\">{}<td class=\"b\">", one.id,
                             htmlText(one.name), groupedDigits(split.points[k]),
                             one.ignored ? "ignored" : fmt::format("{:.2f}&nbsp;%", 100 * share));
@@ -131,8 +134,8 @@ std::string cardHtml(const Recipe& recipe, const SetCheck& check) {
       }
       text += "</table>\n";
     }
-  return text + fmt::format("<p>Orange: less than {} % of the split.</p>\n</body></html>\n",
-                            100 * recipe.starved_below);
+  return text +
+         fmt::format("<p>Orange: less than {} % of the split.</p>\n</body></html>\n", 100 * recipe.starved_below);
 }
 
 }  // namespace standpoint

@@ -43,7 +43,9 @@ Result<void> checkAction(const DatasetOptions& options) {
 std::string classText(const SetClassForecast& c) {
   return fmt::format("{:12} {:10} {:24} {:>16} {:7.3f} %{}\n", c.classes, c.split, c.name,
                      groupedDigits(static_cast<std::uint64_t>(std::llround(c.points))), 100 * c.share,
-                     c.points == 0 ? "  none" : c.starved ? "  starved" : "");
+                     c.points == 0 ? "  none"
+                     : c.starved   ? "  starved"
+                                   : "");
 }
 
 Result<void> checkRecipe(const DatasetOptions& options, DatasetOutcome& outcome, Progress& progress) {
@@ -59,8 +61,8 @@ Result<void> checkRecipe(const DatasetOptions& options, DatasetOutcome& outcome,
   answer.compute_hours = forecast.points / options.rate_points_per_s / kSecondsPerHour;
   answer.places = placesOf(recipe).size();
   for (const auto& e : forecast.environments)
-    outcome.text += fmt::format("{:20} {:10} {:4} of {:4} places  {:6} scans  {:10.2f} M points\n", e.environment, e.split,
-                                e.stations, e.places, e.scans, e.points / 1e6);
+    outcome.text += fmt::format("{:20} {:10} {:4} of {:4} places  {:6} scans  {:10.2f} M points\n", e.environment,
+                                e.split, e.stations, e.places, e.scans, e.points / 1e6);
   std::size_t starved = 0;
   for (const auto& c : forecast.classes) {
     outcome.text += classText(c);
@@ -68,8 +70,9 @@ Result<void> checkRecipe(const DatasetOptions& options, DatasetOutcome& outcome,
   }
   for (const auto& text : forecast.unmapped) outcome.text += "no rule for " + text + "\n";
   if (starved > 0)
-    outcome.report.note(recipe.name, fmt::format("{} of {} classes of a split are starved: less than {} % of its points",
-                                                 starved, forecast.classes.size(), 100 * recipe.starved_below));
+    outcome.report.note(recipe.name,
+                        fmt::format("{} of {} classes of a split are starved: less than {} % of its points", starved,
+                                    forecast.classes.size(), 100 * recipe.starved_below));
   outcome.description = fmt::format(
       "{} would make {} scans with {:.1f} M points{} in {:.1f} h", recipe.name, forecast.scans, forecast.points / 1e6,
       forecast.bytes ? fmt::format(" and {:.2f} GB", *forecast.bytes / 1e9) : "", *answer.compute_hours);
@@ -96,9 +99,10 @@ void takeCheck(const SetCheck& check, DatasetAnswer& answer) {
 
 std::string wrongWith(const SetCheck& check) {
   const auto& first = check.damaged.empty() ? check.missing.front() : check.damaged.front();
-  return fmt::format("{} of its files are missing and {} damaged, the first is {}; remove what is damaged and resume the "
-                     "run",
-                     check.missing.size(), check.damaged.size(), first);
+  return fmt::format(
+      "{} of its files are missing and {} damaged, the first is {}; remove what is damaged and resume the "
+      "run",
+      check.missing.size(), check.damaged.size(), first);
 }
 
 Result<void> describeSet(const fs::path& set, const Recipe& recipe, DatasetOutcome& outcome, Progress& progress) {
@@ -158,11 +162,12 @@ Result<void> slurmOf(const DatasetOptions& options, DatasetOutcome& outcome) {
   TRY_ASSIGN(const auto recipe, readRecipe(options.of));
   const auto places = placesOf(recipe).size();
   if (options.shards > places)
-    return failure(ErrorKind::usage, fmt::format("the recipe has {} places, no more shards than that make sense", places),
-                   "--shards");
+    return failure(ErrorKind::usage,
+                   fmt::format("the recipe has {} places, no more shards than that make sense", places), "--shards");
   std::error_code error;
-  SlurmJob job{fs::absolute(options.of, error).lexically_normal(), fs::absolute(options.output, error).lexically_normal(),
-               fs::read_symlink("/proc/self/exe", error), options.shards, std::max(options.threads, 1)};
+  SlurmJob job{fs::absolute(options.of, error).lexically_normal(),
+               fs::absolute(options.output, error).lexically_normal(), fs::read_symlink("/proc/self/exe", error),
+               options.shards, std::max(options.threads, 1)};
   outcome.answer.recipe = recipe.name;
   outcome.answer.places = places;
   TRY_ASSIGN(outcome.answer.written, writeSlurmJob(job, recipe));
@@ -210,15 +215,10 @@ const Fields<DatasetOptions>& datasetFields() {
 
 const AnswerFields<SetEnvironmentForecast>& answerFields(const SetEnvironmentForecast*) {
   using A = SetEnvironmentForecast;
-  static const AnswerFields<A> fields = {{"environment", &A::environment},
-                                         {"building", &A::building},
-                                         {"split", &A::split},
-                                         {"places", &A::places},
-                                         {"stations", &A::stations},
-                                         {"scans", &A::scans},
-                                         {"points", &A::points},
-                                         {"bytes", &A::bytes},
-                                         {"instrument_seconds", &A::instrument_seconds}};
+  static const AnswerFields<A> fields = {
+      {"environment", &A::environment}, {"building", &A::building}, {"split", &A::split},
+      {"places", &A::places},           {"stations", &A::stations}, {"scans", &A::scans},
+      {"points", &A::points},           {"bytes", &A::bytes},       {"instrument_seconds", &A::instrument_seconds}};
   return fields;
 }
 

@@ -49,8 +49,8 @@ class SetForecaster {
       if (progress.cancelled()) inner.cancel();
     });
     TRY_ASSIGN(const auto opened, openEnvironment(recipe_, index, report, inner));
-    SetEnvironmentForecast row{environment.id, environment.building, recipe_.splitOf(environment), opened.station.size(),
-                               opened.document.job->stations.size()};
+    SetEnvironmentForecast row{environment.id, environment.building, recipe_.splitOf(environment),
+                               opened.station.size(), opened.document.job->stations.size()};
     for (const auto& text : opened.unmapped)
       if (std::find(forecast_.unmapped.begin(), forecast_.unmapped.end(), text) == forecast_.unmapped.end())
         forecast_.unmapped.push_back(text);
@@ -81,9 +81,8 @@ class SetForecaster {
     TRY_ASSIGN(const auto instrument, instrumentNamed(setting.instrument));
     TRY_ASSIGN(const auto settings, resolveSettings(instrument, setting.settings));
     const Expectation expectation(opened.scene, assignment, ReturnLaw(instrument, settings));
-    const ScanChannels channels{.time = recipe_.truth,
-                                .returns = recipe_.truth || instrument.waveform.max_returns > 1,
-                                .truth = recipe_.truth};
+    const ScanChannels channels{
+        .time = recipe_.truth, .returns = recipe_.truth || instrument.waveform.max_returns > 1, .truth = recipe_.truth};
     const double labels = kBytesOfId * static_cast<double>(recipe_.classes.size()) + kBytesOfInstance;
     const double bytes = bytesPerPoint(settings, channels, *document.environment(), assignment->materials.size());
     const double times = static_cast<double>(each_) * faults_;

@@ -28,13 +28,13 @@ struct SetForecast {
   std::vector<SetClassForecast> classes;
   std::size_t scans = 0;
   double points = 0, instrument_seconds = 0;
-  std::optional<double> bytes;  // of clouds and labels; nothing for formats whose size is only known afterwards
+  std::optional<double> bytes;        // of clouds and labels; nothing for formats whose size is only known afterwards
   std::vector<std::string> unmapped;  // "s3dis: IfcFlowTerminal"
 };
 
-// What a recipe would make, without scanning: the models are read, the stations found and each scan forecast by the laws
-// of its instrument (scanners/forecast), in clear air and with one return of a pulse. `samples` on the surfaces of each
-// environment carry the balance of the classes.
+// What a recipe would make, without scanning: the models are read, the stations found and each scan forecast by the
+// laws of its instrument (scanners/forecast), in clear air and with one return of a pulse. `samples` on the surfaces of
+// each environment carry the balance of the classes.
 Result<SetForecast> forecastSet(const Recipe& recipe, std::size_t samples, Report& report, Progress& progress);
 
 }  // namespace standpoint

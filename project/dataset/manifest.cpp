@@ -52,12 +52,9 @@ std::string asId(std::string name) {
 }
 
 Json fieldOf(const std::string& name, const std::string& type, const std::string& what) {
-  return {{"@type", "cr:Field"},
-          {"@id", "scans/" + asId(name)},
-          {"name", name},
-          {"description", what},
-          {"dataType", type},
-          {"source", {{"fileObject", {{"@id", kScansFile}}}, {"extract", {{"column", name}}}}}};
+  return {{"@type", "cr:Field"}, {"@id", "scans/" + asId(name)},
+          {"name", name},        {"description", what},
+          {"dataType", type},    {"source", {{"fileObject", {{"@id", kScansFile}}}, {"extract", {{"column", name}}}}}};
 }
 
 Json fileObject(const std::string& id, const std::string& format, std::uint64_t bytes, const std::string& sha256) {
@@ -139,10 +136,7 @@ Json splitRecords(const Recipe& recipe) {
           {"key", {{"@id", "splits/name"}}},
           {"field",
            {{{"@type", "cr:Field"}, {"@id", "splits/name"}, {"name", "name"}, {"dataType", "sc:Text"}},
-            {{"@type", "cr:Field"},
-             {"@id", "splits/url"},
-             {"name", "url"},
-             {"dataType", {"sc:URL", "wd:Q3985153"}}}}},
+            {{"@type", "cr:Field"}, {"@id", "splits/url"}, {"name", "url"}, {"dataType", {"sc:URL", "wd:Q3985153"}}}}},
           {"data", std::move(data)}};
 }
 
@@ -168,8 +162,7 @@ Json scanRecords(const Recipe& recipe) {
   Json fields = Json::array();
   for (const auto& column : kColumns) {
     fields.push_back(fieldOf(column.name, column.type, column.what));
-    if (std::string_view(column.name) == "split")
-      fields.back()["references"] = {{"field", {{"@id", "splits/name"}}}};
+    if (std::string_view(column.name) == "split") fields.back()["references"] = {{"field", {{"@id", "splits/name"}}}};
   }
   for (const auto& map : recipe.classes)
     for (const auto& one : map.map.classes)
@@ -197,8 +190,8 @@ std::string scansCsv(const Recipe& recipe, const SetCheck& check) {
     text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", scan.files.scan, cloud.path, cloud.sha256,
                         cloud.bytes, environment.id, csvText(environment.building), recipe.splitOf(environment),
                         scan.place.station, recipe.instruments[v.instrument].id, recipe.weather[v.weather].id,
-                        recipe.materials[v.materials].id, recipe.field_faults[v.fault].id,
-                        recipe.effects[v.effects].id, recipe.seeds[v.seed], scan.record.seed, scan.record.points);
+                        recipe.materials[v.materials].id, recipe.field_faults[v.fault].id, recipe.effects[v.effects].id,
+                        recipe.seeds[v.seed], scan.record.seed, scan.record.points);
     for (const auto& map : recipe.classes)
       for (const auto count : scan.record.classes.at(map.id)) text += fmt::format(",{}", count);
     text += "\n";
@@ -208,13 +201,14 @@ std::string scansCsv(const Recipe& recipe, const SetCheck& check) {
 
 std::string croissantText(const Recipe& recipe, const SetCheck& check, const std::string& scans_csv) {
   Json files = Json::array();
-  files.push_back({{"@type", "cr:FileObject"},
-                   {"@id", "folder"},
-                   {"name", "folder"},
-                   {"description", "The folder of the set; its checksum is that of scans.csv, which has those of the clouds"},
-                   {"contentUrl", "."},
-                   {"encodingFormat", "local-directory"},
-                   {"sha256", sha256Of(scans_csv)}});
+  files.push_back(
+      {{"@type", "cr:FileObject"},
+       {"@id", "folder"},
+       {"name", "folder"},
+       {"description", "The folder of the set; its checksum is that of scans.csv, which has those of the clouds"},
+       {"contentUrl", "."},
+       {"encodingFormat", "local-directory"},
+       {"sha256", sha256Of(scans_csv)}});
   files.push_back(fileObject(kScansFile, "text/csv", scans_csv.size(), sha256Of(scans_csv)));
   for (const auto& other : check.others)
     if (!other.path.starts_with("records/"))
@@ -222,8 +216,8 @@ std::string croissantText(const Recipe& recipe, const SetCheck& check, const std
   const auto format = recipe.format == "e57"   ? std::string("model/e57")
                       : recipe.format == "las" ? std::string("application/vnd.las")
                                                : std::string("application/octet-stream");
-  files.push_back(fileSet("clouds", "Point clouds with product and material of each point", "scans/**/*" + recipe.extension(),
-                          format));
+  files.push_back(fileSet("clouds", "Point clouds with product and material of each point",
+                          "scans/**/*" + recipe.extension(), format));
   for (const auto& map : recipe.classes)
     files.push_back(fileSet("labels-" + map.id, "Class of each point, in the order of the cloud: " + map.map.name,
                             "labels/**/*." + map.id + ".npy", "application/octet-stream"));
@@ -254,7 +248,8 @@ std::string croissantText(const Recipe& recipe, const SetCheck& check, const std
 std::vector<SplitBalance> balanceOf(const Recipe& recipe, const SetCheck& check, std::size_t map) {
   const auto& classes = recipe.classes[map];
   std::vector<SplitBalance> all;
-  for (const auto& split : recipe.splits) all.push_back({split.name, std::vector<std::uint64_t>(classes.map.classes.size())});
+  for (const auto& split : recipe.splits)
+    all.push_back({split.name, std::vector<std::uint64_t>(classes.map.classes.size())});
   for (const auto& scan : check.scans) {
     const auto& name = recipe.splitOf(recipe.environments[scan.place.environment]);
     const auto split = std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.split == name; });

@@ -48,9 +48,8 @@ bool isId(const std::string& text) {
 
 bool isDate(const std::string& text) {
   constexpr std::string_view kForm = "0000-00-00";
-  return std::equal(text.begin(), text.end(), kForm.begin(), kForm.end(), [](unsigned char c, char form) {
-    return form == '0' ? std::isdigit(c) != 0 : c == '-';
-  });
+  return std::equal(text.begin(), text.end(), kForm.begin(), kForm.end(),
+                    [](unsigned char c, char form) { return form == '0' ? std::isdigit(c) != 0 : c == '-'; });
 }
 
 class RecipeReader {
@@ -137,8 +136,7 @@ void RecipeReader::takeAbout(JsonFields& root) {
   if (root.number("recipe_version", 1, 1e6) != 1)
     root.wrong("recipe_version", "was written by a newer version; this one reads 1");
   recipe_.name = root.text("name", "my-buildings");
-  if (!recipe_.name.empty() && !isId(recipe_.name))
-    root.wrong("name", "must be up to 40 letters, digits, '-' and '.'");
+  if (!recipe_.name.empty() && !isId(recipe_.name)) root.wrong("name", "must be up to 40 letters, digits, '-' and '.'");
   recipe_.description = root.textOr("description", "Simulated laser scans with labels");
   recipe_.license = root.text("license", "https://spdx.org/licenses/CC-BY-4.0.html");
   recipe_.creator = root.text("creator");
@@ -286,7 +284,8 @@ void RecipeReader::takeConditions(JsonFields& root) {
     if (fields.has("rules")) one.rules = existing(fields, "rules");
     one.assign = fields.texts("assign");
     for (const auto& text : one.assign)
-      if (text.find('=') == std::string::npos) fields.wrong("assign", fmt::format("'{}' must be SELECTOR=MATERIAL", text));
+      if (text.find('=') == std::string::npos)
+        fields.wrong("assign", fmt::format("'{}' must be SELECTOR=MATERIAL", text));
     recipe_.materials.push_back(std::move(one));
   });
   root.list("field_faults", [&](JsonFields& fields) {
@@ -319,7 +318,8 @@ void RecipeReader::takeSeeds(JsonFields& root) {
     recipe_.seeds = {1};
     return;
   }
-  if (!seeds->is_array() || seeds->empty()) return root.needs("seeds", *seeds, "a list of whole numbers, such as [1, 2]");
+  if (!seeds->is_array() || seeds->empty())
+    return root.needs("seeds", *seeds, "a list of whole numbers, such as [1, 2]");
   for (std::size_t i = 0; i < seeds->size(); ++i) {
     const auto at = fmt::format("{}/{}", root.pointer("seeds"), i);
     const auto seed = whole((*seeds)[i], at, 0, kMostSeed);
@@ -341,9 +341,10 @@ void RecipeReader::takeSplits(JsonFields& root) {
         if (!buildings.contains(building))
           fields.wrong(name, fmt::format("'{}' is not a building of the environments", building));
         if (!placed_buildings.insert(building).second)
-          fields.wrong(name, fmt::format("building '{}' is already in a split: a network that has seen a building is not "
-                                         "tested on it",
-                                         building));
+          fields.wrong(name,
+                       fmt::format("building '{}' is already in a split: a network that has seen a building is not "
+                                   "tested on it",
+                                   building));
       }
     }
   });
@@ -355,7 +356,8 @@ void RecipeReader::takeSplits(JsonFields& root) {
 void RecipeReader::takeClasses(JsonFields& root, const fs::path& folder) {
   Ids taken;
   const auto names = root.texts("classes");
-  if (names.empty()) root.wrong("classes", fmt::format("must list a map or more: {}", fmt::join(shippedClassMaps(), ", ")));
+  if (names.empty())
+    root.wrong("classes", fmt::format("must list a map or more: {}", fmt::join(shippedClassMaps(), ", ")));
   for (std::size_t i = 0; i < names.size() && !fault_.error(); ++i) {
     const auto at = fmt::format("{}/{}", root.pointer("classes"), i);
     RecipeClasses one;
@@ -363,7 +365,9 @@ void RecipeReader::takeClasses(JsonFields& root, const fs::path& folder) {
     one.id = is_file ? fs::path(names[i]).stem().string() : names[i];
     if (!isId(one.id)) fault_.say(at, fmt::format("the file's name '{}' must be letters, digits, '-' and '.'", one.id));
     if (!taken.insert(one.id).second) fault_.say(at, fmt::format("'{}' is already in the list", one.id));
-    const auto file = !folder.empty() ? folder / (one.id + ".json") : is_file ? placed(names[i]) : shippedClassMap(one.id);
+    const auto file = !folder.empty() ? folder / (one.id + ".json")
+                      : is_file       ? placed(names[i])
+                                      : shippedClassMap(one.id);
     auto map = classMapNamed(!folder.empty() || is_file ? file.string() : names[i]);
     auto text = map ? readWholeFile(file, kLargestJsonFile) : Result<std::string>(failure(map.error()));
     if (!text) {
@@ -386,8 +390,8 @@ void RecipeReader::takeOutput(JsonFields& root) {
     recipe_.truth = fields.flagOr("truth", true);
     const auto quality = fields.textOr("quality", "default");
     const auto* const words = choices(ScanQuality{}).data();
-    const auto known = std::find_if(words, words + choices(ScanQuality{}).size(),
-                                    [&](const auto& c) { return quality == c.name; });
+    const auto known =
+        std::find_if(words, words + choices(ScanQuality{}).size(), [&](const auto& c) { return quality == c.name; });
     if (known == words + choices(ScanQuality{}).size())
       fields.wrong("quality", fmt::format("'{}' is not one of preview, default, reference", quality));
     else
@@ -454,6 +458,8 @@ std::string Recipe::extension() const { return cloudFormatFor("x." + format)->ex
 
 Result<Recipe> readRecipe(const fs::path& file) { return readRecipeFile(file, true, {}); }
 
-Result<Recipe> readRecipeOfSet(const fs::path& set) { return readRecipeFile(set / "recipe.json", false, set / "classes"); }
+Result<Recipe> readRecipeOfSet(const fs::path& set) {
+  return readRecipeFile(set / "recipe.json", false, set / "classes");
+}
 
 }  // namespace standpoint

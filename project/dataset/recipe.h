@@ -25,12 +25,12 @@ struct StationStrategy {
   };
   std::string id;  // stations are ID-1, ID-2, …
   Kind kind = Kind::greedy;
-  std::size_t count = 0;                // places; of a grid at most so many
-  double spacing_m = 0;                 // grid and route
-  std::vector<FloorPlace> through;      // route, or the places themselves; the model's file frame
-  std::vector<std::string> names;       // project
-  std::optional<double> height_m;       // of the instrument's centre above the floor
-  double levelling_error_deg = 0;       // each station leans by as much at most
+  std::size_t count = 0;            // places; of a grid at most so many
+  double spacing_m = 0;             // grid and route
+  std::vector<FloorPlace> through;  // route, or the places themselves; the model's file frame
+  std::vector<std::string> names;   // project
+  std::optional<double> height_m;   // of the instrument's centre above the floor
+  double levelling_error_deg = 0;   // each station leans by as much at most
 };
 
 // One every so many metres of the way, from its beginning on.

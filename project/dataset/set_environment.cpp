@@ -50,8 +50,8 @@ class StationFinder {
       const auto found = std::count_if(made_.station.begin() + static_cast<std::ptrdiff_t>(first), made_.station.end(),
                                        [](const auto& s) { return s.has_value(); });
       if (static_cast<std::size_t>(found) < strategy.count)
-        report_.note(environment_.id, fmt::format("{}: {} of {} places have room for a tripod", strategy.id, found,
-                                                  strategy.count));
+        report_.note(environment_.id,
+                     fmt::format("{}: {} of {} places have room for a tripod", strategy.id, found, strategy.count));
     }
     if (made_.document.job->stations.empty())
       return failure(ErrorKind::unusable, "no place of its strategies has room for a tripod", environment_.id);
@@ -70,7 +70,8 @@ class StationFinder {
   Result<void> takeNamed(const StationStrategy& strategy) {
     for (std::size_t k = 0; k < strategy.names.size(); ++k) {
       const auto& all = before_->stations;
-      const auto at = std::find_if(all.begin(), all.end(), [&](const Station& s) { return s.name == strategy.names[k]; });
+      const auto at =
+          std::find_if(all.begin(), all.end(), [&](const Station& s) { return s.name == strategy.names[k]; });
       if (at == all.end())
         return failure(ErrorKind::unusable, fmt::format("the project has no station '{}'", strategy.names[k]),
                        environment_.id);
@@ -125,7 +126,8 @@ class StationFinder {
   // Row by row from the lowest floor on, as far as a tripod can stand there; of too many evenly taken.
   Result<std::vector<FloorPlace>> gridPlaces(const StationStrategy& strategy, Progress& progress) const {
     const auto& scene = *made_.scene;
-    const double height = strategy.height_m.value_or(kUsualHeight_m), shift_z = made_.document.georeference->shift_m.z();
+    const double height = strategy.height_m.value_or(kUsualHeight_m),
+                 shift_z = made_.document.georeference->shift_m.z();
     const Eigen::Vector3d& shift = made_.document.georeference->shift_m;
     TRY_ASSIGN(const auto stand, readTripodStand(tripodStandFile()));
     const StationPlacement placement(scene, stand, kUsualTrunnion_m);
@@ -172,11 +174,12 @@ Result<void> checkMaps(const Recipe& recipe, const RecipeEnvironment& environmen
         made.unmapped.push_back(fmt::format("{}: {}", classes.id, ifc_class.empty() ? "(no class)" : ifc_class));
     }
     if (!any)
-      return failure(ErrorKind::unusable,
-                     fmt::format("the classes '{}' map nothing of this model; choose other classes, or import a model with "
-                                 "IFC classes",
-                                 classes.id),
-                     environment.id);
+      return failure(
+          ErrorKind::unusable,
+          fmt::format("the classes '{}' map nothing of this model; choose other classes, or import a model with "
+                      "IFC classes",
+                      classes.id),
+          environment.id);
   }
   return {};
 }

@@ -77,8 +77,8 @@ class SetRun {
   tl::unexpected<Error> withHint(Error error) const {
     const auto made = count_.scans - count_.resumed;
     if (made > 0)
-      error.message += fmt::format("; {} scan{} made and kept; resume the run to continue", made,
-                                   made == 1 ? " was" : "s were");
+      error.message +=
+          fmt::format("; {} scan{} made and kept; resume the run to continue", made, made == 1 ? " was" : "s were");
     return failure(std::move(error));
   }
 
@@ -166,9 +166,10 @@ class SetRun {
           TRY_ASSIGN(preparation, prepareScan(*document, opened.scene, progress));
         }
         const double from = fraction(k), each = (fraction(k + 1) - from) / static_cast<double>(variants_.size());
-        InnerProgress scanning(progress, fmt::format("Scan {} ({} of {})", files.scan, count_.scans + 1,
-                                                     places_.size() * variants_.size()),
-                               from + each * static_cast<double>(i), from + each * static_cast<double>(i + 1));
+        InnerProgress scanning(
+            progress,
+            fmt::format("Scan {} ({} of {})", files.scan, count_.scans + 1, places_.size() * variants_.size()),
+            from + each * static_cast<double>(i), from + each * static_cast<double>(i + 1));
         TRY(scan(*document, preparation, document->job->stations[*station].name, k, i, files, *scanning));
       }
     }
@@ -222,8 +223,7 @@ class SetRun {
       if (issue.severity != Severity::note) report_.issues.push_back({issue.severity, files.scan, issue.message});
     const auto& row = scanned.answer.stations.front();
     SetRecord record{row.points, row.pulses, row.returns, row.instrument_seconds, options.seed, {}, {}};
-    for (std::size_t m = 0; m < recipe_.classes.size(); ++m)
-      record.classes[recipe_.classes[m].id] = sink->counts()[m];
+    for (std::size_t m = 0; m < recipe_.classes.size(); ++m) record.classes[recipe_.classes[m].id] = sink->counts()[m];
     std::vector<fs::path> all = {files.cloud};
     all.insert(all.end(), files.labels.begin(), files.labels.end());
     all.push_back(files.instances);

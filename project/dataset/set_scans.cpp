@@ -51,10 +51,10 @@ std::string nameOf(const Recipe& recipe, const SetVariant& v) {
 }
 
 std::uint64_t seedOf(const Recipe& recipe, const SetPlace& place, const SetVariant& v) {
-  const auto text = fmt::format("{} {} {} {} {} {} {} {}", recipe.seed, recipe.environments[place.environment].id,
-                                place.station, recipe.instruments[v.instrument].id, recipe.weather[v.weather].id,
-                                recipe.materials[v.materials].id, recipe.field_faults[v.fault].id,
-                                recipe.seeds[v.seed]);
+  const auto text =
+      fmt::format("{} {} {} {} {} {} {} {}", recipe.seed, recipe.environments[place.environment].id, place.station,
+                  recipe.instruments[v.instrument].id, recipe.weather[v.weather].id, recipe.materials[v.materials].id,
+                  recipe.field_faults[v.fault].id, recipe.seeds[v.seed]);
   return stableHash(text.c_str()) & kSeedBits;
 }
 

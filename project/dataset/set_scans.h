@@ -35,9 +35,9 @@ std::uint64_t seedOf(const Recipe& recipe, const SetPlace& place, const SetVaria
 
 // Where a set keeps what, from its folder on.
 struct SetFiles {
-  std::string scan;                                 // "house/greedy-1/rtc360_…": what it is called
+  std::string scan;  // "house/greedy-1/rtc360_…": what it is called
   std::filesystem::path cloud, instances, record;
-  std::vector<std::filesystem::path> labels;        // of each map of classes
+  std::vector<std::filesystem::path> labels;  // of each map of classes
 };
 SetFiles filesOf(const Recipe& recipe, const SetPlace& place, const SetVariant& variant);
 std::filesystem::path environmentFile(const RecipeEnvironment& environment);

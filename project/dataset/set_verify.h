@@ -20,14 +20,14 @@ struct SetScan {
 };
 
 struct SetCheck {
-  std::vector<std::string> missing;    // files that should be there
-  std::vector<std::string> damaged;    // that hold something else than was written
-  std::vector<std::string> unknown;    // that are of no scan of the recipe
-  std::size_t not_made = 0;            // scans of the recipe without a record
-  std::size_t files = 0;               // that were looked at
+  std::vector<std::string> missing;  // files that should be there
+  std::vector<std::string> damaged;  // that hold something else than was written
+  std::vector<std::string> unknown;  // that are of no scan of the recipe
+  std::size_t not_made = 0;          // scans of the recipe without a record
+  std::size_t files = 0;             // that were looked at
   std::uint64_t bytes = 0;
-  std::vector<SetScan> scans;          // in the order of the recipe
-  std::vector<SetFile> others;         // recipe, classes, environments and records, with their sums
+  std::vector<SetScan> scans;   // in the order of the recipe
+  std::vector<SetFile> others;  // recipe, classes, environments and records, with their sums
   bool isWhole() const { return missing.empty() && damaged.empty() && not_made == 0; }
 };
 

@@ -34,13 +34,14 @@ Result<std::vector<std::string>> writeSlurmJob(const SlurmJob& job, const Recipe
   fs::create_directories(folder, error);
   if (error) return failure(ErrorKind::file_system, "cannot create: " + error.message(), folder.string());
   const auto program = fmt::format("${{STANDPOINT:-{}}}", shellWord(job.program.string()));
-  // `exec`, so that the signal of a task that ends reaches the program: it stops between two points and what is finished
-  // stays.
+  // `exec`, so that the signal of a task that ends reaches the program: it stops between two points and what is
+  // finished stays.
   const auto array =
       beginningOf(recipe, "scans", job.threads) +
-      fmt::format("exec {} dataset run {} -o {} --shard \"$SLURM_ARRAY_TASK_ID/{}\" --threads \"${{SLURM_CPUS_PER_TASK:-{}}}\" "
-                  "--resume\n",
-                  program, shellWord(job.recipe.string()), shellWord(job.set.string()), job.shards, job.threads);
+      fmt::format(
+          "exec {} dataset run {} -o {} --shard \"$SLURM_ARRAY_TASK_ID/{}\" --threads \"${{SLURM_CPUS_PER_TASK:-{}}}\" "
+          "--resume\n",
+          program, shellWord(job.recipe.string()), shellWord(job.set.string()), job.shards, job.threads);
   const auto manifest = beginningOf(recipe, "manifest", 1) +
                         fmt::format("exec {} dataset manifest {}\n", program, shellWord(job.set.string()));
   // What is given to `submit` goes to both: a partition, an account, a time limit.

@@ -117,7 +117,8 @@ TEST_F(Dataset, HasALabelForEachPointAndCountsThem) {
   const auto set = folder / "set";
   ASSERT_TRUE(dataset("run", write(recipe()), {{"output", set.string()}}));
   Progress progress;
-  const auto labels = readPointLabels(set / "labels/house/grid-1/focus_clear_assigned_none_1_noisy.s3dis.npy", progress);
+  const auto labels =
+      readPointLabels(set / "labels/house/grid-1/focus_clear_assigned_none_1_noisy.s3dis.npy", progress);
   ASSERT_TRUE(labels) << describe(labels.error());
   std::ifstream in(set / "records/house/grid-1/focus_clear_assigned_none_1_noisy.json");
   const auto record = json::parse(in);
@@ -146,7 +147,10 @@ TEST_F(Dataset, RefusesWhatIsWrongWithARecipeByItsPlace) {
       {"/instruments/0/instrument", [](json& r) { r["instruments"][0]["instrument"] = "nobody"; }},
       {"/instruments/0/set", [](json& r) { r["instruments"][0]["set"] = {"resolution=7"}; }},
       {"/splits", [](json& r) { r["splits"].erase("test"); }},
-      {"/splits/test", [](json& r) { r["splits"]["test"] = {"house", "tower"}; }},
+      {"/splits/test",
+       [](json& r) {
+         r["splits"]["test"] = {"house", "tower"};
+       }},
       {"/classes/0", [](json& r) { r["classes"] = {"s4dis"}; }},
       {"/environments/1/id", [](json& r) { r["environments"][1]["id"] = "house"; }},
       {"/effects/1/without", [](json& r) { r["effects"][1]["without"] = "striping"; }},
