@@ -163,7 +163,8 @@ class Faults : public ::testing::TestWithParam<Writer> {
         {"verb": "export", "project": ")" +
                                       place + R"(/p", "output": ")" + place + R"(/o.glb"}])");
     put(base.path() / "recipe.json", R"({"format": "standpoint-dataset", "recipe_version": 1, "name": "set",
-      "license": "CC0-1.0", "creator": "a class", "date": "2026-01-31", "splits": {"train": ["p"]}, "classes": ["s3dis"],
+      "license": "CC0-1.0", "creator": "a class", "date": "2026-01-31", "splits": {"train": ["p"]},
+      "classes": ["s3dis"],
       "environments": [{"id": "p", "project": "p", "stations": [{"strategy": "grid", "spacing_m": 2, "count": 2}]}],
       "instruments": [{"id": "focus", "instrument": "faro-focus-s350", "set": ["resolution=1/32", "quality=4x"]}]})");
     ASSERT_EQ(run({"materials", "p"}, base.path()), 0);
