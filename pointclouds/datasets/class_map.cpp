@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/data_folder.h"
 #include "core/json_fields.h"
 #include "core/json_file.h"
 
@@ -13,6 +14,8 @@ namespace standpoint {
 namespace {
 
 using nlohmann::json;
+
+std::filesystem::path shippedFolder() { return dataFolder() / "pointclouds" / "classes"; }
 
 class MapReader {
  public:
@@ -22,6 +25,7 @@ class MapReader {
  private:
   std::size_t classNamed(const json& value, const std::string& pointer);
   void takeClasses(JsonFields& root);
+  void takeIgnored(JsonFields& root);
   void takeRules(JsonFields& root);
 
   JsonFault fault_;
@@ -43,10 +47,18 @@ void MapReader::takeClasses(JsonFields& root) {
   root.each("classes", [&](const std::string& name, const json& id, const std::string& pointer) {
     if (!id.is_number_unsigned() || id.get<std::uint64_t>() > 65535)
       return fault_.needs(pointer, id, "an id from 0 to 65535");
-    map_.classes.push_back({name, id.get<std::uint32_t>()});
+    map_.classes.push_back({name, id.get<std::uint32_t>(), false});
   });
   if (map_.classes.empty()) root.wrong("classes", "must be an object of names and ids");
   std::stable_sort(map_.classes.begin(), map_.classes.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+}
+
+void MapReader::takeIgnored(JsonFields& root) {
+  const auto* names = root.raw("ignore");
+  if (names == nullptr) return;
+  if (!names->is_array()) return root.needs("ignore", *names, "a list of classes");
+  for (std::size_t i = 0; i < names->size(); ++i)
+    map_.classes[classNamed((*names)[i], root.pointer("ignore") + "/" + std::to_string(i))].ignored = true;
 }
 
 void MapReader::takeRules(JsonFields& root) {
@@ -65,6 +77,7 @@ Result<ClassMap> MapReader::read(const json& content) {
   takeClasses(root);
   for (const auto& [key, member] : {std::pair("unknown", &ClassMap::unknown), std::pair("noise", &ClassMap::noise)})
     if (const auto* name = root.required(key)) map_.*member = classNamed(*name, root.pointer(key));
+  takeIgnored(root);
   takeRules(root);
   root.close();
   TRY(fault_.result());
@@ -79,6 +92,44 @@ std::array<std::size_t, 2> ClassMap::classesOf(std::string_view ifc_class) const
     if (ifc_class.starts_with(rule.ifc_class) && (!best || best->ifc_class.size() < rule.ifc_class.size()))
       best = &rule;
   return best ? best->of_point : std::array<std::size_t, 2>{unknown, unknown};
+}
+
+bool ClassMap::hasRuleFor(std::string_view ifc_class) const {
+  return std::any_of(rules.begin(), rules.end(), [&](const Rule& r) { return ifc_class.starts_with(r.ifc_class); });
+}
+
+std::optional<std::size_t> ClassMap::withId(std::uint32_t id) const {
+  for (std::size_t k = 0; k < classes.size(); ++k)
+    if (classes[k].id == id) return k;
+  return std::nullopt;
+}
+
+PointClasses::PointClasses(const ClassMap& map, const ScanHeader& header) : map_(map), has_truth_(header.has_truth) {
+  for (const auto& product : header.products) class_of_product_.push_back(map.classesOf(product.ifc_class));
+}
+
+std::vector<std::string> shippedClassMaps() {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(shippedFolder(), error))
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::filesystem::path shippedClassMap(const std::string& name) { return shippedFolder() / (name + ".json"); }
+
+Result<ClassMap> classMapNamed(const std::string& name_or_file) {
+  const std::filesystem::path file(name_or_file);
+  if (file.extension() == ".json") return readClassMap(file);
+  const auto names = shippedClassMaps();
+  if (std::find(names.begin(), names.end(), name_or_file) == names.end()) {
+    std::string all;
+    for (const auto& name : names) all += (all.empty() ? "" : ", ") + name;
+    return failure(ErrorKind::usage,
+                   "unknown classes '" + name_or_file + "'; available: " + all + ", or a file that ends in .json");
+  }
+  return readClassMap(shippedClassMap(name_or_file));
 }
 
 Result<ClassMap> readClassMap(const std::filesystem::path& file) {

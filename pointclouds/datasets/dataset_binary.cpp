@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "pointclouds/datasets/datasets.h"
+#include "pointclouds/datasets/label_array.h"
 #include "pointclouds/datasets/labelled_folder.h"
 #include "pointclouds/files/number_text.h"
 
@@ -81,17 +82,6 @@ class SemanticKitti final : public LabelledFolder {
   std::optional<BufferedFile> points_, labels_;
   std::uint64_t without_instance_ = 0;
 };
-
-// A header of numpy's format 1.0, always 128 bytes long.
-std::string numpyHead(const char* type, std::uint64_t rows, std::size_t columns) {
-  std::string text("\x93NUMPY\x01\x00\x76\x00", 10);
-  text.append("{'descr': '").append(type).append("', 'fortran_order': False, 'shape': (");
-  appendNumber(text, rows);
-  text += ',';
-  if (columns > 1) appendNumber(text += ' ', columns);
-  text.append("), }").resize(127, ' ');
-  return text += '\n';
-}
 
 // train, val, test: x y z label and the features r g b (0 to 255) and intensity (0 to 1), as single floats; instances
 // beside them, where no loader takes them for features.

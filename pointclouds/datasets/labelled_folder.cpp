@@ -86,8 +86,7 @@ Result<void> LabelledFolder::begin(const ScanHeader& header) {
                    "scan " + header.name);
   header_ = header;
   first_product_ = table_.add(header).product;
-  class_of_product_.clear();
-  for (const auto& product : header.products) class_of_product_.push_back(map_.classesOf(product.ifc_class));
+  classes_.emplace(map_, header);
   if (stations_.empty() && header.file_from_scanner.translation.cwiseAbs().maxCoeff() > kFarthest_m)
     shift_ = header.file_from_scanner.translation.array().round();
   Station station{uniqueName(header.name), stations_.size() % 5 == 1, 0, {}, header.file_from_scanner};
@@ -102,11 +101,8 @@ Result<void> LabelledFolder::write(const PointBlock& block) {
   if (block.size() == 0) return {};
   TRY(checkBlock(*header_, block));
   for (std::size_t i = 0; i < block.size(); ++i) {
-    const bool surfaceless =
-        header_->has_truth && (block.truth.flags[i] & (point_flag::kNoise | point_flag::kWeather)) != 0;
-    const bool above = block.z_m[i] > 0;
-    const Point point{block, i, surfaceless ? map_.noise : class_of_product_[block.product[i]][above],
-                      surfaceless ? 0 : first_product_ + block.product[i] + 1};
+    const Point point{block, i, classes_->of(block, i),
+                      classes_->isSurfaceless(block, i) ? 0 : first_product_ + block.product[i] + 1};
     if (auto done = put(point); !done) return done;
   }
   return {};

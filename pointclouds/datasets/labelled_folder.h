@@ -83,7 +83,7 @@ class LabelledFolder : public CloudWriter {
   std::optional<PartFolder> part_;  // from start() to close()
   ClassMap map_;
   std::optional<ScanHeader> header_;
-  std::vector<std::array<std::size_t, 2>> class_of_product_;
+  std::optional<PointClasses> classes_;  // of this scan
   std::vector<Station> stations_;
   Eigen::Vector3d shift_ = Eigen::Vector3d::Zero();
   JointTable table_;

@@ -8,6 +8,7 @@
 
 #include "core/units.h"
 #include "project/answers.h"
+#include "project/survey/station_placing.h"
 #include "project/survey/station_row.h"
 #include "project/survey/survey_verbs.h"
 #include "survey/instruments.h"
@@ -149,8 +150,8 @@ std::string onFloorRemedy(const StationPlacement& placement, const Eigen::Vector
 }
 
 // `before` is what moves: where no place is said but a tilt is, it stays where it is.
-Result<Station> place(const Document& document, const RayScene& scene, const std::string& name,
-                      const StationOptions& options, const Station* before, Report& report, Progress& progress) {
+Result<Station> standing(const Document& document, const RayScene& scene, const std::string& name,
+                         const StationOptions& options, const Station* before, Report& report, Progress& progress) {
   if (options.at && options.on)
     return failure(ErrorKind::usage, "specify either --at X,Y,Z (instrument centre) or --on X,Y[,Z] (floor)");
   TRY_ASSIGN(const auto setup, setupFrom(options));
@@ -228,7 +229,7 @@ Result<std::string> addRow(const Document& document, const RayScene& scene, Job&
   for (const auto& floor : rowPlaces(from, end, {options.row_count, options.row_spacing_m})) {
     StationOptions one = options;
     one.on = FloorPlace{floor.x(), floor.y(), on.z_m ? std::optional(floor.z()) : std::nullopt};
-    auto station = place(document, scene, name, one, nullptr, outcome.report, progress);
+    auto station = placeStation(document, scene, name, one, outcome.report, progress);
     if (!station && station.error().kind != ErrorKind::unusable) return tl::unexpected(station.error());
     if (!station) {
       outcome.report.warn(name, "left out of the row: " + station.error().message);
@@ -245,6 +246,11 @@ Result<std::string> addRow(const Document& document, const RayScene& scene, Job&
 }
 
 }  // namespace
+
+Result<Station> placeStation(const Document& document, const RayScene& scene, const std::string& name,
+                             const StationOptions& options, Report& report, Progress& progress) {
+  return standing(document, scene, name, options, nullptr, report, progress);
+}
 
 std::span<const Choice<StationStand>> choices(StationStand) {
   static constexpr std::array kStands = {Choice<StationStand>{"tripod", StationStand::tripod},
@@ -344,7 +350,7 @@ Result<Answered<StationAnswer>> runStation(const Document& document, const Stati
   } else if (options.add) {
     const auto& name = *options.add;
     TRY(checkStationName(job, name));
-    TRY_ASSIGN(auto station, place(document, *scene, name, options, nullptr, outcome.report, progress));
+    TRY_ASSIGN(auto station, placeStation(document, *scene, name, options, outcome.report, progress));
     outcome.answer.placed = stationRow(station, g);
     outcome.description = "Added station " + name;
     job.stations.push_back(std::move(station));
@@ -352,7 +358,7 @@ Result<Answered<StationAnswer>> runStation(const Document& document, const Stati
     const auto& name = *options.move;
     const auto at = find(job, name);
     if (at == job.stations.end()) return noStation(job, name);
-    TRY_ASSIGN(auto station, place(document, *scene, name, options, &*at, outcome.report, progress));
+    TRY_ASSIGN(auto station, standing(document, *scene, name, options, &*at, outcome.report, progress));
     const double distance = (station.true_pose.translation - at->true_pose.translation).norm();
     station.scans = at->scans;
     *at = std::move(station);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdlib>
 
+#include "project/dataset/dataset_verb.h"
 #include "project/fields.h"
 #include "project/materials/materials_verb.h"
 #include "project/materials/verification.h"
@@ -107,6 +108,8 @@ const std::vector<Verb>& table() {
              compareFields(), runCompare),
       verbOf("instruments", "List the instruments and their files, or copy one to edit it", S::files,
              instrumentsFields(), runInstruments),
+      verbOf("dataset", "Make a set of labelled scans from a recipe, forecast it, verify it, describe it", S::files,
+             datasetFields(), runDataset),
       verbOf("run", "Replay a job: a list of verbs with their options", S::files, jobFields(), runJob),
   };
   return verbs;

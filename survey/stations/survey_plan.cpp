@@ -14,17 +14,6 @@ namespace standpoint {
 
 namespace {
 
-// Of a point in an E57 of ours: four floats, the grid, the labels, the colour, what is known of it; of each 1024 bytes
-// of a page 4 are its sum.
-double bytesPerPoint(const ScanSettings& settings, const ScanChannels& channels, const Environment& environment,
-                     std::size_t materials) {
-  using e57::bitsFor;
-  const double bits = 4 * 32 + bitsFor(settings.rows - 1) + bitsFor(settings.columns - 1) +
-                      bitsFor(environment.products.size()) + bitsFor(materials) + (settings.imaging ? 24 : 0) +
-                      (channels.time ? 64 : 0) + (channels.returns ? 16 : 0) + (channels.truth ? 6 * 32 + 8 : 0);
-  return bits / 8 * 1024 / 1020;
-}
-
 // Of each sample by the station from which the points lie densest, 0 where none sees it.
 void addSpacing(std::vector<double>& spacing_m, const ScanForecast& forecast, const Pose& pose,
                 const ScanSettings& settings, const SurfaceSamples& samples) {
@@ -36,6 +25,17 @@ void addSpacing(std::vector<double>& spacing_m, const ScanForecast& forecast, co
 }
 
 }  // namespace
+
+// Four floats, the grid, the labels, the colour, what is known of it; of each 1024 bytes
+// of a page 4 are its sum.
+double bytesPerPoint(const ScanSettings& settings, const ScanChannels& channels, const Environment& environment,
+                     std::size_t materials) {
+  using e57::bitsFor;
+  const double bits = 4 * 32 + bitsFor(settings.rows - 1) + bitsFor(settings.columns - 1) +
+                      bitsFor(environment.products.size()) + bitsFor(materials) + (settings.imaging ? 24 : 0) +
+                      (channels.time ? 64 : 0) + (channels.returns ? 16 : 0) + (channels.truth ? 6 * 32 + 8 : 0);
+  return bits / 8 * 1024 / 1020;
+}
 
 Result<SurveyPlan> planSurvey(const Job& job, std::shared_ptr<const RayScene> scene,
                               std::shared_ptr<const MaterialAssignment> assignment, const PlanRequest& request,

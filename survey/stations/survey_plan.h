@@ -35,6 +35,10 @@ struct PlanRequest {
   std::uint64_t seed = 1;
 };
 
+// Of a point in an E57 of ours, with its share of the pages' sums.
+double bytesPerPoint(const ScanSettings& settings, const ScanChannels& channels, const Environment& environment,
+                     std::size_t materials);
+
 Result<SurveyPlan> planSurvey(const Job& job, std::shared_ptr<const RayScene> scene,
                               std::shared_ptr<const MaterialAssignment> assignment, const PlanRequest& request,
                               Progress& progress);

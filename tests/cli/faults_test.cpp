@@ -104,6 +104,11 @@ std::vector<Writer> writers() {
        {"clean", "s.e57", "-o", "o.e57", "--filters", "outliers", "--report", "o.json"},
        {"o.e57", "o.json"}},
       {"instruments", "", {"instruments", "--copy", "leica-rtc360", "--as", "mine"}, {"own/mine.json"}, true},
+      {"dataset",
+       "slurm",
+       {"dataset", "slurm", "recipe.json", "-o", "set", "--shards", "2"},
+       {"set/slurm/array.sbatch", "set/slurm/manifest.sbatch"},
+       true},
       {"run", "", {"run", "job.json"}, {project, "o.glb"}},
       {"rehearse", "", {"rehearse", "E04", "--solution", "-o", "o"}, {"o/result.json", "o/result.csv"}},
       {"assign",
@@ -158,6 +163,11 @@ class Faults : public ::testing::TestWithParam<Writer> {
                                       R"(/p", "add": "S9", "at": [500001.5, 5600001.5, 1.5]},
         {"verb": "export", "project": ")" +
                                       place + R"(/p", "output": ")" + place + R"(/o.glb"}])");
+    put(base.path() / "recipe.json", R"({"format": "standpoint-dataset", "recipe_version": 1, "name": "set",
+      "license": "CC0-1.0", "creator": "a class", "date": "2026-01-31", "splits": {"train": ["p"]},
+      "classes": ["s3dis"],
+      "environments": [{"id": "p", "project": "p", "stations": [{"strategy": "grid", "spacing_m": 2, "count": 2}]}],
+      "instruments": [{"id": "focus", "instrument": "faro-focus-s350", "set": ["resolution=1/32", "quality=4x"]}]})");
     ASSERT_EQ(run({"materials", "p"}, base.path()), 0);
     ASSERT_EQ(run({"station", "p", "--add", "S1", "--at", "500001.5,5600001.5,1.5"}, base.path()), 0);
     if (writer().verb == std::string("register")) {

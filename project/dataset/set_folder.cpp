@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/dataset/set_folder.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/json_fields.h"
+#include "core/json_file.h"
+#include "core/part_file.h"
+
+namespace standpoint {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr double kMostCount = 9007199254740991.0;  // that a JSON number holds exactly
+
+std::string hostName() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? std::string(name.data()) : "host";
+}
+
+// "HOST.PID" of another process that has ended.
+bool isLeft(const std::string& name) {
+  const auto dot = name.rfind('.');
+  if (dot == std::string::npos || name.substr(0, dot) != hostName()) return false;
+  pid_t process = 0;
+  const char* const end = name.data() + name.size();
+  if (std::from_chars(name.data() + dot + 1, end, process).ptr != end || process <= 0) return false;
+  return ::kill(process, 0) != 0 && errno == ESRCH;
+}
+
+// Anything that no set begins with.
+bool holdsOther(const fs::path& set) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(set, error)) {
+    const auto name = entry.path().filename();
+    if (name != kWorkFolder && name != "slurm" && name != "classes") return true;
+  }
+  return false;
+}
+
+tl::unexpected<Error> cannotMake(const fs::path& path, const std::error_code& error) {
+  return failure(ErrorKind::file_system, "cannot create: " + error.message(), path.string());
+}
+
+std::uint64_t wholeAt(JsonFields& fields, const char* key) {
+  return static_cast<std::uint64_t>(fields.number(key, 0, kMostCount));
+}
+
+}  // namespace
+
+std::string textOf(const SetRecord& record, const Recipe& recipe, const std::string& scan) {
+  Json files = Json::array(), classes = Json::object();
+  for (const auto& file : record.files)
+    files.push_back({{"path", file.path}, {"bytes", file.bytes}, {"sha256", file.sha256}});
+  for (const auto& map : recipe.classes) {
+    auto& counts = classes[map.id] = Json::object();
+    for (std::size_t k = 0; k < map.map.classes.size(); ++k)
+      counts[map.map.classes[k].name] = record.classes.at(map.id)[k];
+  }
+  const Json json = {{"scan", scan},
+                     {"seed", record.seed},
+                     {"points", record.points},
+                     {"pulses", record.pulses},
+                     {"returns", record.returns},
+                     {"instrument_seconds", record.instrument_seconds},
+                     {"files", std::move(files)},
+                     {"classes", std::move(classes)}};
+  return json.dump(2) + "\n";
+}
+
+Result<SetRecord> readSetRecord(const fs::path& file, const Recipe& recipe) {
+  TRY_ASSIGN(const auto json, readJsonFile(file));
+  JsonFault fault(nameWithFolder(file));
+  JsonFields root(fault, json, "");
+  SetRecord record;
+  root.text("scan");
+  record.seed = wholeAt(root, "seed");
+  record.points = wholeAt(root, "points");
+  record.pulses = wholeAt(root, "pulses");
+  record.returns = wholeAt(root, "returns");
+  record.instrument_seconds = root.number("instrument_seconds", 0, kMostCount);
+  root.list("files", [&](JsonFields& one) {
+    record.files.push_back({one.text("path"), wholeAt(one, "bytes"), one.text("sha256")});
+  });
+  root.object("classes", [&](JsonFields& maps) {
+    for (const auto& map : recipe.classes) {
+      auto& counts = record.classes[map.id];
+      maps.required(map.id);
+      maps.object(map.id, [&](JsonFields& fields) {
+        for (const auto& one : map.map.classes) counts.push_back(wholeAt(fields, one.name.c_str()));
+      });
+      counts.resize(map.map.classes.size());
+    }
+  });
+  root.close();
+  TRY(fault.result());
+  return record;
+}
+
+std::optional<SetRecord> finishedScan(const fs::path& set, const Recipe& recipe, const SetFiles& files) {
+  auto record = readSetRecord(set / files.record, recipe);
+  if (!record) return std::nullopt;
+  const auto isWhole = [&](const SetFile& file) {
+    std::error_code error;
+    return fs::file_size(set / file.path, error) == file.bytes && !error;
+  };
+  if (record->files.size() != files.labels.size() + 2 ||
+      !std::all_of(record->files.begin(), record->files.end(), isWhole))
+    return std::nullopt;
+  return *std::move(record);
+}
+
+Result<SetEnvironmentRecord> readEnvironmentRecord(const fs::path& set, const RecipeEnvironment& environment) {
+  const auto file = set / environmentFile(environment);
+  SetEnvironmentRecord record;
+  TRY_ASSIGN(record.text, readWholeFile(file, kLargestJsonFile));
+  TRY_ASSIGN(const auto json, parseJson(record.text, nameWithFolder(file)));
+  JsonFault fault(nameWithFolder(file));
+  JsonFields root(fault, json, "");
+  root.list("stations", [&](JsonFields& one) {
+    record.stations.push_back(one.text("name"));
+    one.skip("at");
+    one.skip("height_m");
+  });
+  record.without_room = root.texts("without_room");
+  TRY(fault.result());
+  return record;
+}
+
+Result<SetFolder> SetFolder::open(const fs::path& set, const Recipe& recipe) {
+  std::error_code error;
+  const bool is_new = !fs::exists(set / "recipe.json", error);
+  if (is_new && holdsOther(set))
+    return failure(ErrorKind::usage, "the folder is not empty and no set: choose a new folder", set.string());
+  const auto work = set / kWorkFolder / fmt::format("{}.{}", hostName(), ::getpid());
+  fs::create_directories(work, error);
+  if (error) return cannotMake(work, error);
+  for (const auto& entry : fs::directory_iterator(set / kWorkFolder, error))
+    if (isLeft(entry.path().filename().string())) {
+      std::error_code ignored;
+      fs::remove_all(entry.path(), ignored);
+    }
+  SetFolder made(set, work);
+  TRY(made.putSame("recipe.json", recipe.text, "the set was begun with another recipe: choose a new folder"));
+  for (const auto& map : recipe.classes)
+    TRY(made.putSame(fs::path("classes") / (map.id + ".json"), map.text,
+                     "the set was begun with other classes of this name: choose a new folder"));
+  return made;
+}
+
+SetFolder::SetFolder(SetFolder&& other) noexcept
+    : set_(std::move(other.set_)), work_(std::exchange(other.work_, fs::path())) {}
+
+SetFolder::~SetFolder() {
+  if (work_.empty()) return;
+  std::error_code ignored;
+  fs::remove_all(work_, ignored);  // its parent stays: others may be about to make theirs
+}
+
+Result<void> SetFolder::put(const fs::path& in_set) const {
+  std::error_code error;
+  const auto place = set_ / in_set;
+  fs::create_directories(place.parent_path(), error);
+  if (error) return cannotMake(place.parent_path(), error);
+  fs::rename(workFile(in_set), place, error);
+  if (error) return failure(ErrorKind::file_system, "cannot finish: " + error.message(), place.string());
+  return {};
+}
+
+Result<void> SetFolder::putText(const fs::path& in_set, const std::string& text) const {
+  TRY(writeWholeText(workFile(in_set), text));
+  return put(in_set);
+}
+
+Result<void> SetFolder::putSame(const fs::path& in_set, const std::string& text, const std::string& other) const {
+  std::error_code error;
+  if (!fs::exists(set_ / in_set, error)) return putText(in_set, text);
+  TRY_ASSIGN(const auto before, readWholeFile(set_ / in_set, kLargestJsonFile));
+  if (before != text) return failure(ErrorKind::unusable, other, (set_ / in_set).string());
+  return {};
+}
+
+}  // namespace standpoint
