@@ -13,6 +13,7 @@
 #include "core/random.h"
 #include "core/units.h"
 #include "project/answers.h"
+#include "project/survey/error_profile.h"
 #include "project/survey/scan_header.h"
 #include "project/survey/scan_request.h"
 #include "project/survey/watched_sink.h"
@@ -41,29 +42,6 @@ Result<CarriedTrajectory> trajectoryNamed(const Job& job, const std::string& nam
     return of_file;
   }
   return failure(ErrorKind::usage, fmt::format("unknown trajectory '{}', and no such file", name), "--trajectory");
-}
-
-const ErrorProfile* profileOf(const ScanRequest& request, TrajectoryError error) {
-  const auto named = [](std::string_view id) -> const ErrorProfile* {
-    return std::find_if(kErrorProfiles.begin(), kErrorProfiles.end(),
-                        [&](const ErrorProfile& p) { return p.id == id; });
-  };
-  const std::string& mount = request.instrument.moving->mount;
-  switch (error) {
-    case TrajectoryError::none: return nullptr;
-    case TrajectoryError::wearable: return named("wearable");
-    case TrajectoryError::handheld: return named("handheld");
-    case TrajectoryError::poor: return named("poor");
-    case TrajectoryError::survey_mms: return named("survey-mms");
-    case TrajectoryError::uav: return named("uav");
-    case TrajectoryError::mems: return named("mems");
-    case TrajectoryError::of_instrument: break;
-  }
-  if (request.options.effects == Effects::none()) return nullptr;
-  if (mount == "body") return named("wearable");
-  if (mount == "vehicle") return named("survey-mms");
-  if (mount == "aircraft") return named("uav");
-  return named("handheld");
 }
 
 // "x=0.1 yaw=2": place and turn on what carries it, and what its clock is ahead.
@@ -145,7 +123,10 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
   }
   const RayScene& scene = *at_hand.preparation->scene;
   findObstacles(carried, scene, *document.georeference, trajectory.name, report);
-  const ErrorProfile* const profile = profileOf(request, options.trajectory_error);
+  const ErrorProfile* const profile =
+      request.options.effects == Effects::none() && options.trajectory_error == TrajectoryError::of_instrument
+          ? nullptr
+          : errorProfile(options.trajectory_error, request.instrument.moving->mount);
   progress.stage("Solve " + trajectory.name, 0.1, 0.15);
   TRY_ASSIGN(const auto solved, solveMotion(carried, scene, document.job->stations, trajectory.name,
                                             {.profile = profile,

@@ -256,8 +256,8 @@ struct ScanVerbOptions {
   Switch anchors = Switch::off;
   Deskew deskew = Deskew::pulse;
   KeyValues mounting, mounting_error;  // x, y, z in m; roll, pitch, yaw in degrees; clock in s
-  std::string instrument;  // id
-  KeyValues settings;      // in the device's own words
+  std::string instrument;              // id
+  KeyValues settings;                  // in the device's own words
   std::uint64_t seed = 1;
   bool ideal = false;
   std::optional<Effects> without;  // the effects that are left
@@ -337,6 +337,10 @@ struct TrajectoryOptions {
   std::optional<std::uint64_t> seed;
   std::filesystem::path output;  // for `write`
   double rate_hz = 200;
+  std::string solved_for;  // id of the instrument that it is solved with, for `write`; empty: as it truly is
+  TrajectoryError trajectory_error = TrajectoryError::of_instrument;
+  Switch closures = Switch::on, anchors = Switch::off;
+  std::uint64_t error_seed = 1;
 };
 const Fields<TrajectoryOptions>& trajectoryFields();
 // A waypoint as `through` has it, in the frame of the model's file: the text reads as the same place again.

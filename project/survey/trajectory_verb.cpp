@@ -9,7 +9,9 @@
 #include "core/output_place.h"
 #include "core/units.h"
 #include "project/survey/clicked_places.h"
+#include "project/survey/error_profile.h"
 #include "project/survey/survey_verbs.h"
+#include "survey/instruments.h"
 #include "survey/trajectories/carried_motion.h"
 #include "survey/trajectories/trajectory_file.h"
 
@@ -104,8 +106,32 @@ TrajectoryRow trajectoryRow(const CarriedTrajectory& t, const Georeference& g, R
   return row;
 }
 
-Result<void> writeTrajectoryFile(const CarriedTrajectory& trajectory, const Georeference& g,
+// As it is found with an instrument: what a scan of the same seed places its points by.
+Result<SolvedMotion> solvedFor(const Document& document, const CarriedTrajectory& trajectory,
+                               const CarriedMotion& carried, const TrajectoryOptions& options, Report& report,
+                               Progress& progress) {
+  TRY_ASSIGN(const auto instrument, instrumentNamed(options.solved_for));
+  if (!instrument.moving)
+    return failure(ErrorKind::usage, "this instrument stands on a tripod, and has no trajectory", "--solved-for");
+  TRY_ASSIGN(const auto settings, resolveMovingSettings(instrument, {}));
+  TRY_ASSIGN(const auto scene, RayScene::build(document.environment(), progress));
+  TRY_ASSIGN(auto solved, solveMotion(carried, *scene, document.job->stations, trajectory.name,
+                                      {.profile = errorProfile(options.trajectory_error, instrument.moving->mount),
+                                       .closures = options.closures == Switch::on,
+                                       .anchors = options.anchors == Switch::on,
+                                       .seed = options.error_seed,
+                                       .max_range_m = settings.max_range_m},
+                                      progress));
+  report.note(trajectory.name,
+              fmt::format("the trajectory errs by {:.1f} mm (rms), {:.1f} mm at most; {} closures "
+                          "and {} stations hold it",
+                          1e3 * solved.rms_m, 1e3 * solved.largest_m, solved.closures, solved.anchors));
+  return solved;
+}
+
+Result<void> writeTrajectoryFile(const Document& document, const CarriedTrajectory& trajectory,
                                  const TrajectoryOptions& options, Report& report, Progress& progress) {
+  const Georeference& g = *document.georeference;
   const TrajectoryFormat* const format =
       options.format.empty() ? trajectoryFormatFor(options.output) : trajectoryFormat(options.format);
   if (format == nullptr) {
@@ -118,7 +144,12 @@ Result<void> writeTrajectoryFile(const CarriedTrajectory& trajectory, const Geor
   TRY(checkFolderOf(options.output, "--output"));
   TRY_ASSIGN(const auto carried, carriedMotion(trajectory, g, report, progress));
   TRY_ASSIGN(const auto frame, fileFrame(g, format->id));
-  TRY_ASSIGN(const auto lost, format->write(options.output, evenSamples(*carried.truth, options.rate_hz), frame));
+  SolvedMotion solved;
+  if (!options.solved_for.empty()) {
+    TRY_ASSIGN(solved, solvedFor(document, trajectory, carried, options, report, progress));
+  }
+  const PoseFunction& written = solved.pose ? *solved.pose : *carried.truth;
+  TRY_ASSIGN(const auto lost, format->write(options.output, evenSamples(written, options.rate_hz), frame));
   report.append(lost);
   return {};
 }
@@ -157,7 +188,17 @@ const Fields<TrajectoryOptions>& trajectoryFields() {
       {"remove", &O::remove, "name of a trajectory to remove; its scans stay where they are"},
       {"write", &O::write, "name of a trajectory to write to --output"},
       {"output", &O::output, "file to write: .csv, .sbet, .tum, .kitti, .trj"},
-      {"rate", &O::rate_hz, "samples of that file", {.unit = "Hz", .minimum = 1, .maximum = 10000}}};
+      {"rate", &O::rate_hz, "samples of that file", {.unit = "Hz", .minimum = 1, .maximum = 10000}},
+      {"solved-for", &O::solved_for,
+       "id of an instrument: --write the trajectory as it is found with it, not as it is"},
+      {"trajectory-error", &O::trajectory_error,
+       "how such a trajectory errs; without it as the instrument's kind does"},
+      {"closures", &O::closures, "off: places that the trajectory comes back to are not recognised"},
+      {"anchors", &O::anchors, "on: scanned stations within 3 m of the trajectory hold it"},
+      {"error-seed",
+       &O::error_seed,
+       "of its error: the seed of the scan that it belongs to",
+       {.minimum = 0, .maximum = 9007199254740991.0}}};
   return fields;
 }
 
@@ -224,7 +265,7 @@ Result<Answered<TrajectoryAnswer>> runTrajectory(const Document& document, const
       job.trajectories.erase(at);
       outcome.description = "Removed trajectory " + name;
     } else {
-      TRY(writeTrajectoryFile(*at, g, options, outcome.report, progress));
+      TRY(writeTrajectoryFile(document, *at, options, outcome.report, progress));
       outcome.answer.file = options.output;
     }
   }

@@ -17,6 +17,7 @@
 #include "project/storage/project_files.h"
 #include "project/storage/session.h"
 #include "project/survey/underlays.h"
+#include "survey/trajectories/placed_anew.h"
 
 namespace standpoint {
 
@@ -122,7 +123,9 @@ const Fields<ConvertOptions>& convertFields() {
        "write a labelled training set to the new folder OUT; the scans must have labels",
        {.choices = sets}},
       {"classes", &O::classes,
-       "for --dataset: JSON file that maps IFC classes to those of the set (default: pointclouds/classes)"}};
+       "for --dataset: JSON file that maps IFC classes to those of the set (default: pointclouds/classes)"},
+      {"from-trajectory", &O::from_trajectory, "trajectory by which the points were placed, with --to-trajectory"},
+      {"to-trajectory", &O::to_trajectory, "trajectory by which they are placed anew, each at its own time"}};
   return fields;
 }
 
@@ -139,6 +142,16 @@ Result<Answered<ConvertAnswer>> runConvert(const Document& document, const Conve
   Answered<ConvertAnswer> outcome{document};
   if (!options.dataset.empty()) return convertTo(options, std::move(outcome), progress);
   TRY(checkFolderOf(options.out, "OUT"));
+  if (options.from_trajectory.empty() != options.to_trajectory.empty())
+    return failure(ErrorKind::usage, "--from-trajectory and --to-trajectory belong together", "convert");
+  if (!options.to_trajectory.empty()) {
+    TRY(mustExist(options.from_trajectory));
+    TRY(mustExist(options.to_trajectory));
+    TRY_ASSIGN(outcome.answer.files, placeAnew(in, options.out, options.as, options.from_trajectory,
+                                               options.to_trajectory, outcome.report, progress));
+    outcome.description = "Placed " + in.filename().string() + " by another trajectory";
+    return outcome;
+  }
   TRY_ASSIGN(outcome.answer.files, convertCloud(in, options.out, options.as, outcome.report, progress));
   outcome.description = "Converted " + in.filename().string();
   return outcome;

@@ -46,9 +46,10 @@ Result<Answered<ExportAnswer>> runExport(const Document& document, const ExportO
 
 struct ConvertOptions {
   std::filesystem::path in, out;
-  std::string as;                 // variant of the format
-  std::string dataset;            // name of the set; `out` is its folder
-  std::filesystem::path classes;  // of the set
+  std::string as;                                        // variant of the format
+  std::string dataset;                                   // name of the set; `out` is its folder
+  std::filesystem::path classes;                         // of the set
+  std::filesystem::path from_trajectory, to_trajectory;  // by which the points were placed, and are to be
 };
 const Fields<ConvertOptions>& convertFields();
 

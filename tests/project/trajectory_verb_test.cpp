@@ -256,6 +256,58 @@ TEST(MovingScanVerb, PutsPointsOffByWhatIsWronglyBelievedOfItsMounting) {
   }
 }
 
+// Scanned once and solved again: by the truth the points come to lie on the walls.
+TEST(MovingScanVerb, IsSolvedAgainWithoutScanningAgain) {
+  const TemporaryFolder folder;
+  json options = along(folder.path() / "o.e57");
+  options["without"] = "range-noise,angle-noise,bias,footprint,chance,incidence-noise,range-offset";
+  options["trajectory-error"] = "poor", options["truth"] = true;
+  const Document made = withLoop();
+  ASSERT_TRUE(run("scan", made, options));
+  const auto path = [&](const char* name) { return (folder.path() / name).string(); };
+  ASSERT_TRUE(run("trajectory", made,
+                  {{"write", "loop"},
+                   {"output", path("again.csv")},
+                   {"solved-for", "velodyne-vlp-16"},
+                   {"trajectory-error", "poor"}}));
+  const auto bytes = [&](const char* name) {
+    std::ifstream file(path(name));
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  EXPECT_EQ(bytes("again.csv"), bytes("o.trajectory.csv"));
+  const auto placed = run("convert", {},
+                          {{"in", path("o.e57")},
+                           {"out", path("true.e57")},
+                           {"from-trajectory", path("again.csv")},
+                           {"to-trajectory", path("o.true.csv")}});
+  ASSERT_TRUE(placed) << describe(placed.error());
+  const auto before = pointsOf(folder.path() / "o.e57"), after = pointsOf(folder.path() / "true.e57");
+  ASSERT_EQ(after.scans[0].points.size(), before.scans[0].points.size());
+  EXPECT_NE(after.scans[0].header.guid, before.scans[0].header.guid);
+  double worst_before = 0, worst_after = 0;
+  for (const auto* kept : {&before, &after})
+    for (std::size_t i = 0; i < kept->scans[0].points.size(); i += 101) {
+      const auto& points = kept->scans[0].points;
+      const double off = offFaces(kept->scans[0].header.file_from_scanner *
+                                  Eigen::Vector3d(points.x_m[i], points.y_m[i], points.z_m[i]));
+      double& worst = kept == &before ? worst_before : worst_after;
+      worst = std::max(worst, off);
+    }
+  EXPECT_GT(worst_before, 0.001);
+  EXPECT_LT(worst_after, 1e-4);
+  const auto shorter = run("trajectory", made, {{"add", "short"}, {"through", {"500001,5600001", "500001.5,5600001"}}});
+  ASSERT_TRUE(shorter);
+  ASSERT_TRUE(run("trajectory", shorter->document, {{"write", "short"}, {"output", path("short.csv")}}));
+  const auto refused = run("convert", {},
+                           {{"in", path("o.e57")},
+                            {"out", path("x.e57")},
+                            {"from-trajectory", path("again.csv")},
+                            {"to-trajectory", path("short.csv")}});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(describe(refused.error()).find("is not within this trajectory"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "x.e57"));
+}
+
 TEST(MovingScanVerb, InShardsHasThePointsOfTheWhole) {
   const TemporaryFolder folder;
   const Document document = withLoop();
