@@ -25,7 +25,9 @@ std::array<std::uint32_t, 4> interferenceDraw(const ScanOptions& options, std::u
 
 ColumnTracer::ColumnTracer(const ScanPlan& plan, const Edges& edges)
     : plan_(plan),
-      scene_(plan.scene, plan.wideBeams() ? kBeamEdge * beamRadius(plan.instrument, plan.farthest_m) : 0),
+      scene_(plan.scene, plan.wideBeams() ? TimedScene::BeamWidth{plan.instrument.exit_diameter_m,
+                                                                  plan.instrument.divergence_rad, plan.farthest_m}
+                                          : TimedScene::BeamWidth{}),
       facets_(plan, scene_),
       paths_(plan, facets_, scene_),
       edges_(edges),

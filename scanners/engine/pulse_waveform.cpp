@@ -59,7 +59,7 @@ Result<PulseWaveform> pulseWaveform(const RayScene& scene, const MaterialAssignm
   one.elevation_from_rad = request.elevation_rad - kStep_rad / 2;
   one.elevation_to_rad = request.elevation_rad + kStep_rad / 2;
   const ScanPlan plan(*embree, assignment, instrument, one, local_from_scanner, nullptr, options);
-  TimedScene timed(*embree, 0);
+  TimedScene timed(*embree, {});
   FacetCache facets(plan, timed);
   const auto ends = endsOf(plan, facets, timed);
   EndPowers end_powers(plan.receiver);

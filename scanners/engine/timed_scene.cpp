@@ -7,6 +7,8 @@
 
 #include <tbb/task_arena.h>
 
+#include "scanners/engine/footprint.h"
+
 namespace standpoint {
 
 namespace {
@@ -75,8 +77,8 @@ struct TimedScene::Window {
     const int i = std::clamp(static_cast<int>(steps), 0, kPosesPerWindow - 1);
     const Path& path = paths[k];
     const Eigen::Vector3d to = path.centre[i] + (steps - i) * (path.centre[i + 1] - path.centre[i]) - origin;
-    const double radius =
-        owner.scene_.bodies()[bodies[k]].box.diagonal().norm() / 2 + path.off_m + owner.beam_m_ + 1e-3;
+    const double half = owner.scene_.bodies()[bodies[k]].box.diagonal().norm() / 2;
+    const double radius = half + path.off_m + owner.aside_m(to.norm() + half + path.off_m) + 1e-3;
     const double along = std::max(0.0, to.dot(direction));
     return (to - along * direction).squaredNorm() <= radius * radius;
   }
@@ -111,8 +113,13 @@ struct TimedScene::Asked {
   std::uint32_t near = 0;  // lanes
 };
 
-TimedScene::TimedScene(const EmbreeScene& scene, double beam_m)
-    : scene_(scene), beam_m_(beam_m), known_(scene.bodies().size()) {}
+TimedScene::TimedScene(const EmbreeScene& scene, const BeamWidth& beam)
+    : scene_(scene), width_(beam), beam_m_(aside_m(beam.farthest_m)), known_(scene.bodies().size()) {}
+
+// As far out as rays of a beam go (footprint.h), which is w(R) ≤ (D0 + γR) / 2.
+double TimedScene::aside_m(double range_m) const {
+  return kBeamEdge * (width_.exit_m + width_.divergence_rad * std::min(range_m, width_.farthest_m)) / 2;
+}
 
 TimedScene::~TimedScene() = default;
 
@@ -148,7 +155,8 @@ void TimedScene::meetBody(std::uint32_t body, Asked& asked, unsigned lane) {
   const Eigen::Quaterniond back = at.rotation.conjugate();
   const Eigen::Vector3d origin = back * (asked.origin[lane] - at.translation), direction = back * asked.direction[lane];
   const auto farthest = static_cast<double>(asked.ranges_m[lane]);
-  const Eigen::Vector3d aside = Eigen::Vector3d::Constant(beam_m_ + 1e-4);
+  const double reach = (resting.box.center() - origin).norm() + resting.box.diagonal().norm() / 2;
+  const Eigen::Vector3d aside = Eigen::Vector3d::Constant(aside_m(reach) + 1e-4);
   const Eigen::AlignedBox3d box(resting.box.min() - aside, resting.box.max() + aside);
   if (!crosses(box, origin, direction, farthest + beam_m_)) return;
   asked.near |= 1U << lane;

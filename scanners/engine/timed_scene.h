@@ -20,8 +20,12 @@ namespace standpoint {
 // from where eight poses a window say that it is, is taken from how far it gets between them.
 class TimedScene {
  public:
-  // A ray comes near a body that is within `beam_m` of it.
-  TimedScene(const EmbreeScene& scene, double beam_m);
+  // A ray comes near a body that is in the beam about it: `exit_m` wide and spreading by `divergence_rad`. Rays go
+  // `farthest_m` at most.
+  struct BeamWidth {
+    double exit_m = 0, divergence_rad = 0, farthest_m = 0;
+  };
+  TimedScene(const EmbreeScene& scene, const BeamWidth& beam);
   ~TimedScene();
   TimedScene(const TimedScene&) = delete;
   TimedScene& operator=(const TimedScene&) = delete;
@@ -54,9 +58,11 @@ class TimedScene {
   void ask(Asked& asked, int count);
   Window& windowOf(std::int64_t number);
   const Pose& pose(std::uint32_t body, double time_s);
+  double aside_m(double range_m) const;
 
   const EmbreeScene& scene_;
-  double beam_m_;
+  BeamWidth width_;
+  double beam_m_;                                     // aside, as far as rays go
   std::vector<Known> known_;                          // of each body
   std::array<std::unique_ptr<Window>, 2> windows_{};  // a column may lie in two
   std::size_t oldest_ = 0;

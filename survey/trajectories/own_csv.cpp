@@ -16,7 +16,8 @@ constexpr const char* kFormat = "standpoint-trajectory";
 constexpr int kVersion = 1;
 constexpr const char* kBody = "x forward, y left, z up";
 
-Result<void> checkHead(std::string_view line) {
+// The file's frame, where the head says what it is.
+Result<std::optional<Pose>> poseOfHead(std::string_view line) {
   TRY_ASSIGN(const auto head, parseJson(std::string(line.substr(1)), "head"));
   const auto format = head.find("format"), version = head.find("version");
   if (!head.is_object() || format == head.end() || *format != kFormat)
@@ -24,7 +25,15 @@ Result<void> checkHead(std::string_view line) {
   if (version == head.end() || *version != kVersion)
     return failure(ErrorKind::unusable,
                    "the head's version is not known; a newer version of this program wrote the file");
-  return {};
+  const auto frame = head.find("map_from_local");
+  if (frame == head.end()) return std::nullopt;
+  try {
+    const auto p = frame->at("translation_m").get<std::array<double, 3>>();
+    const auto q = frame->at("rotation_xyzw").get<std::array<double, 4>>();
+    return Pose{{q[3], q[0], q[1], q[2]}, {p[0], p[1], p[2]}};
+  } catch (const nlohmann::json::exception&) {
+    return failure(ErrorKind::unusable, "the head's map_from_local is no frame");
+  }
 }
 
 }  // namespace
@@ -32,16 +41,20 @@ Result<void> checkHead(std::string_view line) {
 Result<ReadTrajectory> readOwn(const std::filesystem::path& file, const TrajectoryFrame&, Progress& progress) {
   TextTrack track{"csv", "this format", {8}, {}};
   bool headed = false;
+  std::optional<Pose> file_from_local;
   track.names_first = true;
   track.comment = [&](std::string_view line) -> Result<void> {
     if (std::exchange(headed, true)) return {};
-    return checkHead(line);
+    TRY_ASSIGN(file_from_local, poseOfHead(line));
+    return {};
   };
   track.sample = [&](const std::vector<double>& n, std::string_view) -> Result<TimedPose> {
     if (!headed) return failure(ErrorKind::unusable, "the head is missing: a line with # and JSON");
     return TimedPose{n[0], {{n[7], n[4], n[5], n[6]}, {n[1], n[2], n[3]}}};
   };
-  return readTextTrack(file, track, {}, progress);
+  TRY_ASSIGN(auto read, readTextTrack(file, track, {}, progress));
+  read.file_from_local = file_from_local;
+  return read;
 }
 
 Result<Report> writeOwn(const std::filesystem::path& file, const Trajectory& samples, const TrajectoryFrame& frame) {

@@ -23,6 +23,8 @@ Result<PoseSpline> splineOf(const fs::path& file, Report& report, Progress& prog
   TRY_ASSIGN(const auto frame, fileFrame(Georeference(), format->id));
   TRY_ASSIGN(auto read, format->read(file, frame, progress));
   report.append(read.report);
+  if (read.file_from_local)
+    for (Pose& pose : read.samples.pose) pose = *read.file_from_local * pose;
   auto spline = PoseSpline::through(read.samples, read.gap_s);
   if (!spline) return failure(spline.error().kind, spline.error().message, file.string());
   return spline;

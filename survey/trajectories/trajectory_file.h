@@ -29,10 +29,11 @@ Result<TrajectoryFrame> mapFrame(const Georeference& georeference);
 Result<TrajectoryFrame> fileFrame(const Georeference& georeference, std::string_view format);
 
 struct ReadTrajectory {
-  std::string format;           // its id
-  Trajectory samples;           // local_from_body, the body as its format says; times as in the file, in seconds
-  double gap_s = 0;             // ten times the usual step, for PoseSpline::through
-  std::vector<TimeGap> breaks;  // steps longer than that; each is a warning of the report, too
+  std::string format;  // its id
+  Trajectory samples;  // local_from_body, the body as its format says; times as in the file, in seconds
+  std::optional<Pose> file_from_local;  // of a file that has local coordinates, and says where the others are
+  double gap_s = 0;                     // ten times the usual step, for PoseSpline::through
+  std::vector<TimeGap> breaks;          // steps longer than that; each is a warning of the report, too
   Report report;
 };
 

@@ -85,7 +85,7 @@ TEST(MovingBodies, AreMetWhereTheyAreAtEachRaysOwnTime) {
   const auto plate = scene.builder.box({5, -0.5, -0.5}, {5.1, 0.5, 0.5}, false);
   scene.move(plate, std::make_shared<Moves>(Eigen::Vector3d(1, 0, 0)));
   const auto built = scene.build();
-  TimedScene timed(dynamic_cast<const EmbreeScene&>(*built), 0);
+  TimedScene timed(dynamic_cast<const EmbreeScene&>(*built), {});
   for (const double time_s : {0.0, 0.1, 0.25, 3.9999, 7.0, 100.0}) {
     const NearestHit hit = timed.nearest({0, 0.1, 0.2}, {1, 0, 0}, 0, 100, time_s);
     const double range = time_s < 44 ? 5 + time_s : 50;
@@ -107,7 +107,7 @@ TEST(MovingBodies, HaveTheirEdgesWhereAnExactRotationPutsThem) {
   const double rate = 1.2;
   scene.move(blade, std::make_shared<Moves>(Eigen::Vector3d::Zero(), rate));
   const auto built = scene.build();
-  TimedScene timed(dynamic_cast<const EmbreeScene&>(*built), 0);
+  TimedScene timed(dynamic_cast<const EmbreeScene&>(*built), {});
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> times(0, 600), radii(8.1, 57.9);
   for (int k = 0; k < 2000; ++k) {
@@ -320,7 +320,7 @@ TEST(MovingBodies, AreThereWhileTheyAreSaidToBe) {
   scene.move(plate, std::make_shared<Moves>(Eigen::Vector3d::Zero()));
   scene.bodies[0].from_s = 2, scene.bodies[0].to_s = 3;
   const auto built = scene.build();
-  TimedScene timed(dynamic_cast<const EmbreeScene&>(*built), 0);
+  TimedScene timed(dynamic_cast<const EmbreeScene&>(*built), {});
   for (const double time_s : {1.99, 2.0, 2.5, 3.0, 3.01})
     EXPECT_EQ(timed.nearest({0, 0, 0}, {1, 0, 0}, 0, 100, time_s).facet != kNoFacet, time_s >= 2 && time_s <= 3);
 }
