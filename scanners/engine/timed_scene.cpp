@@ -14,6 +14,7 @@ namespace standpoint {
 namespace {
 
 constexpr int kPosesPerWindow = 8;
+constexpr double kPerWindow = 4;  // 1 / kWindow_s
 
 // From where a ray enters the box to where it leaves it, in multiples of its direction; empty where it misses it.
 bool crosses(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
@@ -38,7 +39,7 @@ struct TimedScene::Window {
   // Where the middle of a body is about, from one pose of the window to the next, and how far off at most.
   struct Path {
     Eigen::Vector3d centre[kPosesPerWindow + 1];
-    double off_m = 0;
+    double reach_m = 0;  // from there: of the body, too
   };
   TimedScene& owner;
   std::int64_t number;
@@ -62,7 +63,7 @@ struct TimedScene::Window {
         box.extend(centre), before = centre;
         if (i >= 0 && i <= kPosesPerWindow) path.centre[i] = centre;
       }
-      path.off_m = step_m / 2;
+      path.reach_m = body.box.diagonal().norm() / 2 + step_m / 2 + 1e-3;
       const double aside = body.box.diagonal().norm() / 2 + step_m + owner.beam_m_;
       bodies.push_back(b);
       swept.emplace_back(box.min().array() - aside, box.max().array() + aside);
@@ -71,16 +72,17 @@ struct TimedScene::Window {
     // Whoever waits for others meanwhile might take up another column on this thread.
     tbb::this_task_arena::isolate([this] { build(); });
   }
-  // May the ray come near the body?
-  bool reaches(std::size_t k, double time_s, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
-    const double steps = (time_s / kWindow_s - static_cast<double>(number)) * kPosesPerWindow;
+  // May the ray come near the body before it ends?
+  bool reaches(std::size_t k, double time_s, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+               double farthest_m) const {
+    const double steps = (time_s * kPerWindow - static_cast<double>(number)) * kPosesPerWindow;
     const int i = std::clamp(static_cast<int>(steps), 0, kPosesPerWindow - 1);
     const Path& path = paths[k];
     const Eigen::Vector3d to = path.centre[i] + (steps - i) * (path.centre[i + 1] - path.centre[i]) - origin;
-    const double half = owner.scene_.bodies()[bodies[k]].box.diagonal().norm() / 2;
-    const double radius = half + path.off_m + owner.aside_m(to.norm() + half + path.off_m) + 1e-3;
     const double along = std::max(0.0, to.dot(direction));
-    return (to - along * direction).squaredNorm() <= radius * radius;
+    if (along - path.reach_m > farthest_m + owner.beam_m_) return false;
+    const double radius = path.reach_m + owner.aside_m(along + path.reach_m);
+    return to.squaredNorm() - along * along <= radius * radius + 1e-9 * to.squaredNorm();
   }
   void build() {
     RTCDevice device = owner.scene_.device();
@@ -140,7 +142,9 @@ void TimedScene::meet(const RTCIntersectFunctionNArguments* arguments) {
   for (unsigned i = 0; i < arguments->N; ++i) {
     if (arguments->valid[i] == 0) continue;
     const unsigned lane = RTCRayN_id(rays, arguments->N, i);
-    if (!window.reaches(arguments->primID, asked.time_s[lane], asked.origin[lane], asked.direction[lane])) continue;
+    if (!window.reaches(arguments->primID, asked.time_s[lane], asked.origin[lane], asked.direction[lane],
+                        static_cast<double>(asked.ranges_m[lane])))
+      continue;
     window.owner.meetBody(window.bodies[arguments->primID], asked, lane);
     // Boxes beyond what is met may still hold something in its cell of ranges, or be near a wide beam.
     RTCRayN_tfar(rays, arguments->N, i) = asked.ranges_m[lane] + static_cast<float>(window.owner.beam_m_) + 0.01F;
