@@ -38,7 +38,9 @@ class Dataset : public testing::Test {
             {"environments", {{{"id", "house"}, {"project", "house"}}, {{"id", "tower"}, {"project", "tower"}}}},
             {"stations", {{{"strategy", "grid"}, {"spacing_m", 2}, {"count", 2}}}},
             {"instruments",
-             {{{"id", "focus"}, {"instrument", "faro-focus-s350"}, {"set", {"resolution=1/32", "quality=4x"}}}}},
+             {{{"id", "focus"},
+               {"instrument", "faro-focus-s350"},
+               {"set", {"resolution=1/32", "quality=4x", "horizontal_to=90"}}}}},
             {"effects", {{{"id", "noisy"}}, {{"id", "ideal"}, {"ideal", true}}}},
             {"splits", {{"train", {"house"}}, {"test", {"tower"}}}},
             {"classes", {"s3dis"}}};
