@@ -39,7 +39,9 @@ TEST(VerbTable, AcceptsItsOwnDefaults) {
       nlohmann::json options = {{p.name, p.default_value}};
       for (const auto& q : v.parameters)
         if (q.required)
-          options[q.name] = q.kind == ParameterKind::list ? nlohmann::json::array({"x"}) : nlohmann::json("x");
+          options[q.name] = q.kind == ParameterKind::list     ? nlohmann::json::array({"x"})
+                            : q.kind == ParameterKind::choice ? nlohmann::json(q.choices.front())
+                                                              : nlohmann::json("x");
       EXPECT_TRUE(checkOptions(v, options)) << v.name << " " << p.name;
     }
 }
