@@ -62,9 +62,9 @@ class TimedScene {
 
   const EmbreeScene& scene_;
   BeamWidth width_;
-  double beam_m_;                                     // aside, as far as rays go
-  std::vector<Known> known_;                          // of each body
-  std::array<std::unique_ptr<Window>, 2> windows_{};  // a column may lie in two
+  double beam_m_;                                   // aside, as far as rays go
+  std::vector<Known> known_;                        // of each body
+  std::array<std::unique_ptr<Window>, 2> windows_;  // a column may lie in two
   std::size_t oldest_ = 0;
 };
 
