@@ -8,6 +8,7 @@
 #include "core/output_place.h"
 #include "core/random.h"
 #include "pointclouds/formats.h"
+#include "survey/scanning/scan_identity.h"
 #include "survey/targets/target_measuring.h"
 
 namespace standpoint {
@@ -21,8 +22,7 @@ std::string guidAt(const ScanHeader& header, const Pose& pose) {
   const auto text =
       fmt::format("{} {} {}", header.guid, fmt::join(pose.translation, " "), fmt::join(pose.rotation.coeffs(), " "));
   const std::uint64_t a = stableHash(text.c_str()), b = stableHash(text.c_str(), a);
-  return fmt::format("{{{:08x}-{:04x}-8{:03x}-8{:03x}-{:012x}}}", a >> 32U, (a >> 16U) & 0xFFFFU, (a >> 4U) & 0xFFFU,
-                     a & 0xFFFU, b & 0xFFFFFFFFFFFFU);
+  return guidText(a, b);
 }
 
 class PosedSink final : public PointSink {

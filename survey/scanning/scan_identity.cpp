@@ -117,4 +117,9 @@ std::string guidOf(std::uint64_t world_fingerprint, const Station& station, cons
                      0x8000U | ((b >> 48U) & 0x3FFFU), b & 0xFFFFFFFFFFFFU);
 }
 
+std::string guidText(std::uint64_t a, std::uint64_t b) {
+  return fmt::format("{{{:08x}-{:04x}-8{:03x}-8{:03x}-{:012x}}}", a >> 32U, (a >> 16U) & 0xFFFFU, (a >> 4U) & 0xFFFU,
+                     a & 0xFFFU, b & 0xFFFFFFFFFFFFU);
+}
+
 }  // namespace standpoint

@@ -17,4 +17,7 @@ std::uint64_t fingerprintOf(const ScanWorld& world);
 std::string guidOf(std::uint64_t world_fingerprint, const Station& station, const Pose& believed,
                    const ScanRequest& request);
 
+// Of a copy of a scan that differs from it: two hashes of what it came from and of what was done, as such a UUID.
+std::string guidText(std::uint64_t a, std::uint64_t b);
+
 }  // namespace standpoint

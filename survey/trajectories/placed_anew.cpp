@@ -7,6 +7,7 @@
 
 #include "core/random.h"
 #include "pointclouds/formats.h"
+#include "survey/scanning/scan_identity.h"
 #include "survey/trajectories/trajectory_file.h"
 
 namespace standpoint {
@@ -43,8 +44,7 @@ class AnewSink final : public PointSink {
     frame_ = header.file_from_scanner;
     if (header.has_truth) placed.true_file_from_scanner = truePose(header);
     const std::uint64_t hash = stableHash(poseText().c_str(), stableHash(header.guid.c_str()));
-    placed.guid = fmt::format("{{{:08x}-{:04x}-8{:03x}-8{:03x}-{:012x}}}", hash >> 32U, (hash >> 16U) & 0xFFFFU,
-                              (hash >> 4U) & 0xFFFU, hash & 0xFFFU, stableHash("anew", hash) & 0xFFFFFFFFFFFFU);
+    placed.guid = guidText(hash, stableHash("anew", hash));
     placed.description += (header.description.empty() ? "placed by " : "; placed by ") + by_;
     return to_.begin(placed);
   }
