@@ -33,29 +33,26 @@ ClassTally::ClassTally(const ClassMap& map) {
     most = std::max(most, one.id);
     if (!one.ignored) scored_.push_back(one);
   }
-  slot_of_id_.assign(most + std::size_t{1}, scored_.size());
+  slot_of_id_.assign(most + std::size_t{1}, kUnknown);
   for (std::size_t k = 0; k < scored_.size(); ++k) slot_of_id_[scored_[k].id] = k;
   for (const auto& one : map.classes)
     if (one.ignored) slot_of_id_[one.id] = kIgnored;
   counts_.assign(scored_.size() * (scored_.size() + 1), 0);
 }
 
-Result<void> ClassTally::add(std::span<const std::uint32_t> truth, std::span<const std::uint32_t> predicted) {
-  const auto slot = [&](std::uint32_t id) { return id < slot_of_id_.size() ? slot_of_id_[id] : scored_.size(); };
+std::optional<UnknownLabel> ClassTally::add(std::span<const std::uint32_t> truth,
+                                            std::span<const std::uint32_t> predicted) {
+  const auto slot = [&](std::uint32_t id) { return id < slot_of_id_.size() ? slot_of_id_[id] : kUnknown; };
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    const auto row = slot(truth[i]);
-    if (row == scored_.size())
-      return failure(ErrorKind::unusable,
-                     "the truth has the id " + std::to_string(truth[i]) +
-                         ", which is none of the classes; specify the classes that it was made with");
-    if (row == kIgnored) {
+    const auto row = slot(truth[i]), column = slot(predicted[i]);
+    if (row == kUnknown) return UnknownLabel{false, i, truth[i]};
+    if (column == kUnknown) return UnknownLabel{true, i, predicted[i]};
+    if (row == kIgnored)
       ++ignored_;
-      continue;
-    }
-    const auto column = std::min(slot(predicted[i]), scored_.size());
-    ++counts_[row * (scored_.size() + 1) + column];
+    else
+      ++counts_[row * (scored_.size() + 1) + std::min(column, scored_.size())];
   }
-  return {};
+  return std::nullopt;
 }
 
 ClassScores ClassTally::scores() const {
@@ -68,7 +65,7 @@ ClassScores ClassTally::scores() const {
     right += scores.classes.back().both;
     const auto row = counts_.begin() + static_cast<std::ptrdiff_t>(k * (n + 1));
     scores.confusion.emplace_back(row, row + static_cast<std::ptrdiff_t>(n + 1));
-    scores.outside += scores.confusion.back().back();
+    scores.given_up += scores.confusion.back().back();
   }
   for (std::size_t row = 0; row < n; ++row)
     for (std::size_t column = 0; column <= n; ++column) {

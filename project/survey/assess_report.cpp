@@ -24,16 +24,6 @@ Sign signOf(Verdict verdict) {
   return kSigns[static_cast<int>(verdict)];
 }
 
-constexpr const char* kStyle = R"(@page{size:A4;margin:15mm}
-body{font:10pt sans-serif;color:#111;background:#fff;max-width:180mm;margin:2em auto}
-h1{font-size:16pt;margin-bottom:.2em}h2{font-size:12pt;margin:1.4em 0 .4em}
-table{border-collapse:collapse;width:100%}
-td,th{border-bottom:1px solid #ccc;padding:3px 6px;text-align:left;vertical-align:top}
-th{background:#f0f0f0}td.n,th.n{text-align:right;white-space:nowrap}td.s{white-space:nowrap;font-weight:bold}
-p.verdict{font-size:13pt}small{color:#555}svg{width:100%;max-height:110mm;border:1px solid #ccc}
-tr,svg{page-break-inside:avoid}@media print{body{margin:0}}
-)";
-
 constexpr const char *kPlaceHead = "Worst place (m, frame of the model's file)",
                      *kGapPlaceHead = "Place (m, frame of the model's file)";
 
@@ -212,11 +202,7 @@ std::string gapsHtml(const AssessAnswer& answer) {
 std::string htmlPage(const AssessAnswer& answer) {
   const auto title = htmlText(answer.project.empty() ? printed("Quality of the scans")
                                                      : printedf("Quality of the scans of {}", answer.project));
-  std::string text = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"{0}\"><head><meta charset=\"utf-8\"><title>{1}</title>\n"
-      "<style>{2}</style></head><body>\n<h1>{1}</h1>\n",
-      reportLanguage(), title, kStyle);
-  text += headline(answer);
+  std::string text = reportBeginning(title) + headline(answer);
   const auto limits = answer.limits.empty() ? printed(answer.profile)
                                             : printedf("{}, changed by {}", printed(answer.profile), answer.limits);
   text += "<p>" +

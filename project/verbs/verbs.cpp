@@ -2,6 +2,7 @@
 #include <cstdlib>
 
 #include "project/dataset/dataset_verb.h"
+#include "project/dataset/score_verb.h"
 #include "project/fields.h"
 #include "project/materials/materials_verb.h"
 #include "project/materials/verification.h"
@@ -110,6 +111,8 @@ const std::vector<Verb>& table() {
              instrumentsFields(), runInstruments),
       verbOf("dataset", "Make a set of labelled scans from a recipe, forecast it, verify it, describe it", S::files,
              datasetFields(), runDataset),
+      verbOf("score", "Score labels of points against the truth: IoU, precision, recall, confusion matrix", S::files,
+             scoreFields(), runScore),
       verbOf("run", "Replay a job: a list of verbs with their options", S::files, jobFields(), runJob),
   };
   return verbs;

@@ -19,11 +19,11 @@ ClassMap map() {
 TEST(ClassScores, AreThoseOfAHandComputedExample) {
   ClassTally tally(map());
   const std::vector<std::uint32_t> truth = {1, 1, 1, 1, 2, 2, 7, 0}, predicted = {1, 1, 1, 2, 2, 0, 1, 1};
-  ASSERT_TRUE(tally.add(truth, predicted));
+  ASSERT_FALSE(tally.add(truth, predicted));
   const auto scores = tally.scores();
   EXPECT_EQ(scores.points, 7U);
   EXPECT_EQ(scores.ignored, 1U);
-  EXPECT_EQ(scores.outside, 1U);
+  EXPECT_EQ(scores.given_up, 1U);
   EXPECT_DOUBLE_EQ(*scores.classes[0].iou(), 3.0 / 5);        // 3 both, 4 + 4 - 3
   EXPECT_DOUBLE_EQ(*scores.classes[0].precision(), 3.0 / 4);  // a door among them
   EXPECT_DOUBLE_EQ(*scores.classes[0].recall(), 3.0 / 4);
@@ -38,15 +38,23 @@ TEST(ClassScores, AreThoseOfAHandComputedExample) {
 TEST(ClassScores, LeaveAClassThatIsNowhereOutOfTheMean) {
   ClassTally tally(map());
   const std::vector<std::uint32_t> labels = {1, 2};
-  ASSERT_TRUE(tally.add(labels, labels));
+  ASSERT_FALSE(tally.add(labels, labels));
   EXPECT_EQ(tally.scores().counted, 2U);
   EXPECT_DOUBLE_EQ(*tally.scores().mean_iou, 1);
 }
 
-TEST(ClassScores, RefuseATruthThatIsNoneOfTheClasses) {
-  ClassTally tally(map());
-  const std::vector<std::uint32_t> truth = {5}, predicted = {1};
-  EXPECT_FALSE(tally.add(truth, predicted));
+TEST(ClassScores, TellTheFirstLabelThatIsNoneOfTheClasses) {
+  const std::vector<std::uint32_t> good = {1, 0, 2}, bad = {1, 5, 2}, far = {1, 1, PointLabels::kNone};
+  const auto of_truth = ClassTally(map()).add(bad, good);
+  ASSERT_TRUE(of_truth);
+  EXPECT_FALSE(of_truth->predicted);
+  EXPECT_EQ(of_truth->at, 1U);
+  EXPECT_EQ(of_truth->id, 5U);
+  const auto beside_ignored = ClassTally(map()).add(good, bad);
+  ASSERT_TRUE(beside_ignored) << "also where the truth does not count";
+  EXPECT_TRUE(beside_ignored->predicted);
+  EXPECT_EQ(beside_ignored->at, 1U);
+  EXPECT_EQ(ClassTally(map()).add(good, far)->at, 2U);
 }
 
 TEST(PointLabels, AreReadFromNumpyKittiAndText) {

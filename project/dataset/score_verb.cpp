@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/dataset/score_verb.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/output_place.h"
+#include "pointclouds/datasets/label_array.h"
+#include "pointclouds/scores/class_scores.h"
+#include "pointclouds/scores/true_classes.h"
+#include "project/dataset/set_scans.h"
+
+namespace standpoint {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ScoredPair {
+  fs::path truth, predicted;
+};
+struct ScorePlan {
+  ClassMap map;
+  std::vector<ScoredPair> pairs;
+};
+
+Result<void> checkScoreOutput(const fs::path& file) {
+  if (file.empty()) return {};
+  const auto ending = file.extension();
+  if (ending != ".html" && ending != ".json" && ending != ".csv")
+    return failure(ErrorKind::usage, "unsupported report format: use .html, .json or .csv", "--output");
+  return checkFolderOf(file, "--output");
+}
+
+Result<void> checkScoredClasses(const ClassMap& map) {
+  for (std::size_t k = 0; k < map.classes.size(); ++k)
+    if (map.withId(map.classes[k].id) != k)
+      return failure(ErrorKind::unusable,
+                     fmt::format("the classes '{}' and '{}' have the same id, so labels cannot tell them apart",
+                                 map.classes[*map.withId(map.classes[k].id)].name, map.classes[k].name),
+                     map.name);
+  return {};
+}
+
+Result<RecipeClasses> classesOfSet(const Recipe& recipe, const ScoreOptions& options) {
+  std::string all;
+  for (const auto& classes : recipe.classes) {
+    if (classes.id == options.classes || (options.classes.empty() && recipe.classes.size() == 1)) return classes;
+    all += (all.empty() ? "" : ", ") + classes.id;
+  }
+  return failure(ErrorKind::usage, fmt::format("specify the classes of the set: {}", all), "--classes");
+}
+
+// What somebody has written of a scan, under `folder`.
+Result<fs::path> predictionOf(const fs::path& folder, const std::string& scan, const std::string& classes) {
+  std::vector<fs::path> found;
+  for (const auto& ending : {"." + classes + ".npy", std::string(".npy"), std::string(".label"), std::string(".labels"),
+                             std::string(".txt")}) {
+    std::error_code error;
+    if (const auto file = folder / (scan + ending); fs::exists(file, error)) found.push_back(file);
+  }
+  if (found.empty())
+    return failure(ErrorKind::file_system,
+                   fmt::format("this scan has no labels; it may have .{}.npy, .npy, .label, .labels or .txt", classes),
+                   (folder / scan).string());
+  if (found.size() > 1)
+    return failure(ErrorKind::unusable,
+                   fmt::format("this scan has labels in two files, {} and {}; keep one", found[0].filename().string(),
+                               found[1].filename().string()),
+                   (folder / scan).string());
+  return found.front();
+}
+
+Result<ScorePlan> planOfSet(const ScoreOptions& options, Report& report) {
+  std::error_code error;
+  if (!fs::exists(options.truth / "recipe.json", error))
+    return failure(ErrorKind::usage, "the folder is no set: specify a cloud, a file of labels or a set",
+                   options.truth.string());
+  if (!fs::is_directory(options.predicted, error))
+    return failure(ErrorKind::usage, "labels of a set must be in a folder, in files that are named as its scans",
+                   options.predicted.string());
+  TRY_ASSIGN(const auto recipe, readRecipeOfSet(options.truth));
+  TRY_ASSIGN(const auto classes, classesOfSet(recipe, options));
+  const auto of_map = static_cast<std::size_t>(
+      std::find_if(recipe.classes.begin(), recipe.classes.end(), [&](const auto& c) { return c.id == classes.id; }) -
+      recipe.classes.begin());
+  ScorePlan plan{classes.map, {}};
+  std::size_t not_there = 0;
+  const auto variants = variantsOf(recipe);
+  for (const auto& place : placesOf(recipe)) {
+    if (!options.split.empty() && recipe.splitOf(recipe.environments[place.environment]) != options.split) continue;
+    for (const auto& variant : variants) {
+      const auto files = filesOf(recipe, place, variant);
+      if (!fs::exists(options.truth / files.record, error)) {
+        ++not_there;
+        continue;
+      }
+      TRY_ASSIGN(auto predicted, predictionOf(options.predicted, files.scan, classes.id));
+      plan.pairs.push_back({options.truth / files.labels[of_map], std::move(predicted)});
+    }
+  }
+  if (plan.pairs.empty())
+    return failure(ErrorKind::unusable, "the set has no scans to score in this split", options.truth.string());
+  if (not_there > 0)
+    report.note(recipe.name, fmt::format("{} scans of the recipe are not in the set; they were not scored", not_there));
+  return plan;
+}
+
+Result<ScorePlan> planOfFile(const ScoreOptions& options) {
+  std::error_code error;
+  if (!fs::exists(options.truth, error))
+    return failure(ErrorKind::file_system, "file not found", options.truth.string());
+  if (!options.split.empty()) return failure(ErrorKind::usage, "belongs to the folder of a set", "--split");
+  if (options.classes.empty())
+    return failure(ErrorKind::usage, "specify the classes that the labels are of, a name or a file (.json)",
+                   "--classes");
+  TRY_ASSIGN(auto map, classMapNamed(options.classes));
+  return ScorePlan{std::move(map), {{options.truth, options.predicted}}};
+}
+
+// As readPointLabels; an error tells the folder, too: the files of a set have the same names in each.
+Result<std::vector<std::uint32_t>> labelsIn(const fs::path& file, Progress& progress) {
+  auto labels = readPointLabels(file, progress);
+  if (labels) return std::move(labels->ids);
+  auto error = std::move(labels).error();
+  if (error.source.starts_with(file.filename().string())) error.source = (file.parent_path() / error.source).string();
+  return failure(std::move(error));
+}
+
+tl::unexpected<Error> noneOfTheClasses(const ScoredPair& pair, const UnknownLabel& label, const ClassMap& map) {
+  const auto& file = label.predicted ? pair.predicted : pair.truth;
+  const auto ending = file.extension();
+  const auto place = ending == ".txt" || ending == ".labels" ? fmt::format("{} line {}", file.string(), label.at + 1)
+                                                             : fmt::format("{} index {}", file.string(), label.at);
+  if (label.id == PointLabels::kNone)
+    return failure(ErrorKind::unusable, fmt::format("the label is no number that the classes of {} can have", map.name),
+                   place);
+  return failure(ErrorKind::unusable, fmt::format("the label {} is none of the classes of {}", label.id, map.name),
+                 place);
+}
+
+Result<void> addPair(const ScoredPair& pair, const ClassMap& map, ClassTally& tally, Progress& progress) {
+  TRY_ASSIGN(const auto predicted, labelsIn(pair.predicted, progress));
+  TRY_ASSIGN(const auto truth,
+             isLabelFile(pair.truth) ? labelsIn(pair.truth, progress) : trueClasses(pair.truth, map, progress));
+  if (truth.size() != predicted.size())
+    return failure(ErrorKind::unusable,
+                   fmt::format("has labels of {} points, and the truth {} has {} points", predicted.size(),
+                               pair.truth.string(), truth.size()),
+                   pair.predicted.string());
+  if (const auto unknown = tally.add(truth, predicted)) return noneOfTheClasses(pair, *unknown, map);
+  return {};
+}
+
+ScoreAnswer scoreAnswerOf(const ClassScores& scores, const ScorePlan& plan, const ScoreOptions& options) {
+  ScoreAnswer answer;
+  answer.truth = options.truth;
+  answer.predicted = options.predicted;
+  answer.map = plan.map.name;
+  answer.files = plan.pairs.size();
+  answer.points = scores.points;
+  answer.ignored = scores.ignored;
+  answer.given_up = scores.given_up;
+  answer.accuracy = scores.accuracy;
+  answer.mean_iou = scores.mean_iou;
+  answer.classes_in_mean = scores.counted;
+  answer.mean_recall = scores.mean_accuracy;
+  answer.matrix = scores.confusion;
+  for (const auto& c : scores.classes)
+    answer.classes.push_back({c.name, c.id, c.truth, c.predicted, c.both, c.iou(), c.precision(), c.recall()});
+  return answer;
+}
+
+std::string shareText(const std::optional<double>& share) {
+  return share ? fmt::format("{:.2f} %", 100 * *share) : "–";
+}
+
+std::string scoreText(const ScoreAnswer& answer) {
+  std::string text = fmt::format("{:24} {:>12} {:>12} {:>10} {:>10} {:>10}\n", "class", "truth", "predicted", "IoU",
+                                 "precision", "recall");
+  for (const auto& c : answer.classes)
+    text += fmt::format("{:24} {:>12} {:>12} {:>10} {:>10} {:>10}\n", c.name, c.truth, c.predicted, shareText(c.iou),
+                        shareText(c.precision), shareText(c.recall));
+  return text +
+         fmt::format("mean recall {}; {} points with an ignored truth left out, {} predicted as an ignored class\n",
+                     shareText(answer.mean_recall), answer.ignored, answer.given_up);
+}
+
+}  // namespace
+
+const Fields<ScoreOptions>& scoreFields() {
+  using O = ScoreOptions;
+  static const Fields<O> fields = {
+      {"truth",
+       &O::truth,
+       "a simulated cloud, a file of labels (.npy, .label, .labels, .txt) or the folder of a set",
+       {.positional = true, .required = true}},
+      {"predicted",
+       &O::predicted,
+       "file with a label for each point of the truth, in its order; for a set, a folder with one for each scan",
+       {.positional = true, .required = true, .label = "Labels to score"}},
+      {"classes", &O::classes, "classes of the labels, by name or file (.json); of a set, one of its own"},
+      {"split", &O::split, "score only this split of a set", {.choices = {"train", "validation", "test"}}},
+      {"output", &O::output, "report to write (.html to print, .json, .csv)"}};
+  return fields;
+}
+
+const AnswerFields<ScoreRow>& answerFields(const ScoreRow*) {
+  using A = ScoreRow;
+  static const AnswerFields<A> fields = {{"class", &A::name},          {"id", &A::id},        {"truth", &A::truth},
+                                         {"predicted", &A::predicted}, {"both", &A::both},    {"iou", &A::iou},
+                                         {"precision", &A::precision}, {"recall", &A::recall}};
+  return fields;
+}
+
+const AnswerFields<ScoreAnswer>& answerFields(const ScoreAnswer*) {
+  using A = ScoreAnswer;
+  static const AnswerFields<A> fields = {{"truth", &A::truth},
+                                         {"predicted", &A::predicted},
+                                         {"map", &A::map},
+                                         {"files", &A::files},
+                                         {"points", &A::points},
+                                         {"ignored", &A::ignored},
+                                         {"given_up", &A::given_up},
+                                         {"accuracy", &A::accuracy},
+                                         {"mean_iou", &A::mean_iou},
+                                         {"classes_in_mean", &A::classes_in_mean},
+                                         {"mean_recall", &A::mean_recall},
+                                         {"classes", &A::classes},
+                                         {"confusion", &A::matrix}};
+  return fields;
+}
+
+Result<Answered<ScoreAnswer>> runScore(const Document& document, const ScoreOptions& options, Progress& progress) {
+  TRY(checkScoreOutput(options.output));
+  Answered<ScoreAnswer> outcome{document};
+  std::error_code error;
+  progress.stage("Score the labels");
+  TRY_ASSIGN(const auto plan,
+             fs::is_directory(options.truth, error) ? planOfSet(options, outcome.report) : planOfFile(options));
+  TRY(checkScoredClasses(plan.map));
+  ClassTally tally(plan.map);
+  for (std::size_t k = 0; k < plan.pairs.size(); ++k) {
+    progress.advance(static_cast<double>(k) / static_cast<double>(plan.pairs.size()));
+    TRY(addPair(plan.pairs[k], plan.map, tally, progress));
+  }
+  outcome.answer = scoreAnswerOf(tally.scores(), plan, options);
+  const auto& answer = outcome.answer;
+  if (answer.points == 0)
+    return failure(ErrorKind::unusable, "no point has a class that is scored", options.truth.string());
+  if (!options.output.empty()) TRY(writeScoreReport(answer, options.output));
+  outcome.description = fmt::format("Scored {} points: mean IoU {} of {} classes, accuracy {}", answer.points,
+                                    shareText(answer.mean_iou), answer.classes_in_mean, shareText(answer.accuracy));
+  outcome.text = scoreText(answer);
+  return outcome;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "project/answers.h"
+#include "project/fields.h"
+
+namespace standpoint {
+
+// Scores anybody's labels of points against the truth.
+struct ScoreOptions {
+  std::filesystem::path truth;      // a cloud with labels, a file of labels, or the folder of a set
+  std::filesystem::path predicted;  // a file of labels; for a set, a folder of them
+  std::string classes;              // a shipped map or a file; empty: the only one of the set
+  std::string split;                // of a set; empty: all
+  std::filesystem::path output;     // .html, .json or .csv
+};
+const Fields<ScoreOptions>& scoreFields();
+
+struct ScoreRow {  // of a class; as in ClassScore
+  std::string name;
+  std::uint32_t id = 0;
+  std::uint64_t truth = 0, predicted = 0, both = 0;  // points
+  std::optional<double> iou, precision, recall;
+};
+const AnswerFields<ScoreRow>& answerFields(const ScoreRow*);
+struct ScoreAnswer {
+  std::filesystem::path truth, predicted;          // as they were given
+  std::string map;                                 // name of the classes
+  std::size_t files = 0;                           // of labels that were scored
+  std::uint64_t points = 0;                        // scored
+  std::uint64_t ignored = 0, given_up = 0;         // not scored; scored, but predicted as an ignored class
+  std::optional<double> accuracy, mean_iou;        // of points; of the classes below
+  std::size_t classes_in_mean = 0;                 // that truth or prediction has
+  std::optional<double> mean_recall;               // of the classes that the truth has
+  std::vector<ScoreRow> classes;                   // that are scored, by id
+  std::vector<std::vector<std::uint64_t>> matrix;  // [truth][predicted]: points; the last column is `given_up`
+};
+const AnswerFields<ScoreAnswer>& answerFields(const ScoreAnswer*);
+Result<Answered<ScoreAnswer>> runScore(const Document& document, const ScoreOptions& options, Progress& progress);
+
+// .html (one page without anything from elsewhere), .json (the answer) or .csv (a class a line).
+Result<void> writeScoreReport(const ScoreAnswer& answer, const std::filesystem::path& file);
+
+}  // namespace standpoint

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pointclouds/datasets/label_array.h"
+#include "project/storage/project_files.h"
+#include "tests/project/support.h"
+
+namespace standpoint {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+std::string textIn(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string arrayOf(const std::vector<std::uint16_t>& ids) {
+  auto array = numpyHead("<u2", ids.size(), 1);
+  for (const auto id : ids) array.append(reinterpret_cast<const char*>(&id), sizeof id);
+  return array;
+}
+
+std::vector<std::uint16_t> idsIn(const fs::path& file) {
+  Progress progress;
+  const auto labels = readPointLabels(file, progress);
+  EXPECT_TRUE(labels) << file;
+  return labels ? std::vector<std::uint16_t>(labels->ids.begin(), labels->ids.end()) : std::vector<std::uint16_t>();
+}
+
+class Score : public testing::Test {
+ protected:
+  // none 0 (ignored), wall 1, floor 2, door 7, lamp 9.
+  void SetUp() override {
+    map =
+        folder.write("own.json", R"({"name": "own", "classes": {"none": 0, "wall": 1, "floor": 2, "door": 7, "lamp": 9},
+      "ignore": ["none"], "unknown": "none", "noise": "none", "ifc": {"IfcWall": "wall", "IfcSlab": "floor"}})");
+  }
+  Result<Outcome> score(const fs::path& truth, const fs::path& predicted, json more = json::object()) const {
+    more["truth"] = truth.string();
+    more["predicted"] = predicted.string();
+    if (!more.contains("classes")) more["classes"] = map.string();
+    if (more["classes"] == "") more.erase("classes");
+    return run("score", {}, more);
+  }
+  // A set of one scan for training and one for a test.
+  fs::path smallSet(const json& classes) const {
+    Progress progress;
+    for (const char* name : {"house", "tower"}) EXPECT_TRUE(saveProject(twoStoreyDocument(), folder / name, progress));
+    const json recipe = {
+        {"format", "standpoint-dataset"},
+        {"recipe_version", 1},
+        {"name", "demo"},
+        {"license", "CC0-1.0"},
+        {"creator", "somebody"},
+        {"date", "2026-01-31"},
+        {"environments", {{{"id", "house"}, {"project", "house"}}, {{"id", "tower"}, {"project", "tower"}}}},
+        {"stations", {{{"strategy", "grid"}, {"spacing_m", 2}, {"count", 1}}}},
+        {"instruments",
+         {{{"id", "focus"},
+           {"instrument", "faro-focus-s350"},
+           {"set", {"resolution=1/32", "quality=4x", "horizontal_to=90"}}}}},
+        {"splits", {{"train", {"house"}}, {"test", {"tower"}}}},
+        {"classes", classes}};
+    const auto made = run("dataset", {},
+                          {{"action", "run"},
+                           {"of", folder.write("recipe.json", recipe.dump()).string()},
+                           {"output", (folder / "set").string()}});
+    EXPECT_TRUE(made) << describe(made.error());
+    return folder / "set";
+  }
+  TemporaryFolder folder;
+  fs::path map;
+};
+
+const std::string kScan = "grid-1/focus_clear_assigned_none_1_noisy";
+
+// By hand: walls 3 of 4 found, a door taken for a wall, one floor given up, one point without a truth; no lamps.
+TEST_F(Score, IsThatOfAHandComputedExample) {
+  const auto truth = folder.write("truth.npy", arrayOf({1, 1, 1, 1, 2, 2, 7, 0}));
+  const auto predicted = folder.write("predicted.txt", "1\n1\n1\n2\n2\n0\n1\n1\n");
+  const auto scored = score(truth, predicted);
+  ASSERT_TRUE(scored) << describe(scored.error());
+  const auto& a = scored->answer;
+  EXPECT_EQ(a["map"], "own");
+  EXPECT_EQ(a["points"], 7);
+  EXPECT_EQ(a["ignored"], 1);
+  EXPECT_EQ(a["given_up"], 1);
+  EXPECT_EQ(a["confusion"], json({{3, 1, 0, 0, 0}, {0, 1, 0, 0, 1}, {1, 0, 0, 0, 0}, {0, 0, 0, 0, 0}}));
+  EXPECT_DOUBLE_EQ(a["accuracy"], 4.0 / 7);
+  EXPECT_DOUBLE_EQ(a["mean_iou"], (3.0 / 5 + 1.0 / 3 + 0) / 3);
+  EXPECT_EQ(a["classes_in_mean"], 3) << "lamps are in neither";
+  EXPECT_DOUBLE_EQ(a["mean_recall"], (3.0 / 4 + 1.0 / 2 + 0) / 3);
+  const auto& wall = a["classes"][0];
+  EXPECT_EQ(wall["class"], "wall");
+  EXPECT_DOUBLE_EQ(wall["iou"], 3.0 / 5);
+  EXPECT_DOUBLE_EQ(wall["precision"], 3.0 / 4);
+  EXPECT_DOUBLE_EQ(wall["recall"], 3.0 / 4);
+  EXPECT_TRUE(a["classes"][2]["precision"].is_null()) << "nothing was predicted to be a door";
+  EXPECT_TRUE(a["classes"][3]["iou"].is_null());
+  EXPECT_THAT(scored->description, HasSubstr("mean IoU 31.11 % of 3 classes, accuracy 57.14 %"));
+}
+
+TEST_F(Score, IsWrittenAsAPageATableAndFigures) {
+  const auto truth = folder.write("truth.npy", arrayOf({1, 1, 1, 2})),
+             predicted = folder.write("p.labels", "1\n1\n2\n0\n");
+  for (const char* name : {"o.html", "o.csv", "o.json"}) {
+    const auto scored = score(truth, predicted, {{"output", (folder / name).string()}});
+    ASSERT_TRUE(scored) << describe(scored.error());
+    if (name == std::string("o.json")) {
+      EXPECT_EQ(json::parse(textIn(folder / name)), scored->answer);
+    }
+  }
+  EXPECT_EQ(
+      textIn(folder / "o.csv"),
+      "class,id,truth,predicted,both,iou,precision,recall,\"as wall\",\"as floor\",\"as door\",\"as lamp\",as ignored\n"
+      "\"wall\",1,3,2,2,0.6666666666666666,1,0.6666666666666666,2,1,0,0,0\n"
+      "\"floor\",2,1,1,0,0,0,0,0,0,0,0,1\n"
+      "\"door\",7,0,0,0,,,,0,0,0,0,0\n"
+      "\"lamp\",9,0,0,0,,,,0,0,0,0,0\n");
+  const auto page = textIn(folder / "o.html");
+  EXPECT_THAT(page, HasSubstr("Mean IoU 33.33 % of 2 classes, accuracy 50.00 %, mean recall 33.33 %"));
+  EXPECT_THAT(page, HasSubstr("<tr><td>1 wall<td class=\"n\" title=\"2\""));
+  EXPECT_THAT(page, HasSubstr("66.7"));
+  EXPECT_THAT(page, testing::Not(HasSubstr("<td>9 lamp"))) << "in neither: not in the matrix";
+  const auto other = score(truth, predicted, {{"output", "o.pdf"}});
+  ASSERT_FALSE(other);
+  EXPECT_EQ(other.error().kind, ErrorKind::usage);
+}
+
+TEST_F(Score, RefusesLabelsByFileAndPlace) {
+  const auto truth = folder.write("truth.npy", arrayOf({1, 0, 2}));
+  const auto refused = [&](const fs::path& t, const fs::path& p) {
+    const auto scored = score(t, p);
+    EXPECT_FALSE(scored) << p;
+    return scored ? std::string() : describe(scored.error());
+  };
+  EXPECT_THAT(refused(truth, folder.write("few.txt", "1\n2\n")),
+              HasSubstr("few.txt: has labels of 2 points, and the truth"));
+  EXPECT_THAT(refused(truth, folder.write("odd.npy", arrayOf({1, 5, 2}))),
+              HasSubstr("odd.npy index 1: the label 5 is none of the classes of own"))
+      << "also beside an ignored truth";
+  EXPECT_THAT(refused(truth, folder.write("odd.txt", "1\n0\n-1\n")),
+              HasSubstr("odd.txt line 3: the label is no number"));
+  EXPECT_THAT(refused(folder.write("wrong.npy", arrayOf({1, 3, 2})), truth),
+              HasSubstr("wrong.npy index 1: the label 3"));
+  EXPECT_THAT(refused(truth, folder / "nowhere.npy"), HasSubstr("nowhere.npy"));
+  EXPECT_THAT(refused(folder / "nowhere.npy", truth), HasSubstr("file not found"));
+  EXPECT_THAT(refused(folder.write("none.npy", arrayOf({0, 0, 0})), truth), HasSubstr("no point has a class"));
+  EXPECT_THAT(refused(folder.write("word.txt", "1\nwall\n"), truth), HasSubstr("word.txt line 2"));
+}
+
+TEST_F(Score, RefusesOptionsThatDoNotFit) {
+  const auto labels = folder.write("truth.npy", arrayOf({1, 2}));
+  const auto refused = [&](const fs::path& t, const json& more) {
+    const auto scored = score(t, labels, more);
+    EXPECT_FALSE(scored);
+    return scored ? std::string() : describe(scored.error());
+  };
+  EXPECT_THAT(refused(labels, {{"classes", ""}}), HasSubstr("--classes: specify the classes"));
+  EXPECT_THAT(refused(labels, {{"classes", "nobodys"}}), HasSubstr("unknown classes 'nobodys'"));
+  EXPECT_THAT(refused(labels, {{"split", "test"}}), HasSubstr("--split: belongs to the folder of a set"));
+  EXPECT_THAT(refused(folder.path(), {}), HasSubstr("the folder is no set"));
+  const auto twins = folder.write("twins.json", R"({"name": "twins", "classes": {"a": 1, "b": 1}, "unknown": "a",
+      "noise": "a", "ifc": {}})");
+  EXPECT_THAT(refused(labels, {{"classes", twins.string()}}), HasSubstr("have the same id"));
+}
+
+TEST_F(Score, TakesTheTruthOfASimulatedCloudPointByPoint) {
+  const auto set = smallSet({"s3dis"});
+  const auto cloud = set / "scans/house" / (kScan + ".e57"), labels = set / "labels/house" / (kScan + ".s3dis.npy");
+  const auto scored = score(cloud, labels, {{"classes", "s3dis"}});
+  ASSERT_TRUE(scored) << describe(scored.error());
+  EXPECT_GT(scored->answer["points"], 1000);
+  EXPECT_EQ(scored->answer["accuracy"], 1) << "the set's labels are the truth of its cloud";
+  const auto plain = folder.write("plain.xyz", "1 2 3\n4 5 6\n");
+  const auto without = score(plain, labels, {{"classes", "s3dis"}});
+  ASSERT_FALSE(without);
+  EXPECT_THAT(describe(without.error()), HasSubstr("points have no labels"));
+}
+
+TEST_F(Score, IsOfAllPointsOfASetOrOfOneSplit) {
+  const auto set = smallSet({"s3dis"});
+  const auto mine = folder / "mine";
+  for (const char* environment : {"house", "tower"}) {
+    fs::create_directories(mine / environment / "grid-1");
+    auto ids = idsIn(set / "labels" / environment / (kScan + ".s3dis.npy"));
+    if (environment == std::string("tower")) std::replace(ids.begin(), ids.end(), 2, 1);  // its walls are floors
+    std::ofstream(mine / environment / (kScan + ".npy"), std::ios::binary) << arrayOf(ids);
+  }
+  const auto all = score(set, mine, {{"classes", ""}});
+  ASSERT_TRUE(all) << describe(all.error());
+  EXPECT_EQ(all->answer["files"], 2);
+  const auto train = score(set, mine, {{"classes", ""}, {"split", "train"}});
+  ASSERT_TRUE(train) << describe(train.error());
+  EXPECT_EQ(train->answer["accuracy"], 1);
+  const auto test = score(set, mine, {{"classes", ""}, {"split", "test"}});
+  ASSERT_TRUE(test) << describe(test.error());
+  EXPECT_EQ(test->answer["classes"][2]["iou"], 0);
+  const auto points = [](const Result<Outcome>& r) { return r->answer["points"].get<double>(); };
+  EXPECT_EQ(points(all), points(train) + points(test));
+  EXPECT_NEAR(all->answer["accuracy"].get<double>(),
+              (points(train) + points(test) * test->answer["accuracy"].get<double>()) / points(all), 1e-12);
+  const auto itself = score(set, set / "labels", {{"classes", ""}});
+  ASSERT_TRUE(itself) << describe(itself.error());
+  EXPECT_EQ(itself->answer["mean_iou"], 1) << "as the set names its own labels";
+
+  const auto refused = [&](const fs::path& predicted, const json& more) {
+    const auto scored = score(set, predicted, more);
+    EXPECT_FALSE(scored);
+    return scored ? std::string() : describe(scored.error());
+  };
+  EXPECT_THAT(refused(mine, {{"classes", "ifc"}}), HasSubstr("specify the classes of the set: s3dis"));
+  EXPECT_THAT(refused(mine, {{"classes", ""}, {"split", "validation"}}), HasSubstr("no scans to score"));
+  EXPECT_THAT(refused(map, {{"classes", ""}}), HasSubstr("must be in a folder"));
+  std::ofstream(mine / "house" / (kScan + ".label")) << "";
+  EXPECT_THAT(refused(mine, {{"classes", ""}}), HasSubstr("house/" + kScan + ": this scan has labels in two files"));
+  fs::remove(mine / "house" / (kScan + ".label"));
+  fs::resize_file(mine / "house" / (kScan + ".npy"), 200);
+  EXPECT_THAT(refused(mine, {{"classes", ""}}), HasSubstr("mine/house/" + kScan + ".npy: cut short"));
+  fs::remove(mine / "house" / (kScan + ".npy"));
+  EXPECT_THAT(refused(mine, {{"classes", ""}}), HasSubstr("house/" + kScan + ": this scan has no labels"));
+  fs::remove(set / "records/house" / (kScan + ".json"));
+  const auto part = score(set, mine, {{"classes", ""}});
+  ASSERT_TRUE(part) << describe(part.error());
+  EXPECT_THAT(said(part->report), HasSubstr("1 scans of the recipe are not in the set"));
+}
+
+TEST_F(Score, AsksWhichOfTheClassesOfASet) {
+  const auto set = smallSet({"s3dis", "ifc"});
+  const auto unsaid = score(set, set / "labels", {{"classes", ""}});
+  ASSERT_FALSE(unsaid);
+  EXPECT_THAT(describe(unsaid.error()), HasSubstr("specify the classes of the set: s3dis, ifc"));
+  const auto ifc = score(set, set / "labels", {{"classes", "ifc"}});
+  ASSERT_TRUE(ifc) << describe(ifc.error());
+  EXPECT_EQ(ifc->answer["accuracy"], 1);
+}
+
+std::string outputOf(const std::string& command) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(::popen((command + " 2>&1").c_str(), "r"), ::pclose);
+  std::string text;
+  std::array<char, 4096> piece;
+  while (const std::size_t n = std::fread(piece.data(), 1, piece.size(), pipe.get())) text.append(piece.data(), n);
+  return text;
+}
+
+// Ignored truth is taken away before; its own label list leaves the ignored class out, so that a point that was given
+// up counts as missed.
+TEST_F(Score, EqualsThatOfScikitLearn) {
+  const std::string python = "/usr/bin/python3";
+  if (outputOf(python + " -c 'import sklearn.metrics; print(1)'").find("1\n") != 0)
+    GTEST_SKIP() << "python3-sklearn is not installed";
+  folder.write("score.py",
+               "import json, sys, numpy as np\n"
+               "from sklearn import metrics as m\n"
+               "y, p = np.load(sys.argv[1]), np.load(sys.argv[2])\n"
+               "y, p = y[y != 0], p[y != 0]\n"
+               "ids = [1, 2, 7]\n"
+               "k = dict(labels=ids, average=None, zero_division=0)\n"
+               "print(json.dumps(dict(\n"
+               "  confusion=m.confusion_matrix(y, p, labels=ids + [0])[:3].tolist(),\n"
+               "  iou=m.jaccard_score(y, p, **k).tolist(), precision=m.precision_score(y, p, **k).tolist(),\n"
+               "  recall=m.recall_score(y, p, **k).tolist(), accuracy=m.accuracy_score(y, p))))\n");
+  std::mt19937 random(7);
+  std::vector<std::uint16_t> truth, predicted;
+  const std::array<std::uint16_t, 4> ids = {0, 1, 2, 7};
+  for (int i = 0; i < 100000; ++i) {
+    truth.push_back(ids[random() % 4]);
+    predicted.push_back(random() % 3 == 0 ? ids[random() % 4] : truth.back());
+  }
+  const auto t = folder.write("t.npy", arrayOf(truth)), p = folder.write("p.npy", arrayOf(predicted));
+  const auto text = outputOf(python + " " + (folder / "score.py").string() + " " + t.string() + " " + p.string());
+  const auto theirs = json::parse(text, nullptr, false);
+  ASSERT_TRUE(theirs.is_object()) << text;
+  const auto scored = score(t, p);
+  ASSERT_TRUE(scored) << describe(scored.error());
+  const auto& ours = scored->answer;
+  EXPECT_EQ(ours["accuracy"], theirs["accuracy"]);
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (const char* figure : {"iou", "precision", "recall"}) EXPECT_EQ(ours["classes"][k][figure], theirs[figure][k]);
+    sum += theirs["iou"][k].get<double>();
+    const auto& row = ours["confusion"][k];  // with the lamps, which are nowhere
+    EXPECT_EQ(json({row[0], row[1], row[2], row[4]}), theirs["confusion"][k]);
+  }
+  EXPECT_DOUBLE_EQ(ours["mean_iou"], sum / 3) << "of the classes that are somewhere";
+}
+
+}  // namespace
+}  // namespace standpoint
