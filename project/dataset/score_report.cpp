@@ -51,7 +51,7 @@ std::string matrixHtml(const ScoreAnswer& answer) {
   for (std::size_t k = 0; k < answer.classes.size(); ++k)
     if (answer.classes[k].truth + answer.classes[k].predicted > 0) shown.push_back(k);
   std::string text =
-      reportHeading("Confusion matrix") + "<table class=\"m\"><tr><th>" + htmlText(printed("Truth \\ prediction"));
+      reportHeading("Confusion matrix") + "<table class=\"m\"><tr><th>" + htmlText(printed("True class"));
   for (const auto k : shown) text += fmt::format("<th class=\"n\">{}", answer.classes[k].id);
   if (answer.given_up > 0) text += "<th class=\"n\">–";
   text += "</tr>\n";

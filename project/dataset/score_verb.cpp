@@ -103,7 +103,8 @@ Result<ScorePlan> planOfSet(const ScoreOptions& options, Report& report) {
   if (plan.pairs.empty())
     return failure(ErrorKind::unusable, "the set has no scans to score in this split", options.truth.string());
   if (not_there > 0)
-    report.note(recipe.name, fmt::format("{} scans of the recipe are not in the set; they were not scored", not_there));
+    report.note(recipe.name,
+                fmt::format("scans of the recipe that are not in the set and were not scored: {}", not_there));
   return plan;
 }
 

@@ -109,6 +109,9 @@ std::vector<Writer> writers() {
        {"dataset", "slurm", "recipe.json", "-o", "set", "--shards", "2"},
        {"set/slurm/array.sbatch", "set/slurm/manifest.sbatch"},
        true},
+      {"score", "html", {"score", "t.labels", "p.txt", "--classes", "s3dis", "-o", "o.html"}, {"o.html"}},
+      {"score", "csv", {"score", "t.labels", "p.txt", "--classes", "s3dis", "-o", "o.csv"}, {"o.csv"}},
+      {"score", "json", {"score", "t.labels", "p.txt", "--classes", "s3dis", "-o", "o.json"}, {"o.json"}},
       {"run", "", {"run", "job.json"}, {project, "o.glb"}},
       {"rehearse", "", {"rehearse", "E04", "--solution", "-o", "o"}, {"o/result.json", "o/result.csv"}},
       {"assign",
@@ -168,6 +171,8 @@ class Faults : public ::testing::TestWithParam<Writer> {
       "classes": ["s3dis"],
       "environments": [{"id": "p", "project": "p", "stations": [{"strategy": "grid", "spacing_m": 2, "count": 2}]}],
       "instruments": [{"id": "focus", "instrument": "faro-focus-s350", "set": ["resolution=1/32", "quality=4x"]}]})");
+    put(base.path() / "t.labels", "2\n2\n1\n");
+    put(base.path() / "p.txt", "2\n1\n1\n");
     ASSERT_EQ(run({"materials", "p"}, base.path()), 0);
     ASSERT_EQ(run({"station", "p", "--add", "S1", "--at", "500001.5,5600001.5,1.5"}, base.path()), 0);
     if (writer().verb == std::string("register")) {

@@ -232,7 +232,7 @@ TEST_F(Score, IsOfAllPointsOfASetOrOfOneSplit) {
   fs::remove(set / "records/house" / (kScan + ".json"));
   const auto part = score(set, mine, {{"classes", ""}});
   ASSERT_TRUE(part) << describe(part.error());
-  EXPECT_THAT(said(part->report), HasSubstr("1 scans of the recipe are not in the set"));
+  EXPECT_THAT(said(part->report), HasSubstr("not in the set and were not scored: 1"));
 }
 
 TEST_F(Score, AsksWhichOfTheClassesOfASet) {
