@@ -54,6 +54,9 @@ function(standpoint_library name)
   add_library(standpoint_${name} STATIC ${ARG_SOURCES})
   standpoint_unity(standpoint_${name} ${ARG_SOURCES})
   target_include_directories(standpoint_${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  # They go into Python's module, too; hidden symbols cost programs nothing.
+  set_target_properties(standpoint_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
+                                                      VISIBILITY_INLINES_HIDDEN ON)
   target_link_libraries(standpoint_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   if(ARG_LIGHT)
     target_compile_options(standpoint_${name} PRIVATE -O1)
