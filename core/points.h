@@ -45,6 +45,7 @@ struct PointBlock {
   std::vector<std::uint8_t> red, green, blue;             // optional
   std::vector<std::uint32_t> product, material;           // optional ground truth: indices into ScanHeader's tables
   std::vector<double> time_s;                             // optional: since ScanHeader::acquisition_start_gps_s
+  std::vector<std::uint8_t> channel;                      // optional: of a head with several lasers, from 0
   std::vector<std::uint8_t> return_number, return_count;  // optional: of the pulse, from 1; the nearest is the first
   PointTruth truth;                                       // optional
   std::size_t size() const { return x_m.size(); }
@@ -74,6 +75,7 @@ struct ScanHeader {
   std::vector<LabelledProduct> products;  // label tables: product and material columns index them
   std::vector<std::string> materials;
   bool has_time = false;
+  bool has_channel = false;
   bool has_returns = false;
   bool has_truth = false;
 };

@@ -28,7 +28,7 @@ void PointBlock::clear() {
                                  &truth.incidence_rad, &truth.received_db})
     column_of_floats->clear();
   for (auto* column_of_indices : {&row, &column, &product, &material}) column_of_indices->clear();
-  for (auto* column_of_bytes : {&red, &green, &blue, &return_number, &return_count, &truth.flags})
+  for (auto* column_of_bytes : {&red, &green, &blue, &channel, &return_number, &return_count, &truth.flags})
     column_of_bytes->clear();
   time_s.clear();
 }

@@ -152,6 +152,11 @@ Result<void> ColumnTaker::take(Columns& from, std::size_t records, FoundPoints& 
     for (double& time : block.time_s)
       if (!std::isfinite(time)) ++tally_.no_time, time = 0;
   }
+  if (roles_.channel) {
+    for (double& channel : from[*roles_.channel])
+      if (!(channel >= 0 && channel <= 255)) ++tally_.no_channel, channel = 0;
+    convert(from[*roles_.channel], 0, block.channel);
+  }
   if (roles_.return_index) takeReturns(from, block);
   if (plan_.header.has_truth) takeTruth(from, to);
   return plan_.header.has_labels ? takeLabels(from, block) : Result<void>{};
@@ -165,6 +170,7 @@ void ColumnTaker::list(const std::string& source, Report& report) const {
   if (tally_.no_colour > 0)
     report.note(source, count(tally_.no_colour) + " colours marked as invalid were set to black");
   if (tally_.no_time > 0) report.note(source, count(tally_.no_time) + " times marked as invalid were set to 0");
+  if (tally_.no_channel > 0) report.warn(source, count(tally_.no_channel) + " invalid channels were set to 0");
   if (tally_.no_return > 0) report.warn(source, count(tally_.no_return) + " invalid return numbers were set to 1 of 1");
   if (tally_.no_truth > 0) report.lose(source, count(tally_.no_truth) + " non-numeric truth values were set to 0");
   if (tally_.outside_grid > 0)

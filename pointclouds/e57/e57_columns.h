@@ -21,8 +21,8 @@ class ColumnTaker {
 
  private:
   struct Tally {
-    std::uint64_t invalid = 0, no_intensity = 0, no_colour = 0, no_time = 0, outside_grid = 0, no_return = 0,
-                  no_truth = 0;
+    std::uint64_t invalid = 0, no_intensity = 0, no_colour = 0, no_time = 0, outside_grid = 0, no_channel = 0,
+                  no_return = 0, no_truth = 0;
   };
   void dropInvalid(Columns& from, std::size_t& records);
   void takePlaces(Columns& from, FoundPoints& to) const;

@@ -20,6 +20,7 @@ Roles rolesOf(const std::vector<StoredField>& fields, const ScanPlan& plan) {
   if (hasGrid(header)) r.row = at("rowIndex"), r.column = at("columnIndex");
   if (header.has_labels) r.product = at(plan.prefix + "product"), r.material = at(plan.prefix + "material");
   if (header.has_time) r.time = at("timeStamp"), r.time_invalid = at("isTimeStampInvalid");
+  if (header.has_channel) r.channel = at(plan.prefix + kChannelField);
   if (header.has_returns) r.return_index = at("returnIndex"), r.return_count = at("returnCount");
   if (header.has_truth)
     for (std::size_t i = 0; i < kTruthFields.size(); ++i) r.truth[i] = at(plan.prefix + kTruthFields[i]);

@@ -14,7 +14,7 @@ using Place = std::optional<std::size_t>;
 struct Roles {
   Place x, y, z;
   bool spherical = false;
-  Place intensity, colour[3], row, column, product, material, time, return_index, return_count, truth[7];
+  Place intensity, colour[3], row, column, product, material, time, channel, return_index, return_count, truth[7];
   Place cartesian_state, spherical_state, intensity_invalid, colour_invalid, time_invalid;
 
   template <class F>
@@ -31,6 +31,7 @@ struct Roles {
                                product,
                                material,
                                time,
+                               channel,
                                return_index,
                                return_count,
                                truth[0],

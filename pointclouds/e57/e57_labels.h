@@ -25,6 +25,9 @@ inline constexpr const char* kLabelPrefix = "gt";
 inline constexpr std::array<const char*, 7> kTruthFields = {"trueX",     "trueY",         "trueZ", "trueRange",
                                                             "incidence", "receivedPower", "flags"};
 
+// Which laser of a head with several sent the pulse, from 0.
+inline constexpr const char* kChannelField = "channel";
+
 inline constexpr const char* kTruePose = "truePose";
 
 std::string productsText(const std::vector<LabelledProduct>& products);

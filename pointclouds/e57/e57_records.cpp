@@ -22,6 +22,7 @@ std::vector<Field> pointFields(const ScanHeader& header, Coordinates kind) {
     for (const char* name : {"returnIndex", "returnCount"}) fields.push_back(integerField(name, 8));
   if (header.has_time) fields.push_back(doubleField("timeStamp"));
   const std::string prefix = std::string(kLabelPrefix) + ":";
+  if (header.has_channel) fields.push_back(integerField(prefix + kChannelField, 8));
   if (header.has_labels) {
     fields.push_back(integerField(prefix + "product", bitsFor(std::max<std::size_t>(header.products.size(), 1) - 1)));
     fields.push_back(integerField(prefix + "material", bitsFor(std::max<std::size_t>(header.materials.size(), 1) - 1)));
@@ -89,6 +90,7 @@ void ScanRecords::putExtras(const PointBlock& b, std::size_t stream, std::size_t
     put(b.return_count);
   }
   if (header_.has_time) put(b.time_s);
+  if (header_.has_channel) put(b.channel);
   if (header_.has_labels) put(b.product), put(b.material);
   if (!header_.has_truth) return;
   const PointTruth& t = b.truth;

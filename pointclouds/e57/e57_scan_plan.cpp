@@ -120,6 +120,7 @@ void readChannels(const Element& root, const std::vector<StoredField>& fields, S
   const std::string prefix = labelPrefix(root);
   if (prefix.empty()) return;
   plan.prefix = prefix;
+  header.has_channel = fieldNamed(fields, prefix + kChannelField).has_value();
   const auto there =
       static_cast<std::size_t>(std::count_if(kTruthFields.begin(), kTruthFields.end(), [&](const char* f) {
         return fieldNamed(fields, prefix + f).has_value();

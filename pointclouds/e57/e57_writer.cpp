@@ -90,7 +90,7 @@ Result<void> Writer::begin(const ScanHeader& header) {
   scan.spherical = kind_ == Coordinates::spherical;
   ++scan_count_;
   if (header.name.empty()) scan.header.name = "Scan " + std::to_string(scan_count_);
-  uses_namespace_ |= header.has_labels || header.has_truth;
+  uses_namespace_ |= header.has_labels || header.has_truth || header.has_channel;
   if (header.has_labels) scan.label_table = labelTable(header);
   if (coordinate_metadata_.empty())
     coordinate_metadata_ = header.coordinate_metadata;

@@ -63,10 +63,11 @@ bool truthFits(const PointTruth& t, std::size_t n) {
 bool columnsFit(const ScanHeader& header, const PointBlock& b) {
   const std::size_t n = b.size(), colours = header.has_colour ? n : 0, labels = header.has_labels ? n : 0;
   const std::size_t times = header.has_time ? n : 0, returns = header.has_returns ? n : 0;
+  const std::size_t channels = header.has_channel ? n : 0;
   return sizedAs(b.y_m, n) && sizedAs(b.z_m, n) && sizedAs(b.intensity, n) && sizedAs(b.row, n) &&
          sizedAs(b.column, n) && sizedAs(b.red, colours) && sizedAs(b.green, colours) && sizedAs(b.blue, colours) &&
          sizedAs(b.product, labels) && sizedAs(b.material, labels) && sizedAs(b.time_s, times) &&
-         sizedAs(b.return_number, returns) && sizedAs(b.return_count, returns) &&
+         sizedAs(b.channel, channels) && sizedAs(b.return_number, returns) && sizedAs(b.return_count, returns) &&
          truthFits(b.truth, header.has_truth ? n : 0);
 }
 
@@ -131,6 +132,7 @@ void listUnheld(const ScanHeader& header, const char* format, const Channels& he
       {header.has_colour && !held.colour, "colours"},
       {header.has_labels && !held.labels, "product and material labels"},
       {header.has_time && !held.time, "the points' times"},
+      {header.has_channel && !held.channel, "the points' channels"},
       {header.has_returns && !held.returns, "return numbers"},
       {header.has_truth && !held.truth, "true positions and flags"},
       {!header.coordinate_metadata.empty() && !held.crs, "the coordinate reference system"}};

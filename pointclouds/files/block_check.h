@@ -23,7 +23,7 @@ Result<BlockExtent> checkBlock(const ScanHeader& header, const PointBlock& block
 
 // What of a scan a format has a place for, beside coordinates and intensity.
 struct Channels {
-  bool colour = true, labels = false, time = false, returns = false, truth = false, crs = false;
+  bool colour = true, labels = false, time = false, channel = false, returns = false, truth = false, crs = false;
 };
 // Lists as a warning what the header has and the format has not.
 void listUnheld(const ScanHeader& header, const char* format, const Channels& held, Report& report);

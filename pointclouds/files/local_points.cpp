@@ -44,7 +44,8 @@ std::uint64_t dropUnusable(FoundPoints& p) {
   for (auto* c : {&p.x, &p.y, &p.z, &p.true_x, &p.true_y, &p.true_z, &b.time_s}) keepWhere(*c, kept);
   for (auto* c : {&b.intensity, &t.range_m, &t.incidence_rad, &t.received_db}) keepWhere(*c, kept);
   for (auto* c : {&b.row, &b.column, &b.product, &b.material}) keepWhere(*c, kept);
-  for (auto* c : {&b.red, &b.green, &b.blue, &b.return_number, &b.return_count, &t.flags}) keepWhere(*c, kept);
+  for (auto* c : {&b.red, &b.green, &b.blue, &b.channel, &b.return_number, &b.return_count, &t.flags})
+    keepWhere(*c, kept);
   return dropped;
 }
 

@@ -32,6 +32,7 @@ FieldTaker::FieldTaker(const FieldPlaces& places, ScanHeader& scan, bool placed)
       labels_(scan.has_labels = places_.all(F::label, F::product) && !scan.products.empty() && !scan.materials.empty()),
       grid_(hasGrid(scan) && places_.all(F::row, F::column)),
       time_(scan.has_time = places_[F::time].has_value()),
+      channel_(scan.has_channel = places_[F::channel].has_value()),
       returns_(scan.has_returns = places_.all(F::return_number, F::return_count)),
       truth_(scan.has_truth = places_.all(F::true_x, F::flags)),
       products_(static_cast<double>(scan.products.size())),
@@ -46,7 +47,7 @@ bool FieldTaker::isRead(std::size_t number) const {
   for (std::size_t f = 0; f < kPointFields; ++f) {
     if (places_.at[f] != number) continue;
     const auto field = static_cast<F>(f);
-    if (field <= F::intensity || field == F::time) return true;
+    if (field <= F::intensity || field == F::time || field == F::channel) return true;
     if (field <= F::packed_colour) return colour_;
     if (field <= F::product) return labels_;
     if (field <= F::column) return grid_;
@@ -126,6 +127,12 @@ Result<void> FieldTaker::take(const std::vector<double>& numbers, FoundPoints& t
     senseless_values_ += !std::isfinite(time);
     block.time_s.push_back(std::isfinite(time) ? time : 0);
   }
+  if (channel_) {
+    const double channel = number(numbers, F::channel);
+    const bool sensible = channel >= 0 && channel <= 255;
+    senseless_values_ += !sensible;
+    block.channel.push_back(sensible ? static_cast<std::uint8_t>(channel) : 0);
+  }
   if (returns_) takeReturn(numbers, block);
   if (truth_) takeTruth(numbers, to);
   return takeIndices(numbers, block);
@@ -135,7 +142,7 @@ void FieldTaker::list(const std::string& source, Report& report) const {
   if (senseless_returns_ > 0)
     report.warn(source, std::to_string(senseless_returns_) + " invalid return numbers were set to 1 of 1");
   if (senseless_values_ > 0)
-    report.lose(source, std::to_string(senseless_values_) + " non-numeric times or truth values were set to 0");
+    report.lose(source, std::to_string(senseless_values_) + " invalid times, channels or true values were set to 0");
 }
 
 }  // namespace standpoint

@@ -26,6 +26,7 @@ enum class PointField : std::uint8_t {
   row,
   column,
   time,
+  channel,
   return_number,
   return_count,
   true_x,
@@ -36,7 +37,7 @@ enum class PointField : std::uint8_t {
   received_power,
   flags
 };
-inline constexpr std::size_t kPointFields = 22;
+inline constexpr std::size_t kPointFields = 23;
 
 struct FieldPlaces {
   std::array<std::optional<std::size_t>, kPointFields> at{};  // into the numbers of a point
@@ -66,7 +67,7 @@ class FieldTaker {
   double number(const std::vector<double>& numbers, PointField field) const { return numbers[*places_[field]]; }
 
   FieldPlaces places_;
-  bool placed_, colour_, labels_, grid_, time_, returns_, truth_;
+  bool placed_, colour_, labels_, grid_, time_, channel_, returns_, truth_;
   double rows_ = 0, columns_ = 0, products_ = 0, materials_ = 0;
   Pose pose_;
   Eigen::Quaterniond back_;

@@ -51,7 +51,8 @@ void keepOnly(PointBlock& b, const std::vector<std::uint32_t>& stay) {
        {&b.x_m, &b.y_m, &b.z_m, &b.intensity, &t.x_m, &t.y_m, &t.z_m, &t.range_m, &t.incidence_rad, &t.received_db})
     keepOnly(*floats, stay);
   for (auto* indices : {&b.row, &b.column, &b.product, &b.material}) keepOnly(*indices, stay);
-  for (auto* bytes : {&b.red, &b.green, &b.blue, &b.return_number, &b.return_count, &t.flags}) keepOnly(*bytes, stay);
+  for (auto* bytes : {&b.red, &b.green, &b.blue, &b.channel, &b.return_number, &b.return_count, &t.flags})
+    keepOnly(*bytes, stay);
   keepOnly(b.time_s, stay);
 }
 

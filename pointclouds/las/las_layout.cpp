@@ -35,11 +35,15 @@ Layout layoutFor(const ScanHeader& header, bool near_infrared) {
                 .colour = header.has_colour,
                 .labels = header.has_labels,
                 .grid = hasGrid(header),
+                .channel = header.has_channel,
                 .truth = header.has_truth};
   layout.extras.end = kRecordBytes[layout.point_format - 6];
   for (std::size_t i = 0; i < kExtraKinds; ++i) {
     const auto kind = static_cast<Extra>(i);
-    const bool wanted = kind <= Extra::material ? layout.labels : kind <= Extra::column ? layout.grid : layout.truth;
+    const bool wanted = kind <= Extra::material  ? layout.labels
+                        : kind <= Extra::column  ? layout.grid
+                        : kind == Extra::channel ? layout.channel
+                                                 : layout.truth;
     if (!wanted) continue;
     layout.extras.at[i] = layout.extras.end;
     layout.extras.end += kExtras[i].bytes;

@@ -17,7 +17,7 @@ inline constexpr double kScale_m = 1e-4;
 // bytes.
 struct Layout {
   int point_format = 6;
-  bool colour = false, labels = false, grid = false, truth = false;
+  bool colour = false, labels = false, grid = false, channel = false, truth = false;
   ExtraPlaces extras;
   std::uint32_t record_bytes = 0;
 };

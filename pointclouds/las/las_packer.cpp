@@ -85,6 +85,7 @@ void RecordPacker::putExtras(const PointBlock& b, std::size_t i, std::uint8_t* r
     store(record + *at[Extra::row], b.row[i]);
     store(record + *at[Extra::column], b.column[i]);
   }
+  if (layout_.channel && header_.has_channel) record[*at[Extra::channel]] = b.channel[i];
   if (layout_.truth && header_.has_truth) putTruth(b, i, record);
 }
 

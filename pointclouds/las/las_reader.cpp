@@ -183,6 +183,7 @@ Result<void> RecordTaker::take(const std::uint8_t* record, FoundPoints& to) {
     if (!std::isfinite(time)) ++senseless_times, time = 0;
     block.time_s.push_back(time);
   }
+  if (part_.header.has_channel) block.channel.push_back(record[*h_.extras[Extra::channel]]);
   if (part_.header.has_returns) takeReturn(record, block);
   if (colour_at_ != 0) {
     std::vector<std::uint8_t>* const colours[3] = {&block.red, &block.green, &block.blue};
@@ -199,6 +200,7 @@ void complete(Part& part, const Header& header) {
   ScanHeader& scan = part.header;
   scan.has_colour = pointFormat(header).colour_at != 0;
   scan.coordinate_metadata = header.wkt;
+  scan.has_channel = header.extras[Extra::channel].has_value();
   scan.has_returns = true;
   scan.has_truth = hasTruth(header);
   if ((scan.has_labels = hasLabels(header))) scan.products = header.products, scan.materials = header.materials;

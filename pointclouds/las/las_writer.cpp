@@ -82,6 +82,7 @@ void Writer::listDifferences(const ScanHeader& header) {
   lose(header.has_colour && !layout_.colour, "colours");
   lose(header.has_labels && !layout_.labels, "labels");
   lose(hasGrid(header) && !layout_.grid, "row and column");
+  lose(header.has_channel && !layout_.channel, "channels");
   lose(header.has_truth && !layout_.truth, "true values");
   if (!lost.empty()) report_.lose(header.name, "the LAS record follows the first scan, which has no " + lost);
   if (!header.coordinate_metadata.empty() && header.coordinate_metadata != wkt_)

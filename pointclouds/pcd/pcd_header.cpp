@@ -164,6 +164,7 @@ void HeaderReader::assignPlaces() {
                                                   {"row", F::row},
                                                   {"column", F::column},
                                                   {"time", F::time},
+                                                  {"ring", F::channel},
                                                   {"return_number", F::return_number},
                                                   {"return_count", F::return_count},
                                                   {"true_x", F::true_x},

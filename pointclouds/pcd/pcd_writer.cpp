@@ -56,6 +56,7 @@ std::string Writer::fieldLines() const {
   add(h.has_labels, {"label", "instance"}, "4", "U");
   add(hasGrid(h) && !organised_, {"row", "column"}, "4", "U");
   add(h.has_time, {"time"}, "8", "F");
+  add(h.has_channel, {"ring"}, "2", "U");  // as drivers of such heads call it
   add(h.has_returns, {"return_number", "return_count"}, "1", "U");
   add(h.has_truth, {"true_x", "true_y", "true_z", "true_range", "incidence", "received_power"}, "4", "F");
   add(h.has_truth, {"flags"}, "1", "U");
@@ -91,6 +92,7 @@ void Writer::putPoint(const PointBlock& b, std::size_t i) {
   if (h.has_labels) append(bytes_, b.material[i]), append(bytes_, b.product[i]);
   if (hasGrid(h) && !organised_) append(bytes_, b.row[i]), append(bytes_, b.column[i]);
   if (h.has_time) append(bytes_, b.time_s[i]);
+  if (h.has_channel) append(bytes_, std::uint16_t{b.channel[i]});
   if (h.has_returns) append(bytes_, b.return_number[i]), append(bytes_, b.return_count[i]);
   if (!h.has_truth) return;
   const PointTruth& t = b.truth;
@@ -109,8 +111,8 @@ Result<void> Writer::begin(const ScanHeader& header) {
                    "the grid has too many cells for a PCD file: write a list of points (variant points)",
                    "scan " + header.name);
   missing_.resize(std::size_t{12} + (hasIntensity(header) ? 4 : 0) + (header.has_colour ? 4 : 0) +
-                  (header.has_labels ? 8 : 0) + (header.has_time ? 8 : 0) + (header.has_returns ? 2 : 0) +
-                  (header.has_truth ? 25 : 0));
+                  (header.has_labels ? 8 : 0) + (header.has_time ? 8 : 0) + (header.has_channel ? 2 : 0) +
+                  (header.has_returns ? 2 : 0) + (header.has_truth ? 25 : 0));
   const float none = std::numeric_limits<float>::quiet_NaN();
   for (std::size_t k = 0; k < 3; ++k) std::memcpy(missing_.data() + 4 * k, &none, 4);
   const std::string text = headerText();

@@ -86,6 +86,7 @@ Result<void> HeaderReader::assignRoles() {
       {F::row, {"scalar_row"}},
       {F::column, {"scalar_column"}},
       {F::time, {"scalar_time"}},
+      {F::channel, {"scalar_channel"}},
       {F::return_number, {"scalar_returnnumber"}},
       {F::return_count, {"scalar_numberofreturns"}},
       {F::true_x, {"scalar_truex"}},

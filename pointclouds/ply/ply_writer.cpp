@@ -51,6 +51,7 @@ std::string Writer::headerText() const {
   if (header_->has_labels) text += "property int scalar_Label\nproperty int scalar_Product\n";
   if (hasGrid(*header_)) text += "property int scalar_Row\nproperty int scalar_Column\n";
   if (header_->has_time) text += "property double scalar_Time\n";
+  if (header_->has_channel) text += "property uchar scalar_Channel\n";
   if (header_->has_returns) text += "property uchar scalar_ReturnNumber\nproperty uchar scalar_NumberOfReturns\n";
   if (header_->has_truth) {
     for (const char axis : {'X', 'Y', 'Z'}) text += std::string("property double scalar_True") + axis + "\n";
@@ -79,6 +80,7 @@ void Writer::putPoint(const PointBlock& b, std::size_t i) {
   if (hasGrid(*header_))
     append(bytes_, static_cast<std::int32_t>(b.row[i])), append(bytes_, static_cast<std::int32_t>(b.column[i]));
   if (header_->has_time) append(bytes_, b.time_s[i]);
+  if (header_->has_channel) append(bytes_, b.channel[i]);
   if (header_->has_returns) append(bytes_, b.return_number[i]), append(bytes_, b.return_count[i]);
   if (!header_->has_truth) return;
   const PointTruth& t = b.truth;

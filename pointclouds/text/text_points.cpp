@@ -106,6 +106,7 @@ void Reader::takeNames(std::string_view line) {
                                                   {"intensity", F::intensity},
                                                   {"i", F::intensity},
                                                   {"time", F::time},
+                                                  {"channel", F::channel},
                                                   {"returnnumber", F::return_number},
                                                   {"numberofreturns", F::return_count},
                                                   {"truex", F::true_x},

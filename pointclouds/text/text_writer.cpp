@@ -65,6 +65,7 @@ std::string Writer::columnNames() const {
   if (h.has_labels) names += ",Label,Product";
   if (hasGrid(h)) names += ",Row,Column";
   if (h.has_time) names += ",Time";
+  if (h.has_channel) names += ",Channel";
   if (h.has_returns) names += ",ReturnNumber,NumberOfReturns";
   if (h.has_truth) names += ",TrueX,TrueY,TrueZ,TrueRange,Incidence,ReceivedPower,Flags";
   return names + "\n";
@@ -79,7 +80,7 @@ Result<void> Writer::begin(const ScanHeader& header) {
              kind_ == Kind::pts   ? "PTS"
              : kind_ == Kind::xyz ? "XYZ"
                                   : "CSV",
-             {.labels = all, .time = all, .returns = all, .truth = all}, report_);
+             {.labels = all, .time = all, .channel = all, .returns = all, .truth = all}, report_);
   if (all && header.has_labels) report_.warn(header.name, "CSV stores label numbers without names");
   if (kind_ == Kind::pts) text_ += countLine();
   if (kind_ == Kind::csv) text_ += columnNames();
@@ -99,6 +100,7 @@ void Writer::appendColumns(const PointBlock& b, std::size_t i) {
   if (h.has_labels) next(b.material[i]), next(b.product[i]);
   if (hasGrid(h)) next(b.row[i]), next(b.column[i]);
   if (h.has_time) next(b.time_s[i]);
+  if (h.has_channel) next(unsigned{b.channel[i]});
   if (h.has_returns) next(unsigned{b.return_number[i]}), next(unsigned{b.return_count[i]});
   if (!h.has_truth) return;
   const PointTruth& t = b.truth;

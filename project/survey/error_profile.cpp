@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "survey/registration/registration.h"
+
 namespace standpoint {
 
 const ErrorProfile* errorProfile(TrajectoryError error, const std::string& mount) {
@@ -25,6 +27,11 @@ const ErrorProfile* errorProfile(TrajectoryError error, const std::string& mount
   if (mount == "vehicle") return named("survey-mms");
   if (mount == "aircraft") return named("uav");
   return named("handheld");
+}
+
+Result<std::vector<ControlPoint>> controlOf(const std::filesystem::path& file, const Georeference& georeference) {
+  if (file.empty()) return std::vector<ControlPoint>{};
+  return readControlPoints(file, georeference.shift_m);
 }
 
 }  // namespace standpoint

@@ -128,10 +128,12 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
           ? nullptr
           : errorProfile(options.trajectory_error, request.instrument.moving->mount);
   progress.stage("Solve " + trajectory.name, 0.1, 0.15);
+  TRY_ASSIGN(auto control, controlOf(options.control, *document.georeference));
   TRY_ASSIGN(const auto solved, solveMotion(carried, scene, document.job->stations, trajectory.name,
                                             {.profile = profile,
                                              .closures = options.closures == Switch::on,
                                              .anchors = options.anchors == Switch::on,
+                                             .control = std::move(control),
                                              .seed = request.options.seed,
                                              .max_range_m = request.settings.max_range_m},
                                             progress));
@@ -186,11 +188,7 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
   if (options.truth) TRY(writeTrajectory(*carried.truth, *document.georeference, file, ".true.csv"));
 
   if (count.points == 0) report.warn(trajectory.name, "no surface is in range of the instrument along the trajectory");
-  if (profile != nullptr)
-    report.note(trajectory.name,
-                fmt::format("the trajectory errs by {:.1f} mm (rms), {:.1f} mm at most; {} closures "
-                            "and {} stations hold it",
-                            1e3 * solved.rms_m, 1e3 * solved.largest_m, solved.closures, solved.anchors));
+  if (profile != nullptr) reportSolved(solved, trajectory.name, report);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   outcome.answer.stations.push_back(
       {trajectory.name, count.points, count.pulses, count.returns, seconds, carried.seconds(), file, std::nullopt});

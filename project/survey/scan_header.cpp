@@ -45,6 +45,7 @@ ScanHeader scanHeader(const Document& document, const ScanWorld& world, const st
   h.has_colour = request.settings.imaging;
   h.has_labels = true;
   h.has_time = request.options.channels.time;
+  h.has_channel = request.options.channels.channel;
   h.has_returns = request.options.channels.returns;
   h.has_truth = request.options.channels.truth;
   h.acquisition_start_gps_s = start_gps_s;

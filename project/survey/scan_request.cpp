@@ -90,6 +90,12 @@ Result<void> checkCarried(const ScanVerbOptions& options) {
   return {};
 }
 
+// Of all heads of an instrument that is carried.
+std::size_t laserChannels(const Instrument& instrument) {
+  if (!instrument.moving) return 0;
+  return instrument.moving->channel_elevations_rad.size() * static_cast<std::size_t>(instrument.moving->heads);
+}
+
 // What differs from clear air, as weatherFrom() reads it.
 std::string textOf(const Weather& w) {
   std::string text;
@@ -243,6 +249,7 @@ const Fields<ScanVerbOptions>& scanFields() {
        "how the scanner sits on what carries it: x, y, z in m, roll, pitch, yaw in degrees, x ahead and y to the left"},
       {"mounting-error", &O::mounting_error, "by how much this is believed to be otherwise: the same, and clock in s"},
       {"anchors", &O::anchors, "on: scanned stations within 3 m of the trajectory hold it"},
+      {"control", &O::control, "text file of control points that hold it where it stops: name X Y Z [sigma in mm]"},
       {"deskew", &O::deskew, "pose by which points are placed: that of each pulse, firing, or an even turn; none"},
       {"instrument", &O::instrument, "id or file of the instrument, such as leica-rtc360", {.required = true}},
       {"set", &O::settings, "settings in the device's own words, such as resolution=12mm"},
@@ -297,6 +304,10 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const ScanVerbOpti
   const bool carried = !options.trajectory.empty();
   if (carried)
     TRY(checkCarried(options));
+  else if (!options.control.empty())
+    return failure(ErrorKind::usage,
+                   "control points hold what is carried along a --trajectory; those of stations belong to 'register'",
+                   "--control");
   else if (!options.mounting.empty() || !options.mounting_error.empty())
     return failure(ErrorKind::usage, "a mounting belongs to what is carried along a --trajectory",
                    options.mounting.empty() ? "--mounting-error" : "--mounting");
@@ -321,8 +332,10 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const ScanVerbOpti
   if (options.movers_from_s != 0) request.notes.push_back(fmt::format("movers-from={} s", options.movers_from_s));
   TRY(choosePanorama(request, options));
   const bool truth = options.truth;
-  request.options.channels = {
-      .time = truth || carried, .returns = truth || request.instrument.waveform.max_returns > 1, .truth = truth};
+  request.options.channels = {.time = truth || carried,
+                              .channel = laserChannels(request.instrument) > 1,
+                              .returns = truth || request.instrument.waveform.max_returns > 1,
+                              .truth = truth};
   request.options.threads = options.threads;
   if (!carried) {
     TRY_ASSIGN(auto stations, stationsFrom(*document.job, options.stations));

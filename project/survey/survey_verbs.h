@@ -254,6 +254,7 @@ struct ScanVerbOptions {
   TrajectoryError trajectory_error = TrajectoryError::of_instrument;
   Switch closures = Switch::on;
   Switch anchors = Switch::off;
+  std::filesystem::path control;  // of a trajectory: points that it stops at
   Deskew deskew = Deskew::pulse;
   KeyValues mounting, mounting_error;  // x, y, z in m; roll, pitch, yaw in degrees; clock in s
   std::string instrument;              // id
@@ -340,6 +341,7 @@ struct TrajectoryOptions {
   std::string solved_for;  // id of the instrument that it is solved with, for `write`; empty: as it truly is
   TrajectoryError trajectory_error = TrajectoryError::of_instrument;
   Switch closures = Switch::on, anchors = Switch::off;
+  std::filesystem::path control;
   std::uint64_t error_seed = 1;
 };
 const Fields<TrajectoryOptions>& trajectoryFields();

@@ -114,18 +114,17 @@ Result<SolvedMotion> solvedFor(const Document& document, const CarriedTrajectory
   if (!instrument.moving)
     return failure(ErrorKind::usage, "this instrument stands on a tripod, and has no trajectory", "--solved-for");
   TRY_ASSIGN(const auto settings, resolveMovingSettings(instrument, {}));
+  TRY_ASSIGN(auto control, controlOf(options.control, *document.georeference));
   TRY_ASSIGN(const auto scene, RayScene::build(document.environment(), progress));
   TRY_ASSIGN(auto solved, solveMotion(carried, *scene, document.job->stations, trajectory.name,
                                       {.profile = errorProfile(options.trajectory_error, instrument.moving->mount),
                                        .closures = options.closures == Switch::on,
                                        .anchors = options.anchors == Switch::on,
+                                       .control = std::move(control),
                                        .seed = options.error_seed,
                                        .max_range_m = settings.max_range_m},
                                       progress));
-  report.note(trajectory.name,
-              fmt::format("the trajectory errs by {:.1f} mm (rms), {:.1f} mm at most; {} closures "
-                          "and {} stations hold it",
-                          1e3 * solved.rms_m, 1e3 * solved.largest_m, solved.closures, solved.anchors));
+  if (solved.pose) reportSolved(solved, trajectory.name, report);
   return solved;
 }
 
@@ -195,6 +194,7 @@ const Fields<TrajectoryOptions>& trajectoryFields() {
        "how such a trajectory errs; without it as the instrument's kind does"},
       {"closures", &O::closures, "off: places that the trajectory comes back to are not recognised"},
       {"anchors", &O::anchors, "on: scanned stations within 3 m of the trajectory hold it"},
+      {"control", &O::control, "text file of control points that hold it where it stops: name X Y Z [sigma in mm]"},
       {"error-seed",
        &O::error_seed,
        "of its error: the seed of the scan that it belongs to",

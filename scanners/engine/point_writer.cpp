@@ -64,6 +64,7 @@ void PointWriter::forEachColumn(Change change) {
     for (auto* column : {&block.red, &block.green, &block.blue}) change(*column);
   const ScanChannels& channels = plan_.options.channels;
   if (channels.time) change(block.time_s);
+  if (channels.channel) change(block.channel);
   if (channels.returns)
     for (auto* column : {&block.return_number, &block.return_count}) change(*column);
   if (!channels.truth) return;
@@ -116,6 +117,7 @@ void PointWriter::write(const std::vector<Place>& places) {
     if (plan_.settings.imaging)
       block.red[i] = lanes.red[k], block.green[i] = lanes.green[k], block.blue[i] = lanes.blue[k];
     if (channels.time) block.time_s[i] = time_s(lanes.row[k]);
+    if (channels.channel) block.channel[i] = static_cast<std::uint8_t>(block.row[i]);
     if (channels.returns) block.return_number[i] = place.return_number, block.return_count[i] = place.return_count;
     if (channels.truth) writeTruth(lanes, k, i, block.truth);
   }

@@ -67,6 +67,7 @@ class RayScene {
 // Which optional channels the points have (core/points.h).
 struct ScanChannels {
   bool time = false;
+  bool channel = false;  // of a carried head with several lasers
   bool returns = false;
   bool truth = false;
 };

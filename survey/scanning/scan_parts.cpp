@@ -105,7 +105,7 @@ template <class Archive, class Block>
 void visitBlock(Archive& archive, Block& b) {
   archive(b.x_m), archive(b.y_m), archive(b.z_m), archive(b.intensity), archive(b.row), archive(b.column);
   archive(b.red), archive(b.green), archive(b.blue), archive(b.product), archive(b.material), archive(b.time_s);
-  archive(b.return_number), archive(b.return_count);
+  archive(b.channel), archive(b.return_number), archive(b.return_count);
   auto& t = b.truth;
   archive(t.x_m), archive(t.y_m), archive(t.z_m), archive(t.range_m), archive(t.incidence_rad), archive(t.received_db),
       archive(t.flags);

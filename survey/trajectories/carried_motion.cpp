@@ -26,6 +26,7 @@ namespace {
 
 constexpr double kSampled_hz = 200;
 constexpr double kClosure_sigma_m = 0.003, kClosure_sigma_rad = 0.02 * kRadPerDeg;
+constexpr double kCentring_sigma_m = 0.003;
 constexpr int kDirections = 96;  // about a knot
 
 double lengthOf(const PoseFunction& path) {
@@ -87,6 +88,21 @@ const ErrorKnot& nearestTo(const std::vector<ErrorKnot>& knots, const Eigen::Vec
   return *std::min_element(knots.begin(), knots.end(), [&](const ErrorKnot& a, const ErrorKnot& b) {
     return (a.pose.translation - place).squaredNorm() < (b.pose.translation - place).squaredNorm();
   });
+}
+
+// Where it stands still at a control point, nearest to it; null where it does not.
+const ErrorKnot* standingAt(const std::vector<ErrorKnot>& knots, const ControlPoint& control) {
+  constexpr double kReach_m = 0.5, kStill_m = 0.005, kHighest_m = 3;
+  const ErrorKnot* found = nullptr;
+  double nearest = kReach_m;
+  for (std::size_t i = 1; i < knots.size(); ++i) {
+    const Eigen::Vector3d from = knots[i].pose.translation - control.position;
+    const double distance = from.head<2>().norm();
+    if (knots[i].way_m - knots[i - 1].way_m > kStill_m || from.z() < 0 || from.z() > kHighest_m) continue;
+    if (distance > nearest || (found != nullptr && distance == nearest)) continue;
+    nearest = distance, found = &knots[i];
+  }
+  return found;
 }
 
 }  // namespace
@@ -195,6 +211,11 @@ Result<SolvedMotion> solveMotion(const CarriedMotion& carried, const RayScene& s
     constraints.push_back({knot.time_s, {}, kClosure_sigma_m, kClosure_sigma_rad});
     ++solved.anchors;
   }
+  for (const ControlPoint& control : solving.control) {
+    const ErrorKnot* const knot = standingAt(knots, control);
+    (knot == nullptr ? solved.missed : solved.control).push_back(control.name);
+    if (knot != nullptr) constraints.push_back({knot->time_s, {}, std::hypot(control.sigma_m, kCentring_sigma_m), {}});
+  }
   TRY_ASSIGN(const auto trajectory, solveTrajectory(carried.truth, knots, *solving.profile, constraints, solving.seed,
                                                     static_cast<std::uint32_t>(stableHash(name.c_str())), progress));
   for (const KnotError& error : trajectory.errors) {
@@ -205,6 +226,18 @@ Result<SolvedMotion> solveMotion(const CarriedMotion& carried, const RayScene& s
   TRY_ASSIGN(auto spline, sampled(*trajectory.pose, kSampled_hz));
   solved.pose = std::make_shared<const PoseSpline>(std::move(spline));
   return solved;
+}
+
+void reportSolved(const SolvedMotion& solved, const std::string& name, Report& report) {
+  constexpr std::size_t kFewest = 3;
+  report.note(name, fmt::format("the trajectory errs by {:.1f} mm (rms), {:.1f} mm at most; {} closures, {} stations "
+                                "and {} control points hold it",
+                                1e3 * solved.rms_m, 1e3 * solved.largest_m, solved.closures, solved.anchors,
+                                solved.control.size()));
+  for (const std::string& control : solved.missed)
+    report.warn(name, fmt::format("does not stop within 0.5 m of control point {}, which does not hold it", control));
+  if (!solved.control.empty() && solved.control.size() < kFewest)
+    report.warn(name, "fewer than three control points hold it: they do not show an error in one of them");
 }
 
 }  // namespace standpoint

@@ -59,16 +59,22 @@ struct MotionSolving {
   bool closures = true;                   // places that it comes back to are recognised
   bool anchors = false;                   // scanned stations of the job hold it …
   double anchor_reach_m = 3;              // … that it passes within this
+  std::vector<ControlPoint> control;      // local frame: those that it stops at hold it
   std::uint64_t seed = 1;
   double max_range_m = 0;  // that the scanner sees
 };
 struct SolvedMotion {
   PoseFunctionPtr pose;  // null where it is known exactly
   std::size_t closures = 0, anchors = 0;
-  double rms_m = 0, largest_m = 0;  // of the position's error, at the knots
+  std::vector<std::string> control, missed;  // control points that hold it, and those that it does not stop at
+  double rms_m = 0, largest_m = 0;           // of the position's error, at the knots
 };
+// What holds it and how it errs: a note, and a warning of control points that do not hold it.
+void reportSolved(const SolvedMotion& solved, const std::string& name, Report& report);
 // The error of a carried scanner's trajectory (core/motion/trajectory_error.h), with the degeneracy that the scene
-// gives along it: rays from each knot find what surfaces face it.
+// gives along it: rays from each knot find what surfaces face it. A control point is measured where the scanner stands
+// still for a quarter of a second within 0.5 m of it in plan and up to 3 m above it; it holds the position there with
+// its own sigma and 3 mm of whoever centres on it.
 Result<SolvedMotion> solveMotion(const CarriedMotion& carried, const RayScene& scene, std::span<const Station> stations,
                                  const std::string& name, const MotionSolving& solving, Progress& progress);
 

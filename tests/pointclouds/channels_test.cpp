@@ -156,6 +156,7 @@ void expectBack(const std::filesystem::path& file, const std::vector<ScanHeader>
     EXPECT_EQ(scan.points.column, points.column);
     EXPECT_EQ(scan.points.red, points.red);
     EXPECT_EQ(scan.points.blue, points.blue);
+    EXPECT_EQ(scan.points.channel, points.channel);
     EXPECT_EQ(scan.points.return_number, points.return_number);
     EXPECT_EQ(scan.points.return_count, points.return_count);
     EXPECT_EQ(scan.points.truth.flags, points.truth.flags);

@@ -32,7 +32,8 @@ class KeptScans final : public PointSink {
     append(all.row, b.row), append(all.column, b.column);
     append(all.red, b.red), append(all.green, b.green), append(all.blue, b.blue);
     append(all.product, b.product), append(all.material, b.material);
-    append(all.time_s, b.time_s), append(all.return_number, b.return_number), append(all.return_count, b.return_count);
+    append(all.time_s, b.time_s), append(all.channel, b.channel);
+    append(all.return_number, b.return_number), append(all.return_count, b.return_count);
     PointTruth& truth = all.truth;
     append(truth.x_m, b.truth.x_m), append(truth.y_m, b.truth.y_m), append(truth.z_m, b.truth.z_m);
     append(truth.range_m, b.truth.range_m), append(truth.incidence_rad, b.truth.incidence_rad);

@@ -24,7 +24,7 @@ struct ScanKind {
   std::uint32_t rows = 100, columns = 50;
   bool colour = true, labels = true;
   std::string name = "S1";
-  bool all_channels = false;  // times, returns, truth
+  bool all_channels = false;  // times, laser channels, returns, truth
 };
 
 inline ScanHeader madeUpHeader(const ScanKind& kind) {
@@ -41,7 +41,7 @@ inline ScanHeader madeUpHeader(const ScanKind& kind) {
   header.columns = kind.columns;
   header.has_colour = kind.colour;
   header.has_labels = kind.labels;
-  header.has_time = header.has_returns = header.has_truth = kind.all_channels;
+  header.has_time = header.has_channel = header.has_returns = header.has_truth = kind.all_channels;
   header.acquisition_start_gps_s = 1400000000.25;
   header.acquisition_seconds = 61.5;
   if (kind.labels) {
@@ -73,6 +73,7 @@ inline void appendColumn(PointBlock& block, const ScanHeader& header, std::uint3
       block.blue.push_back(static_cast<std::uint8_t>(random[3] >> 16));
     }
     if (header.has_time) block.time_s.push_back(60.0 * column / header.columns + 1e-5 * row + 1e-7);
+    if (header.has_channel) block.channel.push_back(static_cast<std::uint8_t>(random[0] >> 16));
     if (header.has_returns) {
       block.return_count.push_back(static_cast<std::uint8_t>(1 + random[0] / 8 % 5));
       block.return_number.push_back(static_cast<std::uint8_t>(1 + random[0] / 64 % block.return_count.back()));

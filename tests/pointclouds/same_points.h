@@ -33,6 +33,7 @@ inline void expectSamePoints(const PointBlock& a, const PointBlock& b) {
   EXPECT_EQ(a.green, b.green);
   EXPECT_EQ(a.blue, b.blue);
   EXPECT_EQ(a.time_s, b.time_s);
+  EXPECT_EQ(a.channel, b.channel);
   EXPECT_EQ(a.return_number, b.return_number);
   EXPECT_EQ(a.return_count, b.return_count);
   EXPECT_EQ(bits(a.truth.x_m), bits(b.truth.x_m));

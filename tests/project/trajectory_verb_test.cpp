@@ -185,6 +185,68 @@ TEST(TrajectoryVerb, RefusesWhatIsNoTrajectoryWithARemedy) {
   refused({{"add", "back"}, {"file", (folder.path() / "back.tum").string()}}, "line 3");
 }
 
+// Samples of our own CSV: time, then the place.
+std::vector<Eigen::Vector4d> samplesOf(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::vector<Eigen::Vector4d> samples;
+  for (std::string line; std::getline(in, line);) {
+    Eigen::Vector4d s;
+    if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf", &s[0], &s[1], &s[2], &s[3]) == 4) samples.push_back(s);
+  }
+  return samples;
+}
+
+// 41 m up and down the room, with three stops of 3 s on its last lap.
+TEST(TrajectoryVerb, IsHeldByControlPointsWhereItStops) {
+  const TemporaryFolder folder;
+  std::vector<std::string> through;
+  for (int lap = 0; lap < 4; ++lap)
+    for (const char* place : {"500001,5600001", "500003.5,5600001", "500003.5,5600002", "500001,5600002"})
+      through.push_back(place);
+  for (const std::size_t k : {through.size() - 4, through.size() - 3, through.size() - 2}) through[k] += ":3";
+  const auto made = run("trajectory", twoStoreyDocument(), {{"add", "laps"}, {"through", through}});
+  ASSERT_TRUE(made) << describe(made.error());
+  const auto control = (folder.path() / "control.txt").string();
+  std::ofstream(control) << "C1 500001 5600001 0 1\nC2 500003.5 5600001.1 0 1\nC3 500003.5 5600002 0 1\n"
+                            "C4 500002.2 5600001 0 1\n";
+  const auto written = [&](json options) {
+    const auto file = folder.path() / "written.csv";
+    options["write"] = "laps", options["output"] = file.string(), options["rate"] = 20;
+    const auto outcome = run("trajectory", made->document, options);
+    EXPECT_TRUE(outcome) << describe(outcome.error());
+    return std::pair{samplesOf(file), outcome ? outcome->report : Report{}};
+  };
+  const auto truth = written(json::object()).first;
+  ASSERT_GT(truth.size(), 500U);
+  // The mean error of the third stop, where shaking averages out.
+  const auto offAtStop = [&](const std::vector<Eigen::Vector4d>& solved) {
+    Eigen::Vector3d off = Eigen::Vector3d::Zero();
+    int count = 0;
+    double last = 0;
+    for (const auto& t : truth)
+      if ((t.segment<2>(1) - Eigen::Vector2d(500003.5, 5600002)).norm() < 0.02) last = t[0];
+    for (std::size_t i = 0; i < truth.size(); ++i)
+      if (truth[i][0] > last - 2 && truth[i][0] < last - 0.5) off += solved[i].tail<3>() - truth[i].tail<3>(), ++count;
+    return Eigen::Vector3d(off / count);
+  };
+  double open = 0, held = 0;
+  constexpr int kSeeds = 24;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    json options = {
+        {"solved-for", "leica-blk2go"}, {"trajectory-error", "handheld"}, {"closures", "off"}, {"error-seed", seed}};
+    open += offAtStop(written(options).first).squaredNorm() / kSeeds;
+    options["control"] = control;
+    held += offAtStop(written(options).first).squaredNorm() / kSeeds;
+  }
+  EXPECT_GT(std::sqrt(open), 0.008);
+  EXPECT_NEAR(std::sqrt(held), std::sqrt(3.0) * 0.0031, 0.0018);  // of sigmas 1 and 3 mm along each axis
+  const auto report = written({{"solved-for", "leica-blk2go"}, {"control", control}}).second;
+  std::string told;
+  for (const auto& issue : report.issues) told += issue.message + "\n";
+  EXPECT_NE(told.find("3 control points hold it"), std::string::npos) << told;
+  EXPECT_NE(told.find("does not stop within 0.5 m of control point C4"), std::string::npos) << told;
+}
+
 TEST(MovingScanVerb, SeesTheRoomAlongTheTrajectory) {
   const TemporaryFolder folder;
   json options = along(folder.path() / "o.e57");
@@ -199,6 +261,7 @@ TEST(MovingScanVerb, SeesTheRoomAlongTheTrajectory) {
   ASSERT_EQ(kept.scans.size(), 1U);
   const auto& scan = kept.scans[0];
   ASSERT_EQ(scan.points.time_s.size(), scan.points.size());
+  EXPECT_EQ(std::set<int>(scan.points.channel.begin(), scan.points.channel.end()).size(), 16U);
   double worst = 0;
   for (std::size_t i = 0; i < scan.points.size(); i += 101)
     worst = std::max(worst, offFaces(scan.header.file_from_scanner *
