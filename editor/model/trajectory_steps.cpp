@@ -7,6 +7,7 @@
 #include "core/motion/carriers.h"
 #include "editor/model/model.h"
 #include "editor/words/words.h"
+#include "project/survey/error_profile.h"
 #include "survey/stations/station_places.h"
 
 namespace standpoint {
@@ -156,17 +157,38 @@ void dropWaypoint(Model& model) {
                       trf("Move waypoint {} of {}", model.view.dragged_waypoint + 1, moved->name));
 }
 
+namespace {
+
+// As the next scan along a trajectory would find it.
+WayKnowledge knowledgeOf(const Model& model) {
+  WayKnowledge known;
+  const CarriedScan& scan = model.carried_scan;
+  const Instrument* const instrument = model.instrument(scan.choice.instrument);
+  if (instrument == nullptr || !instrument->moving) return known;
+  known.profile = errorProfile(scan.error, instrument->moving->mount);
+  known.closures = scan.closures;
+  known.max_range_m = instrument->max_range_m;
+  const auto& job = model.session.document().job;
+  if (!scan.anchors || !job) return known;
+  for (const Station& station : job->stations)
+    if (!station.scans.empty()) known.anchors.push_back(station.true_pose.translation);
+  return known;
+}
+
+}  // namespace
+
 void followDraft(Model& model) {
   const auto& document = model.session.document();
   const auto scene = model.picker.scene();
-  model.trajectory_ways.follow(document, scene);
+  const auto knowledge = knowledgeOf(model);
+  model.trajectory_ways.follow(document, scene, knowledge);
   std::optional<CarriedTrajectory> draft;
   if (model.view.tool == Tool::layTrajectory && model.view.draft.waypoints.size() >= 2)
     draft = laid(model.view.draft);
   else
     draft = draggedTrajectory(model);
   if (draft && scene && document.georeference)
-    model.trajectory_ways.wantDraft({*std::move(draft), document.georeference, scene, {}});
+    model.trajectory_ways.wantDraft({*std::move(draft), document.georeference, scene, {}, knowledge});
   else
     model.trajectory_ways.dropDraft();
 }

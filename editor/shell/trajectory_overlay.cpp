@@ -33,7 +33,7 @@ constexpr double kRibbonAbove_m = 0.03;  // of the ribbon, so that the floor doe
 constexpr std::size_t kSegments = 500, kSegmentsOfOthers = 160;
 constexpr double kArrowEvery_m = 2.5;
 
-enum class RibbonColour { plain, time, speed, turn };
+enum class RibbonColour { plain, time, speed, turn, error };
 
 // By what the ribbons are coloured.
 struct RibbonChoice {
@@ -46,13 +46,16 @@ struct NamedRibbon {
 };
 constexpr std::array kRibbons = {
     NamedRibbon{RibbonColour::plain, "plain", ""}, NamedRibbon{RibbonColour::time, "time", "s"},
-    NamedRibbon{RibbonColour::speed, "speed", "m/s"}, NamedRibbon{RibbonColour::turn, "turn rate", "°/s"}};
+    NamedRibbon{RibbonColour::speed, "speed", "m/s"}, NamedRibbon{RibbonColour::turn, "turn rate", "°/s"},
+    NamedRibbon{RibbonColour::error, "expected error", "mm"}};
 
-double figureOf(const PathSample& sample, RibbonColour by) {
+double figureOf(const TrajectoryWay& way, std::size_t i, RibbonColour by) {
+  const PathSample& sample = way.samples[i];
   switch (by) {
     case RibbonColour::time: return sample.after_s;
     case RibbonColour::speed: return sample.speed_mps;
     case RibbonColour::turn: return sample.turn_radps / kRadPerDeg;
+    case RibbonColour::error: return i < way.expected_m.size() ? 1e3 * way.expected_m[i] : 0;
     case RibbonColour::plain: break;
   }
   return 0;
@@ -63,14 +66,14 @@ struct RibbonScale {
   RibbonColour by = RibbonColour::plain;
   ImU32 plain = 0;
   double most = 0;
-  ImU32 toneOf(const PathSample& sample) const {
-    return by == RibbonColour::plain ? plain : packed(viridis(most > 0 ? figureOf(sample, by) / most : 0));
+  ImU32 toneOf(const TrajectoryWay& way, std::size_t i) const {
+    return by == RibbonColour::plain ? plain : packed(viridis(most > 0 ? figureOf(way, i, by) / most : 0));
   }
 };
 
 RibbonScale scaleOf(const TrajectoryWay& way, RibbonColour by, ImU32 plain) {
   RibbonScale scale{by, plain, 0};
-  for (const auto& sample : way.samples) scale.most = std::max(scale.most, figureOf(sample, by));
+  for (std::size_t i = 0; i < way.samples.size(); ++i) scale.most = std::max(scale.most, figureOf(way, i, by));
   return scale;
 }
 
@@ -117,13 +120,13 @@ void drawRibbon(const Editor& editor, const ViewState& state, const ViewPen& pen
   double since_arrow = kArrowEvery_m / 2;
   std::vector<std::array<Vector3d, 2>> arrows;  // over the whole ribbon, which would cover parts of them
   for (std::size_t i = 0; i + 1 < samples.size(); i += step) {
-    const auto& sample = samples[std::min(i + step, samples.size() - 1)];
-    const Vector3d to = onRibbon(way, sample), leg = to - from;
+    const std::size_t there = std::min(i + step, samples.size() - 1);
+    const Vector3d to = onRibbon(way, samples[there]), leg = to - from;
     if (leg.norm() < 1e-4) continue;  // it stands
     const Vector3d side = across(leg), before = side_before.isZero() ? side : side_before;
     const bool seen = editor.picker.sees(editor.view.camera.eyeOf(to), to, state);
     quad(pen, {from + before, to + side, to - side, from - before},
-         thinned(scale.toneOf(sample), seen ? (chosen ? 215 : 150) : (chosen ? 70 : 40)));
+         thinned(scale.toneOf(way, there), seen ? (chosen ? 215 : 150) : (chosen ? 70 : 40)));
     since_arrow += leg.norm();
     if (since_arrow > kArrowEvery_m && seen) {
       arrows.push_back({to, leg});

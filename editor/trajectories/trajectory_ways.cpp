@@ -23,10 +23,10 @@ std::filesystem::file_time_type writtenAt(const std::string& file) {
 }
 
 std::vector<WayWish> wishesOf(const Job& job, const std::shared_ptr<const Georeference>& georeference,
-                              const std::shared_ptr<const RayScene>& scene) {
+                              const std::shared_ptr<const RayScene>& scene, const WayKnowledge& knowledge) {
   std::vector<WayWish> wishes;
   for (const auto& trajectory : job.trajectories) {
-    wishes.push_back({trajectory, georeference, scene, writtenAt(trajectory.file)});
+    wishes.push_back({trajectory, georeference, scene, writtenAt(trajectory.file), knowledge});
     wishes.back().trajectory.scans.clear();
   }
   return wishes;
@@ -39,13 +39,28 @@ double liftOf(const CarriedTrajectory& t) {
   return t.height_m > 0 ? t.height_m : carrier->limits.height_m;
 }
 
+std::vector<double> expectedOf(const TrajectoryWay& way, const CarriedMotion& carried, const WayWish& wish,
+                               Progress& progress) {
+  const WayKnowledge& known = wish.knowledge;
+  std::vector<Station> stations;
+  for (const auto& place : known.anchors) stations.push_back({.true_pose = {.translation = place}, .scans = {Scan{}}});
+  const auto expected = expectedMotion(
+      carried, *wish.scene, stations,
+      {.profile = known.profile, .closures = known.closures, .anchors = true, .max_range_m = known.max_range_m},
+      progress);
+  if (!expected || expected->empty()) return {};  // or too long for an error of its own
+  std::vector<double> times;
+  for (const auto& sample : way.samples) times.push_back(carried.path->first_s() + sample.after_s);
+  return expectedAt(*expected, times);
+}
+
 }  // namespace
 
 bool WayWish::operator==(const WayWish& other) const {
   const auto &a = trajectory, &b = other.trajectory;
-  return georeference == other.georeference && scene == other.scene && written == other.written && a.name == b.name &&
-         a.carrier == b.carrier && a.height_m == b.height_m && a.speed_mps == b.speed_mps && a.seed == b.seed &&
-         a.file == b.file && a.format == b.format &&
+  return georeference == other.georeference && scene == other.scene && written == other.written &&
+         knowledge == other.knowledge && a.name == b.name && a.carrier == b.carrier && a.height_m == b.height_m &&
+         a.speed_mps == b.speed_mps && a.seed == b.seed && a.file == b.file && a.format == b.format &&
          std::equal(a.waypoints.begin(), a.waypoints.end(), b.waypoints.begin(), b.waypoints.end(), same);
 }
 
@@ -60,6 +75,7 @@ TrajectoryWay wayOf(const WayWish& wish, Progress& progress) {
   way.length_m = carried->length_m;
   way.seconds = carried->seconds();
   way.samples = pathSamples(*carried, kMostSamples);
+  way.expected_m = expectedOf(way, *carried, wish, progress);
   way.lift_m = liftOf(wish.trajectory);
   way.obstacles = obstaclesOf(*carried, *wish.scene);
   for (const auto& obstacle : way.obstacles)
@@ -70,7 +86,8 @@ TrajectoryWay wayOf(const WayWish& wish, Progress& progress) {
 TrajectoryWays::TrajectoryWays(const std::function<void()>& wake)
     : latest_("Trajectories", wake), draft_("Trajectory", wake) {}
 
-void TrajectoryWays::follow(const Document& document, const std::shared_ptr<const RayScene>& scene) {
+void TrajectoryWays::follow(const Document& document, const std::shared_ptr<const RayScene>& scene,
+                            const WayKnowledge& knowledge) {
   constexpr std::chrono::seconds kBetweenLooks(2);
   takeIn();
   if (!document.job || !document.georeference || !scene) {
@@ -80,13 +97,14 @@ void TrajectoryWays::follow(const Document& document, const std::shared_ptr<cons
     return;
   }
   const auto now = std::chrono::steady_clock::now();
-  const bool same_job = job_ == document.job && georeference_ == document.georeference && scene_ == scene;
+  const bool same_job =
+      job_ == document.job && georeference_ == document.georeference && scene_ == scene && knowledge_ == knowledge;
   const bool files =
       std::any_of(wishes_.begin(), wishes_.end(), [](const auto& w) { return !w.trajectory.file.empty(); });
   if (same_job && (!files || now - looked_ < kBetweenLooks)) return;
   looked_ = now;
-  job_ = document.job, georeference_ = document.georeference, scene_ = scene;
-  auto wishes = wishesOf(*job_, georeference_, scene_);
+  job_ = document.job, georeference_ = document.georeference, scene_ = scene, knowledge_ = knowledge;
+  auto wishes = wishesOf(*job_, georeference_, scene_, knowledge_);
   if (wishes == wishes_) return;
   wishes_ = std::move(wishes);
   showKnown();

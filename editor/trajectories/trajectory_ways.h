@@ -20,10 +20,20 @@ namespace standpoint {
 struct TrajectoryWay {
   double length_m = 0, seconds = 0;
   std::vector<PathSample> samples;
+  std::vector<double> expected_m;  // of each: how large the error of its position is over all seeds; or none
   double lift_m = 0;  // of the samples above the floor that is walked on; 0: there is none below, as of a flight
   std::vector<PathObstacle> obstacles;
   std::vector<std::string> obstacle_products;  // of each: "IfcWall #12 'East'"
   std::string problem;                         // why there is no such way; "" where there is
+};
+
+// How well a trajectory would be known with the instrument and the conditions that are chosen.
+struct WayKnowledge {
+  const ErrorProfile* profile = nullptr;  // null: exactly
+  bool closures = true;
+  std::vector<Eigen::Vector3d> anchors;  // scanned stations that may hold it
+  double max_range_m = 0;
+  bool operator==(const WayKnowledge&) const = default;
 };
 
 // All that a way depends on.
@@ -32,6 +42,7 @@ struct WayWish {
   std::shared_ptr<const Georeference> georeference;
   std::shared_ptr<const RayScene> scene;
   std::filesystem::file_time_type written = {};  // of its file
+  WayKnowledge knowledge = {};
   bool operator==(const WayWish& other) const;
 };
 TrajectoryWay wayOf(const WayWish& wish, Progress& progress);
@@ -43,7 +54,7 @@ class TrajectoryWays {
   explicit TrajectoryWays(const std::function<void()>& wake);
 
   // Once a frame. `scene` is that of the document's model; null: it is being built, and the ways wait for it.
-  void follow(const Document& document, const std::shared_ptr<const RayScene>& scene);
+  void follow(const Document& document, const std::shared_ptr<const RayScene>& scene, const WayKnowledge& knowledge);
   // By the index into the job; null while it is worked out.
   const TrajectoryWay* of(std::size_t trajectory) const;
 
@@ -65,6 +76,7 @@ class TrajectoryWays {
   std::shared_ptr<const Job> job_;
   std::shared_ptr<const Georeference> georeference_;
   std::shared_ptr<const RayScene> scene_;
+  WayKnowledge knowledge_;
   std::chrono::steady_clock::time_point looked_;  // at the files
   std::vector<WayWish> wishes_;
   Known known_;

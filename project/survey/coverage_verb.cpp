@@ -14,6 +14,7 @@
 #include "core/units.h"
 #include "pointclouds/formats.h"
 #include "project/answers.h"
+#include "project/survey/error_profile.h"
 #include "project/survey/scan_request.h"
 #include "survey/instruments.h"
 #include "survey/scanning/scan_world.h"
@@ -143,6 +144,29 @@ CoverageTrajectory rowOf(const Path& path, const SurfaceSamples& samples) {
   return row;
 }
 
+// How well it will be known, all seeds together.
+Result<void> expectError(CoverageTrajectory& row, const Path& path, const RayScene& scene, const Document& document,
+                         const CoverageOptions& options, Progress& progress) {
+  TRY_ASSIGN(auto control, controlOf(options.control, *document.georeference));
+  TRY_ASSIGN(const auto expected,
+             expectedMotion(path.carried, scene, document.job->stations,
+                            {.profile = errorProfile(options.trajectory_error, path.instrument.moving->mount),
+                             .closures = options.closures == Switch::on,
+                             .anchors = options.anchors == Switch::on,
+                             .control = std::move(control),
+                             .max_range_m = path.settings.max_range_m},
+                            progress));
+  std::vector<double> times;
+  for (const auto& sample : pathSamples(path.carried, 2000))
+    times.push_back(path.carried.path->first_s() + sample.after_s);
+  for (const double sigma : expectedAt(expected, times)) {
+    row.expected_rms_m += sigma * sigma / static_cast<double>(times.size());
+    row.expected_most_m = std::max(row.expected_most_m, sigma);
+  }
+  row.expected_rms_m = std::sqrt(row.expected_rms_m);
+  return {};
+}
+
 // What each covers that no other does, and what all of them do.
 void compare(CoverageAnswer& answer, const std::vector<Path>& paths, const SurfaceSamples& samples) {
   for (std::size_t k = 0; k < samples.samples.size(); ++k) {
@@ -218,9 +242,9 @@ std::string textOf(const CoverageAnswer& answer) {
   for (const auto& row : answer.trajectories)
     text += fmt::format(
         "{}: {:.1f} m in {:.1f} min, {:.2f} m/s, at most {:.2f} m/s and {:.0f} deg/s, {} closures; "
-        "alone {:.1f} m2, {:.1f} m2/min\n",
+        "expected error {:.1f} mm (rms), {:.1f} mm at most; alone {:.1f} m2, {:.1f} m2/min\n",
         row.trajectory, row.length_m, row.seconds / 60, row.mean_mps, row.fastest_mps, row.fastest_turn_degps,
-        row.closures, row.alone_m2, row.alone_m2_per_minute);
+        row.closures, 1e3 * row.expected_rms_m, 1e3 * row.expected_most_m, row.alone_m2, row.alone_m2_per_minute);
   for (std::size_t k = 0; k < std::min<std::size_t>(10, answer.blind.size()); ++k) {
     const auto& patch = answer.blind[k];
     text += fmt::format("blind, {}: {:.2f} m2 of {} {} {} at {:.2f},{:.2f},{:.2f}\n", patch.reason, patch.area_m2,
@@ -246,6 +270,11 @@ const Fields<CoverageOptions>& coverageFields() {
       {"trajectories", &O::trajectories, "names (default: all)"},
       {"instrument", &O::instrument, "id of an instrument that is carried (default: that of the last scan)"},
       {"set", &O::settings, "settings in the device's own words, such as resolution=12mm"},
+      {"trajectory-error", &O::trajectory_error,
+       "how the trajectory is known: with the error of the instrument's kind, none, or that of a profile"},
+      {"closures", &O::closures, "off: places that the trajectory comes back to are not recognised"},
+      {"anchors", &O::anchors, "on: scanned stations within 3 m of the trajectory hold it"},
+      {"control", &O::control, "text file of control points that hold it where it stops: name X Y Z [sigma in mm]"},
       {"measured", &O::measured, "of the last scan along each trajectory, instead of a prediction"},
       {"density",
        &O::density_per_m2,
@@ -290,6 +319,8 @@ const AnswerFields<CoverageTrajectory>& answerFields(const CoverageTrajectory* r
                                            {"fastest_mps", &A::fastest_mps},
                                            {"fastest_turn_degps", &A::fastest_turn_degps},
                                            {"closures", &A::closures},
+                                           {"expected_rms_m", &A::expected_rms_m},
+                                           {"expected_most_m", &A::expected_most_m},
                                            {"alone_m2", &A::alone_m2},
                                            {"alone_m2_per_minute", &A::alone_m2_per_minute}},
                                           answerFields(static_cast<const CoverageShare*>(row)));
@@ -373,6 +404,7 @@ Result<Answered<CoverageAnswer>> runCoverage(const Document& document, const Cov
       TRY_ASSIGN(path.sights, measuredSights(document, *scene, path, samples, wanted, report, progress));
     }
     answer.trajectories.push_back(rowOf(path, samples));
+    TRY(expectError(answer.trajectories.back(), path, *scene, document, options, progress));
   }
   std::vector<const Sights*> each;
   for (const auto& path : paths) each.push_back(&path.sights);

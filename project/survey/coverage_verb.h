@@ -13,6 +13,9 @@ struct CoverageOptions {
   std::vector<std::string> trajectories;  // names; empty: all
   std::string instrument;                 // id; empty: that of each trajectory's last scan
   KeyValues settings;
+  TrajectoryError trajectory_error = TrajectoryError::of_instrument;
+  Switch closures = Switch::on, anchors = Switch::off;
+  std::filesystem::path control;
   bool measured = false;
   double density_per_m2 = 100, max_incidence_deg = 75, pass_gap_s = 30;
   std::size_t samples = 40000;
@@ -32,8 +35,9 @@ struct CoverageTrajectory : CoverageShare {
   std::string trajectory, instrument;
   double length_m = 0, seconds = 0, mean_mps = 0, fastest_mps = 0, fastest_turn_degps = 0;
   std::uint64_t closures = 0;
-  double alone_m2 = 0;             // that no other of these trajectories covers …
-  double alone_m2_per_minute = 0;  // … and by the minutes that it takes
+  double expected_rms_m = 0, expected_most_m = 0;  // of its position's error over all seeds, along its time; at worst
+  double alone_m2 = 0;                             // that no other of these trajectories covers …
+  double alone_m2_per_minute = 0;                  // … and by the minutes that it takes
 };
 const AnswerFields<CoverageTrajectory>& answerFields(const CoverageTrajectory*);
 struct CoverageClass : CoverageShare {

@@ -105,6 +105,38 @@ const ErrorKnot* standingAt(const std::vector<ErrorKnot>& knots, const ControlPo
   return found;
 }
 
+struct HeldKnots {
+  std::vector<ErrorKnot> knots;
+  std::vector<MotionConstraint> constraints;
+};
+
+// What the error of a trajectory depends on. Counts what holds it.
+Result<HeldKnots> heldKnots(const CarriedMotion& carried, const RayScene& scene, std::span<const Station> stations,
+                            const MotionSolving& solving, SolvedMotion& solved, Progress& progress) {
+  HeldKnots held;
+  TRY_ASSIGN(held.knots, errorKnots(*carried.path));
+  setDegeneracy(held.knots, scene, solving.max_range_m);
+  TRY(progress.check());
+  if (solving.closures)
+    for (const LoopClosure& closure : findClosures(held.knots))
+      held.constraints.push_back({closure.time_s, closure.earlier_s, kClosure_sigma_m, kClosure_sigma_rad});
+  solved.closures = held.constraints.size();
+  for (const Station& station : stations) {
+    if (!solving.anchors || station.scans.empty()) continue;
+    const ErrorKnot& knot = nearestTo(held.knots, station.true_pose.translation);
+    if ((knot.pose.translation - station.true_pose.translation).norm() > solving.anchor_reach_m) continue;
+    held.constraints.push_back({knot.time_s, {}, kClosure_sigma_m, kClosure_sigma_rad});
+    ++solved.anchors;
+  }
+  for (const ControlPoint& control : solving.control) {
+    const ErrorKnot* const knot = standingAt(held.knots, control);
+    (knot == nullptr ? solved.missed : solved.control).push_back(control.name);
+    if (knot != nullptr)
+      held.constraints.push_back({knot->time_s, {}, std::hypot(control.sigma_m, kCentring_sigma_m), {}});
+  }
+  return held;
+}
+
 }  // namespace
 
 Result<CarriedMotion> carriedMotion(const CarriedTrajectory& trajectory, const Georeference& georeference,
@@ -196,28 +228,10 @@ Result<SolvedMotion> solveMotion(const CarriedMotion& carried, const RayScene& s
                                  const std::string& name, const MotionSolving& solving, Progress& progress) {
   SolvedMotion solved;
   if (solving.profile == nullptr) return solved;
-  TRY_ASSIGN(auto knots, errorKnots(*carried.path));
-  setDegeneracy(knots, scene, solving.max_range_m);
-  TRY(progress.check());
-  std::vector<MotionConstraint> constraints;
-  if (solving.closures)
-    for (const LoopClosure& closure : findClosures(knots))
-      constraints.push_back({closure.time_s, closure.earlier_s, kClosure_sigma_m, kClosure_sigma_rad});
-  solved.closures = constraints.size();
-  for (const Station& station : stations) {
-    if (!solving.anchors || station.scans.empty()) continue;
-    const ErrorKnot& knot = nearestTo(knots, station.true_pose.translation);
-    if ((knot.pose.translation - station.true_pose.translation).norm() > solving.anchor_reach_m) continue;
-    constraints.push_back({knot.time_s, {}, kClosure_sigma_m, kClosure_sigma_rad});
-    ++solved.anchors;
-  }
-  for (const ControlPoint& control : solving.control) {
-    const ErrorKnot* const knot = standingAt(knots, control);
-    (knot == nullptr ? solved.missed : solved.control).push_back(control.name);
-    if (knot != nullptr) constraints.push_back({knot->time_s, {}, std::hypot(control.sigma_m, kCentring_sigma_m), {}});
-  }
-  TRY_ASSIGN(const auto trajectory, solveTrajectory(carried.truth, knots, *solving.profile, constraints, solving.seed,
-                                                    static_cast<std::uint32_t>(stableHash(name.c_str())), progress));
+  TRY_ASSIGN(const auto held, heldKnots(carried, scene, stations, solving, solved, progress));
+  TRY_ASSIGN(const auto trajectory,
+             solveTrajectory(carried.truth, held.knots, *solving.profile, held.constraints, solving.seed,
+                             static_cast<std::uint32_t>(stableHash(name.c_str())), progress));
   for (const KnotError& error : trajectory.errors) {
     solved.rms_m += error.position_m.squaredNorm() / static_cast<double>(trajectory.errors.size());
     solved.largest_m = std::max(solved.largest_m, error.position_m.norm());
@@ -238,6 +252,33 @@ void reportSolved(const SolvedMotion& solved, const std::string& name, Report& r
     report.warn(name, fmt::format("does not stop within 0.5 m of control point {}, which does not hold it", control));
   if (!solved.control.empty() && solved.control.size() < kFewest)
     report.warn(name, "fewer than three control points hold it: they do not show an error in one of them");
+}
+
+Result<std::vector<ExpectedError>> expectedMotion(const CarriedMotion& carried, const RayScene& scene,
+                                                  std::span<const Station> stations, const MotionSolving& solving,
+                                                  Progress& progress) {
+  if (solving.profile == nullptr) return std::vector<ExpectedError>{};
+  SolvedMotion ignored;
+  TRY_ASSIGN(const auto held, heldKnots(carried, scene, stations, solving, ignored, progress));
+  return expectedErrors(held.knots, *solving.profile, held.constraints, progress);
+}
+
+std::vector<double> expectedAt(std::span<const ExpectedError> expected, std::span<const double> times_s) {
+  std::vector<double> sigmas;
+  std::size_t next = 0;
+  for (const double time : times_s) {
+    while (next < expected.size() && expected[next].time_s < time) ++next;
+    if (expected.empty()) {
+      sigmas.push_back(0);
+    } else if (next == 0 || next == expected.size()) {
+      sigmas.push_back(expected[next == 0 ? 0 : next - 1].position_m.norm());
+    } else {
+      const auto &before = expected[next - 1], &after = expected[next];
+      const double part = (time - before.time_s) / (after.time_s - before.time_s);
+      sigmas.push_back(std::lerp(before.position_m.norm(), after.position_m.norm(), part));
+    }
+  }
+  return sigmas;
 }
 
 }  // namespace standpoint

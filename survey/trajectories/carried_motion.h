@@ -78,4 +78,12 @@ void reportSolved(const SolvedMotion& solved, const std::string& name, Report& r
 Result<SolvedMotion> solveMotion(const CarriedMotion& carried, const RayScene& scene, std::span<const Station> stations,
                                  const std::string& name, const MotionSolving& solving, Progress& progress);
 
+// How large the error of that trajectory is over all seeds (core/motion/trajectory_error.h), before anything is walked;
+// nothing where it is known exactly.
+Result<std::vector<ExpectedError>> expectedMotion(const CarriedMotion& carried, const RayScene& scene,
+                                                  std::span<const Station> stations, const MotionSolving& solving,
+                                                  Progress& progress);
+// The root of the summed variances of the expected position at these times, which ascend.
+std::vector<double> expectedAt(std::span<const ExpectedError> expected, std::span<const double> times_s);
+
 }  // namespace standpoint

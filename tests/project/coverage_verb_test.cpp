@@ -59,6 +59,26 @@ TEST(CoverageVerb, ComparesTrajectoriesInOneTable) {
   EXPECT_NE(outcome->text.find("together"), std::string::npos);
 }
 
+// Nothing is walked yet; what the instrument's kind errs by is expected, and less where closures hold it.
+TEST(CoverageVerb, ExpectsHowWellTheTrajectoryWillBeKnown) {
+  std::vector<std::string> through;
+  for (int lap = 0; lap < 4; ++lap)
+    for (const char* place : {"500001,5600001", "500005,5600001", "500005.5,5600003.4", "500001,5600003"})
+      through.push_back(place);
+  const auto laps = run("trajectory", twoStoreyDocument(), {{"add", "laps"}, {"through", through}});
+  ASSERT_TRUE(laps) << describe(laps.error());
+  const auto most = [&](json options) {
+    options["instrument"] = "leica-blk2go", options["samples"] = 1000;
+    const auto outcome = run("coverage", laps->document, options);
+    EXPECT_TRUE(outcome) << describe(outcome.error());
+    return outcome ? outcome->answer["trajectories"][0]["expected_most_m"].get<double>() : 0;
+  };
+  const double open = most({{"closures", "off"}}), closed = most({});
+  EXPECT_GT(open, 0.0014 * std::sqrt(40.0));  // 1.4 mm by the root of metres, along each axis
+  EXPECT_LT(closed, 0.8 * open);
+  EXPECT_EQ(most({{"trajectory-error", "none"}}), 0);
+}
+
 TEST(CoverageVerb, PredictsWhatTheScanThenHas) {
   const TemporaryFolder folder;
   const Document walks = withWalks();
