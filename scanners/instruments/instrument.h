@@ -130,7 +130,7 @@ struct MovingHead {
   int heads = 1;
   std::vector<double> channel_elevations_rad;  // of one head, in the order in which they fire
   double points_per_s = 0;                     // of all heads, one return each
-  double min_rotation_hz = 0, max_rotation_hz = 0;
+  double min_rotation_hz = 0, max_rotation_hz = 0;  // 0 and 0: a beam that does not turn, along the head's x
   double second_rotation_hz = 0;  // of the head about another axis; 0 = none
   double turn_rad = 0;            // the part of a turn that is measured …
   double turn_middle_rad = 0;     // … and its middle, counter-clockwise from the head's x

@@ -120,8 +120,8 @@ class InstrumentReader : FigureReader {
     head.heads = count(group, "heads", {1, 16});
     head.channel_elevations_rad = figures(group, "channel_elevations_deg", {-90, 90, kRadPerDeg}, 1024);
     head.points_per_s = figure(group, "points_per_s", {1, 1e9});
-    head.min_rotation_hz = figure(group, "least_rotation_hz", {0.01, 10000});
-    head.max_rotation_hz = figure(group, "most_rotation_hz", {0.01, 10000});
+    head.min_rotation_hz = figure(group, "least_rotation_hz", {0, 10000});
+    head.max_rotation_hz = figure(group, "most_rotation_hz", {0, 10000});
     head.second_rotation_hz = figure(group, "second_rotation_hz", {0, 10000});
     head.turn_rad = figure(group, "turn_deg", {1, 360, kRadPerDeg});
     readFirings(group, head);
@@ -346,7 +346,7 @@ class InstrumentReader : FigureReader {
                                                            {"area", {0, 1}},
                                                            {"max_range_m", {1, 10000}},
                                                            {"reference_reflectivity", {0.001, 1}},
-                                                           {"rotation_hz", {0.01, 10000}},
+                                                           {"rotation_hz", {0, 10000}},
                                                            {"most_returns", {1, 255}},
                                                            {"unambiguous_m", {0, 100000}},
                                                            {"drop_mixed_mm", {0, 10000}},

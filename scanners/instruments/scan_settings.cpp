@@ -316,7 +316,8 @@ Result<ScanSettings> resolveMovingSettings(const Instrument& instrument, const S
   settings.firing_s = instrument.moving->firing_s;
   if (effects.columns > 0 && effects.rotation_hz > 0) settings.firing_s = 1 / (effects.columns * effects.rotation_hz);
   if (effects.rate_hz > 0) settings.firing_s = 1 / effects.rate_hz;
-  if (settings.rotation_hz <= 0 || settings.firing_s <= 0)
+  const bool turns = settings.rotation_hz > 0 || instrument.moving->max_rotation_hz <= 0;
+  if (!turns || settings.firing_s <= 0)
     return failure(ErrorKind::unusable, "no setting defines the rotation, or the time of a firing",
                    instrument.id + " /settings");
   settings.max_range_m = effects.max_range_m;

@@ -232,7 +232,7 @@ TEST(Plan, ForecastsTheSizeOfTheFile) {
   const auto assignment = std::make_shared<const MaterialAssignment>();
   const auto known = planSurvey(
       *d.job, *RayScene::build(d.environment(), progress), assignment,
-      {.instrument = instrument, .settings = settings, .stations = {0}, .channels = {true, true, true}, .wanted = {}},
+      {.instrument = instrument, .settings = settings, .stations = {0}, .channels = {.time = true, .returns = true, .truth = true}, .wanted = {}},
       progress);
   ASSERT_TRUE(known) << describe(known.error());
   ASSERT_TRUE(run("scan", d,

@@ -65,7 +65,7 @@ Scanned frontOver(const MovingScene& scene, double seconds, std::uint32_t column
   PointsKept sink;
   Progress progress;
   ScanOptions options{1, effects};
-  options.channels = {true, true, true};
+  options.channels = {.time = true, .returns = true, .truth = true};
   options.bodies_ahead_s = -seconds / 2;
   const Pose pose{Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ())),
                   Eigen::Vector3d::Zero()};
@@ -196,7 +196,7 @@ Scanned fixedBeam(const MovingScene& scene, const Instrument& device, const Pose
   PointsKept sink;
   Progress progress;
   ScanOptions options{1, effects};
-  options.channels = {true, true, true};
+  options.channels = {.time = true, .returns = true, .truth = true};
   const auto count = scan(*scene.build(), allOf(*scene.builder.environment(), 0.5), device, settings,
                           {.true_pose = still, .to_s = seconds}, options, sink, progress);
   EXPECT_TRUE(count) << (count ? "" : count.error().message);
@@ -290,7 +290,7 @@ TEST(MovingBodies, GiveTheSamePointsOnAnyThreadsAndInAnyParts) {
     PointsKept sink;
     Progress progress;
     ScanOptions options{5, Effects{}};
-    options.channels = {true, true, true};
+    options.channels = {.time = true, .returns = true, .truth = true};
     options.threads = threads, options.first_column = from, options.end_column = to;
     EXPECT_TRUE(scan(*scene.build(), allOf(*scene.builder.environment(), 0.5), device, settings, Pose{}, options, sink,
                      progress));

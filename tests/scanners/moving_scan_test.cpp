@@ -44,7 +44,7 @@ Scanned onTheWay(const SceneBuilder& scene, const Instrument& instrument, const 
                  ScanOptions options = {1, Effects::none()}) {
   PointsKept sink;
   Progress progress;
-  options.channels = {true, true, true};
+  options.channels = {.time = true, .returns = true, .truth = true};
   const auto count = scan(*scene.build(), allOf(*scene.environment(), 0.5), instrument, usual(instrument), motion,
                           options, sink, progress);
   EXPECT_TRUE(count);

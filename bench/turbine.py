@@ -1,0 +1,209 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A wind turbine that turns before four synchronous range meters, and the torsion of its blades that comes out of them.
+Needs Debian's python3-numpy and python3-matplotlib.
+
+usage: turbine.py STANDPOINT OUTDIR
+
+The turbine, the meters (files of an instrument whose beam does not turn) and their places are written here; Standpoint
+imports, turns the rotor and scans. 1D: each meter stands still and waits for the blade at its own radius; chord by
+chord, a straight line through depth over chord is the torsion. 2D: a mirror of 100 Hz in the upright plane. Blades
+truly twist by 4 degrees to their tips. The figures of the meters are stand-ins: 50 kHz, 2 mm, 0.2 mrad.
+"""
+import json
+import math
+import os
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+MODEL = os.path.join(HERE, "..", "scanners", "instruments", "leica-blk2go.json")
+RATE, HUB, TIP, CHORD, THICK, TWIST = 1.2, np.array([0, 0, 120.0]), 60.0, 2.0, 0.08, math.radians(4)
+METERS, RADII, SECONDS, KHZ = np.array([-180.0, 0, 2]), (20, 30, 40, 50), 20.0, 50
+NUMBERS = {"double": "<f8", "float": "<f4", "uchar": "u1", "int": "<i4"}
+
+
+def turned(points, angle):
+    """About the rotor's axis, x, by a right hand."""
+    c, s = math.cos(angle), math.sin(angle)
+    return points @ np.array([[1, 0, 0], [0, c, s], [0, -s, c]])
+
+
+def turbine():
+    lines, vertices = [], 0
+
+    def solid(name, rings):
+        """A closed body of rings with as many corners each."""
+        nonlocal vertices
+        lines.append(f"o {name}\nusemtl Blade")
+        sides = len(rings[0])
+        for x, y, z in np.concatenate(rings):
+            lines.append(f"v {x:.6f} {y:.6f} {z:.6f}")
+        at = lambda ring, k: vertices + 1 + ring * sides + k % sides
+        for ring in range(len(rings) - 1):
+            for k in range(sides):
+                lines.append(f"f {at(ring, k)} {at(ring, k + 1)} {at(ring + 1, k + 1)} {at(ring + 1, k)}")
+        for ring, order in ((0, range(sides - 1, -1, -1)), (len(rings) - 1, range(sides))):
+            lines.append("f " + " ".join(str(at(ring, k)) for k in order))
+        vertices += len(rings) * sides
+
+    def circle(centre, radius, u, v):
+        angles = np.arange(16) * 2 * math.pi / 16
+        return np.array(centre) + radius * (np.outer(np.cos(angles), u) + np.outer(np.sin(angles), v))
+
+    x, y, z = np.eye(3)
+    solid("Tower", [circle((6, 0, h), 3 - h / 120, x, y) for h in (0, 60, 117)])
+    solid("Nacelle", [circle((d, 0, HUB[2]), 2.2, y, z) for d in (2, 11)])
+    solid("Hub", [circle((d, 0, HUB[2]), r, y, z) for d, r in ((-1.5, 0.5), (-0.5, 1.6), (1.9, 1.6))])
+    for blade in range(3):
+        rings = []
+        for radius in np.linspace(1.0, TIP, 119):
+            twist = TWIST * radius / TIP
+            along, out = np.array([math.sin(twist), math.cos(twist), 0]), np.array([-math.cos(twist), math.sin(twist), 0])
+            corners = [s * along * CHORD / 2 + t * out * THICK / 2 for s, t in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+            rings.append(turned(np.array(corners) + radius * z, 2 * math.pi / 3 * blade) + HUB)
+        solid(f"Blade{blade + 1}", rings)
+    return "mtllib turbine.mtl\n" + "\n".join(lines) + "\n"
+
+
+def meter(name, rotation_hz):
+    """An instrument's file: one beam, which stands or turns in the upright plane."""
+    with open(MODEL) as file:
+        data = json.load(file)
+    stand_in = lambda value: {"value": value, "source": "unsourced"}
+    data.update(id=name, maker="Generic", model="Range meter", technology=stand_in("phase_shift"))
+    data["beam"].update(divergence_mrad=stand_in(0.2), exit_diameter_mm=stand_in(3))
+    data["range"].update(min_m=stand_in(1), max_m=stand_in(400), reference_reflectivity=stand_in(0.2))
+    data["range_noise"] = [{"range_m": 400, "reflectivity": 0.2, "sigma_mm": 2, "source": "unsourced"}]
+    data["angles"] = {"accuracy_arcsec": stand_in(0), "jitter_arcsec": stand_in(0)}
+    moving = data["moving"]
+    moving.update(mount=stand_in("any"), points_per_s=stand_in(KHZ * 1000), firing_us=stand_in(1000 / KHZ),
+                  least_rotation_hz=stand_in(rotation_hz), most_rotation_hz=stand_in(rotation_hz),
+                  second_rotation_hz=stand_in(0), turn_deg=stand_in(360), turn_middle_deg=stand_in(0))
+    moving["tilts_deg"] = stand_in([0])
+    data["settings"][0]["choices"] = [{"value": "100", "label": "-", "rotation_hz": float(rotation_hz)}]
+    with open(name + ".json", "w") as file:
+        json.dump(data, file, indent=1)
+
+
+def run(*words):
+    done = subprocess.run(words, capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(words)}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
+    return done.stdout
+
+
+def points_of(file):
+    """Columns of a binary PLY of ours."""
+    with open(file, "rb") as f:
+        kinds, count = [], 0
+        for line in iter(f.readline, b"end_header\n"):
+            words = line.decode().split()
+            if words[:2] == ["element", "vertex"]:
+                count = int(words[2])
+            elif words[0] == "property":
+                kinds.append((words[2], NUMBERS[words[1]]))
+        return np.frombuffer(f.read(), dtype=kinds, count=count)
+
+
+def scan(standpoint, name, instrument, aim, *more):
+    """From where the meters stand, x towards `aim` for the time of a measurement."""
+    ahead = (aim - METERS) / np.linalg.norm(aim - METERS)
+    pitch = -math.asin(ahead[2])  # about y, as the place lies in the plane of x and z
+    with open(name + ".tum", "w") as file:
+        for second in np.arange(0, SECONDS + 0.5):
+            file.write(f"{second} {METERS[0]} {METERS[1]} {METERS[2]} 0 {math.sin(pitch / 2):.15f} 0 {math.cos(pitch / 2):.15f}\n")
+    run(standpoint, "scan", "p", "--trajectory", name + ".tum", "--trajectory-error", "none", "--instrument", instrument,
+        "-o", name + ".ply", "--truth", *more)
+    return points_of(name + ".ply")
+
+
+def passes(points):
+    """Each passage of a blade: its points in the blade's own frame, x depth, y chord, z radius."""
+    time = points["scalar_Time"]
+    order = np.argsort(time, kind="stable")
+    for part in np.split(order, np.nonzero(np.diff(time[order]) > 0.2)[0] + 1):
+        place = np.column_stack([points[axis][part] for axis in "xyz"]) - HUB
+        back = np.empty_like(place)
+        c, s = np.cos(RATE * time[part]), np.sin(RATE * time[part])  # turned back by what it had turned at its own time
+        back[:, 0], back[:, 1], back[:, 2] = place[:, 0], c * place[:, 1] + s * place[:, 2], c * place[:, 2] - s * place[:, 1]
+        middle = np.median(np.arctan2(-back[:, 1], back[:, 2]))
+        back = turned(back, -2 * math.pi / 3 * round(middle / (2 * math.pi / 3)))
+        if len(part) > 100:
+            yield back
+
+
+def torsion(blade):
+    """Degrees, of a straight line of depth over chord; and the mean radius."""
+    slope = np.polyfit(blade[:, 1], blade[:, 0], 1)[0]
+    return math.degrees(math.atan(slope)), blade[:, 2].mean(), len(blade)
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    standpoint, folder = os.path.abspath(sys.argv[1]), sys.argv[2]
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    os.chdir(folder)
+    with open("turbine.obj", "w") as file:
+        file.write(turbine())
+    with open("turbine.mtl", "w") as file:
+        file.write("newmtl Blade\nKd 0.85 0.85 0.85\n")
+    meter("fixed", 0), meter("mirror", 100)
+    run(standpoint, "import", "turbine.obj", "-o", "p", "--up", "z", "--allow-loss")
+    run(standpoint, "materials", "p")
+    parts = ("Blade1", "Blade2", "Blade3", "Hub")
+    run(standpoint, "mover", "p", "--add", "rotor", "--kind", "turning", *(w for p in parts for w in ("--product", p)),
+        "--axis-at", ",".join(str(v) for v in HUB), "--axis", "1,0,0", "--turn", repr(math.degrees(RATE)))
+
+    print("1D: torsion at four radii, degrees")
+    print("radius m   truth   ideal   noisy   one passage, sigma: found, expected   points")
+    found = []
+    for radius in RADII:
+        aim = HUB + np.array([0, 0, radius])
+        ideal = [torsion(b) for b in passes(scan(standpoint, f"ideal{radius}", "fixed.json", aim, "--ideal"))]
+        clouds = list(passes(scan(standpoint, f"noisy{radius}", "fixed.json", aim, "--without", "levelling")))
+        noisy = [torsion(b) for b in clouds]
+        angles = np.array([a for a, _, _ in noisy])
+        count = np.mean([n for _, _, n in noisy])
+        truth = math.degrees(TWIST) * np.mean([r for _, r, _ in ideal]) / TIP
+        expected = math.degrees(0.002 * math.sqrt(12) / (CHORD * math.sqrt(count)))
+        found.append((radius, truth, angles, clouds[0]))
+        print(f"{radius:8} {truth:7.3f} {np.mean([a for a, _, _ in ideal]):7.3f} {angles.mean():7.3f}"
+              f"   {angles.std(ddof=1):19.4f} {expected:9.4f} {count:9.0f}")
+
+    print("2D: profiles of a mirror of 100 Hz")
+    profiles = scan(standpoint, "mirror", "mirror.json", HUB, "--ideal")
+    lines = profiles[profiles["scalar_Product"] >= 0]
+    turn = np.floor(lines["scalar_Time"] * 100 + 0.5)
+    for radius in RADII:
+        near = np.abs(np.hypot(lines["y"], lines["z"] - HUB[2]) - radius) < 0.3
+        times = np.unique(turn[near & (lines["z"] > HUB[2])]) / 100
+        steps = np.diff(times)
+        print(f"{radius:8} m: {np.median(steps[steps < 0.1]) * RATE * radius:.3f} m apart along the chord, omega r / f {RATE * radius / 100:.3f}")
+    picture(found)
+
+
+def picture(found):
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.2), constrained_layout=True)
+    for radius, _, _, blade in found:
+        left.plot(blade[:, 1], 1000 * blade[:, 0], ".", ms=1.5, label=f"{radius} m")
+    left.set(xlabel="chord, m", ylabel="depth, mm", title="One passage at four radii")
+    left.legend(markerscale=6, frameon=False, title="radius")
+    right.plot([0, TIP], [0, math.degrees(TWIST)], color="0.6", label="the blade's twist")
+    right.errorbar([r for r, *_ in found], [a.mean() for _, _, a, _ in found], yerr=[3 * a.std(ddof=1) for _, _, a, _ in found],
+                   fmt="o", ms=4, capsize=3, label="from four meters, 3 sigma of a passage")
+    right.set(xlabel="radius, m", ylabel="torsion, degrees", title="Torsion", xlim=(0, TIP), ylim=(0, None))
+    right.legend(frameon=False)
+    figure.savefig("turbine.png", dpi=110)
+
+
+if __name__ == "__main__":
+    main()
