@@ -128,13 +128,13 @@ struct Compensator {
 struct MovingHead {
   std::string mount;  // what carries it: "hand", "body", "vehicle", "aircraft" or "any"
   int heads = 1;
-  std::vector<double> channel_elevations_rad;  // of one head, in the order in which they fire
-  double points_per_s = 0;                     // of all heads, one return each
+  std::vector<double> channel_elevations_rad;       // of one head, in the order in which they fire
+  double points_per_s = 0;                          // of all heads, one return each
   double min_rotation_hz = 0, max_rotation_hz = 0;  // 0 and 0: a beam that does not turn, along the head's x
-  double second_rotation_hz = 0;  // of the head about another axis; 0 = none
-  double turn_rad = 0;            // the part of a turn that is measured …
-  double turn_middle_rad = 0;     // … and its middle, counter-clockwise from the head's x
-  double start_rad = 0;           // where a turn begins, counter-clockwise; it goes clockwise seen from above
+  double second_rotation_hz = 0;                    // of the head about another axis; 0 = none
+  double turn_rad = 0;                              // the part of a turn that is measured …
+  double turn_middle_rad = 0;                       // … and its middle, counter-clockwise from the head's x
+  double start_rad = 0;  // where a turn begins, counter-clockwise; it goes clockwise seen from above
   // All channels fire once in a firing; 0: a setting says how many firings there are.
   double firing_s = 0, first_channel_s = 0, channel_s = 0;
   std::vector<double> azimuth_offsets_rad;  // of the channels, as the turn goes; repeated; empty = none
