@@ -33,6 +33,19 @@ json along(const std::filesystem::path& output) {
   return {{"trajectory", "loop"}, {"instrument", "velodyne-vlp-16"}, {"output", output.string()}};
 }
 
+// With a twentieth of its firings, where a scan need not be dense.
+json thinlyAlong(const std::filesystem::path& output) {
+  const auto shipped = std::filesystem::path(SOURCE_DIR) / "scanners/instruments/velodyne-vlp-16.json";
+  const auto thin = output.parent_path() / "thin.json";
+  json device = json::parse(std::ifstream(shipped));
+  device["moving"]["points_per_s"]["value"] = 15000;
+  device["moving"]["firing_us"]["value"] = 20 * 55.296;
+  std::ofstream(thin) << device;
+  json options = along(output);
+  options["instrument"] = thin.string();
+  return options;
+}
+
 KeptScans pointsOf(const std::filesystem::path& file) {
   KeptScans kept;
   EXPECT_TRUE(standpoint::testing::readAll(file, kept)) << file;
@@ -126,7 +139,8 @@ TEST(MovingScanVerb, IsShownToWhoeverWatchesIt) {
     std::uint64_t points = 0;
   };
   const TemporaryFolder folder;
-  auto options = optionsFrom(scanFields(), *checkOptions(*findVerb(verbs(), "scan"), along(folder.path() / "o.e57")));
+  auto options =
+      optionsFrom(scanFields(), *checkOptions(*findVerb(verbs(), "scan"), thinlyAlong(folder.path() / "o.e57")));
   ASSERT_TRUE(options);
   const auto watcher = std::make_shared<Watcher>();
   Progress progress;
@@ -263,7 +277,7 @@ TEST(MovingScanVerb, SeesTheRoomAlongTheTrajectory) {
   ASSERT_EQ(scan.points.time_s.size(), scan.points.size());
   EXPECT_EQ(std::set<int>(scan.points.channel.begin(), scan.points.channel.end()).size(), 16U);
   double worst = 0;
-  for (std::size_t i = 0; i < scan.points.size(); i += 101)
+  for (std::size_t i = 0; i < scan.points.size(); i += 11)
     worst = std::max(worst, offFaces(scan.header.file_from_scanner *
                                      Eigen::Vector3d(scan.points.x_m[i], scan.points.y_m[i], scan.points.z_m[i])));
   EXPECT_LT(worst, 2e-5);
@@ -274,7 +288,7 @@ TEST(MovingScanVerb, SeesTheRoomAlongTheTrajectory) {
 // A trajectory that errs bends the walls; the truth of the points stays on them, and both trajectories tell it.
 TEST(MovingScanVerb, PlacesPointsByTheTrajectoryThatTheSurveyorKnows) {
   const TemporaryFolder folder;
-  json options = along(folder.path() / "o.e57");
+  json options = thinlyAlong(folder.path() / "o.e57");
   options["without"] = "range-noise,angle-noise,bias,footprint,chance,incidence-noise,range-offset";
   options["trajectory-error"] = "poor";
   options["truth"] = true;
@@ -284,7 +298,7 @@ TEST(MovingScanVerb, PlacesPointsByTheTrajectoryThatTheSurveyorKnows) {
   const auto& scan = kept.scans[0];
   double squares = 0, worst_truth = 0;
   std::size_t count = 0;
-  for (std::size_t i = 0; i < scan.points.size(); i += 101, ++count) {
+  for (std::size_t i = 0; i < scan.points.size(); i += 11, ++count) {
     const auto& t = scan.points.truth;
     const Eigen::Vector3d point =
         scan.header.file_from_scanner * Eigen::Vector3d(scan.points.x_m[i], scan.points.y_m[i], scan.points.z_m[i]);
@@ -301,7 +315,7 @@ TEST(MovingScanVerb, PlacesPointsByTheTrajectoryThatTheSurveyorKnows) {
 // A lever arm that is 30 mm longer than it is believed shifts each point by as much.
 TEST(MovingScanVerb, PutsPointsOffByWhatIsWronglyBelievedOfItsMounting) {
   const TemporaryFolder folder;
-  json options = along(folder.path() / "o.e57");
+  json options = thinlyAlong(folder.path() / "o.e57");
   options["ideal"] = true, options["truth"] = true;
   options["mounting"] = {"x=0.1", "z=0.2", "pitch=10"};
   options["mounting-error"] = {"y=0.03"};
@@ -309,8 +323,8 @@ TEST(MovingScanVerb, PutsPointsOffByWhatIsWronglyBelievedOfItsMounting) {
   ASSERT_TRUE(outcome) << describe(outcome.error());
   const auto kept = pointsOf(folder.path() / "o.e57");
   const auto& scan = kept.scans[0];
-  ASSERT_GT(scan.points.size(), 100000U);
-  for (std::size_t i = 0; i < scan.points.size(); i += 101) {
+  ASSERT_GT(scan.points.size(), 20000U);
+  for (std::size_t i = 0; i < scan.points.size(); i += 11) {
     const auto& t = scan.points.truth;
     const Eigen::Vector3d off =
         scan.header.file_from_scanner * Eigen::Vector3d(scan.points.x_m[i], scan.points.y_m[i], scan.points.z_m[i]) -
@@ -322,7 +336,7 @@ TEST(MovingScanVerb, PutsPointsOffByWhatIsWronglyBelievedOfItsMounting) {
 // Scanned once and solved again: by the truth the points come to lie on the walls.
 TEST(MovingScanVerb, IsSolvedAgainWithoutScanningAgain) {
   const TemporaryFolder folder;
-  json options = along(folder.path() / "o.e57");
+  json options = thinlyAlong(folder.path() / "o.e57");
   options["without"] = "range-noise,angle-noise,bias,footprint,chance,incidence-noise,range-offset";
   options["trajectory-error"] = "poor", options["truth"] = true;
   const Document made = withLoop();
@@ -331,7 +345,7 @@ TEST(MovingScanVerb, IsSolvedAgainWithoutScanningAgain) {
   ASSERT_TRUE(run("trajectory", made,
                   {{"write", "loop"},
                    {"output", path("again.csv")},
-                   {"solved-for", "velodyne-vlp-16"},
+                   {"solved-for", (folder.path() / "thin.json").string()},
                    {"trajectory-error", "poor"}}));
   const auto bytes = [&](const char* name) {
     std::ifstream file(path(name));
@@ -349,7 +363,7 @@ TEST(MovingScanVerb, IsSolvedAgainWithoutScanningAgain) {
   EXPECT_NE(after.scans[0].header.guid, before.scans[0].header.guid);
   double worst_before = 0, worst_after = 0;
   for (const auto* kept : {&before, &after})
-    for (std::size_t i = 0; i < kept->scans[0].points.size(); i += 101) {
+    for (std::size_t i = 0; i < kept->scans[0].points.size(); i += 11) {
       const auto& points = kept->scans[0].points;
       const double off = offFaces(kept->scans[0].header.file_from_scanner *
                                   Eigen::Vector3d(points.x_m[i], points.y_m[i], points.z_m[i]));
@@ -374,10 +388,10 @@ TEST(MovingScanVerb, IsSolvedAgainWithoutScanningAgain) {
 TEST(MovingScanVerb, InShardsHasThePointsOfTheWhole) {
   const TemporaryFolder folder;
   const Document document = withLoop();
-  ASSERT_TRUE(run("scan", document, along(folder.path() / "whole.las")));
+  ASSERT_TRUE(run("scan", document, thinlyAlong(folder.path() / "whole.las")));
   std::uint64_t points = 0;
   for (int k = 1; k <= 3; ++k) {
-    json options = along(folder.path() / ("part" + std::to_string(k) + ".las"));
+    json options = thinlyAlong(folder.path() / ("part" + std::to_string(k) + ".las"));
     options["shard"] = std::to_string(k) + "/3";
     const auto part = run("scan", document, options);
     ASSERT_TRUE(part) << describe(part.error());
@@ -405,7 +419,7 @@ TEST(MovingScanVerb, IsAnotherScanInAnotherPartAndByOtherPoses) {
   const Document document = withLoop();
   std::set<std::string> guids;
   for (const auto& [key, value] : {std::pair{"shard", "1/40"}, {"shard", "2/40"}, {"deskew", "none"}}) {
-    json options = along(folder.path() / (std::string(key) + std::to_string(guids.size()) + ".e57"));
+    json options = thinlyAlong(folder.path() / (std::string(key) + std::to_string(guids.size()) + ".e57"));
     options["shard"] = "1/40";
     options[key] = value;
     ASSERT_TRUE(run("scan", document, options));
@@ -420,7 +434,7 @@ TEST(MovingScanVerb, GoesAlongAFile) {
   file.precision(12);
   for (int k = 0; k <= 100; ++k) file << k * 0.01 << " " << 500001 + 0.01 * k << " 5600001 1.4 0 0 0 1\n";
   file.close();
-  json options = along(folder.path() / "o.e57");
+  json options = thinlyAlong(folder.path() / "o.e57");
   options["trajectory"] = (folder.path() / "walk.tum").string();
   options["ideal"] = true;
   const auto outcome = run("scan", twoStoreyDocument(), options);
@@ -433,7 +447,7 @@ TEST(MovingScanVerb, RefusesWhatBelongsToStations) {
   const TemporaryFolder folder;
   const Document document = withLoop();
   const auto refused = [&](const char* key, const json& value, const char* words) {
-    json options = along(folder.path() / "o.e57");
+    json options = thinlyAlong(folder.path() / "o.e57");
     options[key] = value;
     const auto outcome = run("scan", document, options);
     ASSERT_FALSE(outcome) << key;
