@@ -8,7 +8,7 @@ usage: turbine.py STANDPOINT OUTDIR
 The turbine, the meters (files of an instrument whose beam does not turn) and their places are written here; Standpoint
 imports, turns the rotor and scans. 1D: each meter stands still and waits for the blade at its own radius; chord by
 chord, a straight line through depth over chord is the torsion. 2D: a mirror of 100 Hz in the upright plane. Blades
-truly twist by 4 degrees to their tips. The figures of the meters are stand-ins: 50 kHz, 2 mm, 0.2 mrad.
+truly twist by 4 degrees to their tips. The figures of the meters are stand-ins: 50 kHz (the mirror 500), 2 mm, 0.2 mrad.
 """
 import json
 import math
@@ -22,7 +22,7 @@ import numpy as np
 HERE = os.path.dirname(os.path.realpath(__file__))
 MODEL = os.path.join(HERE, "..", "scanners", "instruments", "leica-blk2go.json")
 RATE, HUB, TIP, CHORD, THICK, TWIST = 1.2, np.array([0, 0, 120.0]), 60.0, 2.0, 0.08, math.radians(4)
-METERS, RADII, SECONDS, KHZ = np.array([-180.0, 0, 2]), (20, 30, 40, 50), 20.0, 50
+METERS, RADII, SECONDS = np.array([-180.0, 0, 2]), (20, 30, 40, 50), 20.0
 NUMBERS = {"double": "<f8", "float": "<f4", "uchar": "u1", "int": "<i4"}
 
 
@@ -69,18 +69,18 @@ def turbine():
     return "mtllib turbine.mtl\n" + "\n".join(lines) + "\n"
 
 
-def meter(name, rotation_hz):
+def meter(name, rotation_hz, khz):
     """An instrument's file: one beam, which stands or turns in the upright plane."""
     with open(MODEL) as file:
         data = json.load(file)
     stand_in = lambda value: {"value": value, "source": "unsourced"}
-    data.update(id=name, maker="Generic", model="Range meter", technology=stand_in("phase_shift"))
+    data.update(id=name, maker="Generic", model="Range meter")
     data["beam"].update(divergence_mrad=stand_in(0.2), exit_diameter_mm=stand_in(3))
     data["range"].update(min_m=stand_in(1), max_m=stand_in(400), reference_reflectivity=stand_in(0.2))
     data["range_noise"] = [{"range_m": 400, "reflectivity": 0.2, "sigma_mm": 2, "source": "unsourced"}]
     data["angles"] = {"accuracy_arcsec": stand_in(0), "jitter_arcsec": stand_in(0)}
     moving = data["moving"]
-    moving.update(mount=stand_in("any"), points_per_s=stand_in(KHZ * 1000), firing_us=stand_in(1000 / KHZ),
+    moving.update(mount=stand_in("any"), points_per_s=stand_in(khz * 1000), firing_us=stand_in(1000 / khz),
                   least_rotation_hz=stand_in(rotation_hz), most_rotation_hz=stand_in(rotation_hz),
                   second_rotation_hz=stand_in(0), turn_deg=stand_in(360), turn_middle_deg=stand_in(0))
     moving["tilts_deg"] = stand_in([0])
@@ -109,13 +109,12 @@ def points_of(file):
         return np.frombuffer(f.read(), dtype=kinds, count=count)
 
 
-def scan(standpoint, name, instrument, aim, *more):
-    """From where the meters stand, x towards `aim` for the time of a measurement."""
-    ahead = (aim - METERS) / np.linalg.norm(aim - METERS)
-    pitch = -math.asin(ahead[2])  # about y, as the place lies in the plane of x and z
+def scan(standpoint, name, instrument, axis, angle, seconds, *more):
+    """From where the meters stand, turned about x or y, for the time of a measurement."""
+    x, y = (math.sin(angle / 2) if axis == which else 0.0 for which in "xy")
     with open(name + ".tum", "w") as file:
-        for second in np.arange(0, SECONDS + 0.5):
-            file.write(f"{second} {METERS[0]} {METERS[1]} {METERS[2]} 0 {math.sin(pitch / 2):.15f} 0 {math.cos(pitch / 2):.15f}\n")
+        for second in np.arange(0, seconds + 0.5):
+            file.write(f"{second} {METERS[0]} {METERS[1]} {METERS[2]} {x:.15f} {y:.15f} 0 {math.cos(angle / 2):.15f}\n")
     run(standpoint, "scan", "p", "--trajectory", name + ".tum", "--trajectory-error", "none", "--instrument", instrument,
         "-o", name + ".ply", "--truth", *more)
     return points_of(name + ".ply")
@@ -137,7 +136,8 @@ def passes(points):
 
 
 def torsion(blade):
-    """Degrees, of a straight line of depth over chord; and the mean radius."""
+    """Degrees, of a straight line of depth over chord; the mean radius; points. The narrow sides do not count."""
+    blade = blade[np.abs(blade[:, 1]) < CHORD / 2 - 0.05]
     slope = np.polyfit(blade[:, 1], blade[:, 0], 1)[0]
     return math.degrees(math.atan(slope)), blade[:, 2].mean(), len(blade)
 
@@ -153,7 +153,7 @@ def main():
         file.write(turbine())
     with open("turbine.mtl", "w") as file:
         file.write("newmtl Blade\nKd 0.85 0.85 0.85\n")
-    meter("fixed", 0), meter("mirror", 100)
+    meter("fixed", 0, 50), meter("mirror", 100, 500)
     run(standpoint, "import", "turbine.obj", "-o", "p", "--up", "z", "--allow-loss")
     run(standpoint, "materials", "p")
     parts = ("Blade1", "Blade2", "Blade3", "Hub")
@@ -164,27 +164,26 @@ def main():
     print("radius m   truth   ideal   noisy   one passage, sigma: found, expected   points")
     found = []
     for radius in RADII:
-        aim = HUB + np.array([0, 0, radius])
-        ideal = [torsion(b) for b in passes(scan(standpoint, f"ideal{radius}", "fixed.json", aim, "--ideal"))]
-        clouds = list(passes(scan(standpoint, f"noisy{radius}", "fixed.json", aim, "--without", "levelling")))
+        aim = HUB + np.array([0, 0, radius]) - METERS
+        pitch = -math.atan2(aim[2], aim[0])
+        ideal = [torsion(b) for b in passes(scan(standpoint, f"ideal{radius}", "fixed.json", "y", pitch, SECONDS, "--ideal"))]
+        clouds = list(passes(scan(standpoint, f"noisy{radius}", "fixed.json", "y", pitch, SECONDS)))
         noisy = [torsion(b) for b in clouds]
         angles = np.array([a for a, _, _ in noisy])
         count = np.mean([n for _, _, n in noisy])
         truth = math.degrees(TWIST) * np.mean([r for _, r, _ in ideal]) / TIP
-        expected = math.degrees(0.002 * math.sqrt(12) / (CHORD * math.sqrt(count)))
-        found.append((radius, truth, angles, clouds[0]))
+        expected = math.degrees(0.002 * math.cos(pitch) * math.sqrt(12) / ((CHORD - 0.1) * math.sqrt(count)))
+        found.append((radius, truth, angles, clouds[1]))  # the first was half over
         print(f"{radius:8} {truth:7.3f} {np.mean([a for a, _, _ in ideal]):7.3f} {angles.mean():7.3f}"
               f"   {angles.std(ddof=1):19.4f} {expected:9.4f} {count:9.0f}")
 
     print("2D: profiles of a mirror of 100 Hz")
-    profiles = scan(standpoint, "mirror", "mirror.json", HUB, "--ideal")
-    lines = profiles[profiles["scalar_Product"] >= 0]
-    turn = np.floor(lines["scalar_Time"] * 100 + 0.5)
+    profiles = scan(standpoint, "mirror", "mirror.json", "x", math.pi / 2, 6.0, "--ideal")
+    turn = np.floor(profiles["scalar_Time"] * 100)
     for radius in RADII:
-        near = np.abs(np.hypot(lines["y"], lines["z"] - HUB[2]) - radius) < 0.3
-        times = np.unique(turn[near & (lines["z"] > HUB[2])]) / 100
-        steps = np.diff(times)
-        print(f"{radius:8} m: {np.median(steps[steps < 0.1]) * RATE * radius:.3f} m apart along the chord, omega r / f {RATE * radius / 100:.3f}")
+        at = (np.abs(profiles["z"] - HUB[2] - radius) < 0.3) & (np.abs(profiles["x"]) < 1) & (profiles["scalar_Time"] > 0.5)
+        count = len(np.unique(turn[at])) / max(1, len(np.unique(np.round(profiles["scalar_Time"][at] * RATE / (2 * math.pi / 3)))))
+        print(f"{radius:8} m: {count:.2f} lines on a blade, chord / (omega r / f) {CHORD / (RATE * radius / 100):.2f}")
     picture(found)
 
 

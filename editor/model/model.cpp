@@ -207,6 +207,7 @@ void Model::update() {
   }
   followPointColours();
   followWalking(*this);
+  followRecord(*this);
   followStationView(*this);
   followDraft(*this);
   followFieldwork(*this);

@@ -229,6 +229,12 @@ const std::array kOwn = {
              showWorkspace(e, Workspace::survey);
            },
            whyTrajectoryNot},
+    Action{"record-walk",
+           "Record walk as a trajectory, or end the recording",
+           ICON_CIRCLE,
+           {'R', true, true},
+           [](Editor& e) { recordWalk(e); },
+           [](const Editor& e) { return whyNotRecordWalk(e); }},
     Action{"end-trajectory",
            "Finish the trajectory at its last waypoint",
            ICON_CHECK,

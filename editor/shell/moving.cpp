@@ -49,6 +49,8 @@ std::string walkLine(const Editor& editor) {
   std::string line = placeText(editor, walk.feet());
   if (const auto name = walkPlaceName(editor); !name.empty()) line += "   " + name;
   line += trf("   eye {:.2f} m   {:.1f} m/s", walk.eyeHeight_m(), walk.speed_mps(false));
+  if (const auto& record = editor.walk_record; record.active())
+    line += "   " + trf("recording {}, {:.1f} m", durationText(record.seconds()), record.length_m());
   if (const auto note = walk.note(); !note.empty()) line += "   " + note;
   return line;
 }
@@ -163,6 +165,8 @@ void movingChips(Editor& editor) {
   ImGui::SameLine();
   if (field("###view-angle", angle, {.kind = kAngle, .decimals = 0, .drag = 0.5}, "Vertical angle of view"))
     editor.walk.setViewAngle(angle, editor.view.camera);
+  ImGui::SameLine();
+  actionToolButton(editor, "record-walk");
   if (editor.held.instrument.empty()) return;
   ImGui::SameLine();
   const float side = ImGui::GetFrameHeight();

@@ -32,16 +32,27 @@ bool isOf(const Mover& mover, const std::string& name) {
                                 mover.name.find_first_not_of("0123456789", name.size() + 1) == std::string::npos);
 }
 
-// The model's frame, by id or GlobalId.
+// By id or GlobalId, else by a name that no other product in the scene has.
+auto productNamed(const Environment& environment, const std::string& wanted) {
+  const auto& products = environment.products;
+  const auto by_id = std::find_if(products.begin(), products.end(), [&](const Product& p) {
+    return p.inScene() && (p.id == wanted || p.global_id == wanted);
+  });
+  if (by_id != products.end()) return by_id;
+  const auto named = [&](const Product& p) { return p.inScene() && p.name == wanted; };
+  const auto first = std::find_if(products.begin(), products.end(), named);
+  if (first == products.end()) return first;
+  return std::find_if(std::next(first), products.end(), named) == products.end() ? first : products.end();
+}
+
 Result<std::vector<std::string>> productsOf(const Environment& environment, const std::vector<std::string>& wanted,
                                             bool doors) {
-  if (wanted.empty()) return failure(ErrorKind::usage, "name what moves by its id or GlobalId", "--product");
+  if (wanted.empty()) return failure(ErrorKind::usage, "name what moves by its id, GlobalId or name", "--product");
   const DoorLeaves leaves = doors ? doorLeaves(environment) : DoorLeaves{};
   std::vector<std::string> ids;
   for (const std::string& id : wanted) {
-    const auto product = std::find_if(environment.products.begin(), environment.products.end(),
-                                      [&](const Product& p) { return p.id == id || p.global_id == id; });
-    if (product == environment.products.end() || !product->inScene())
+    const auto product = productNamed(environment, id);
+    if (product == environment.products.end())
       return failure(ErrorKind::usage, fmt::format("the model has no product '{}' in the scene", id), "--product");
     const auto number = static_cast<std::uint32_t>(product - environment.products.begin());
     const auto of_product = [&](const DoorLeaf& leaf) { return leaves.doors[leaf.door].product == number; };
@@ -214,7 +225,7 @@ const Fields<MoverOptions>& moverFields() {
       {"through", &O::through,
        "places on the floor that a person or a vehicle passes, X,Y or X,Y,Z in the model's own frame; X,Y:SECONDS "
        "stops there"},
-      {"product", &O::products, "ids or GlobalIds of the doors, or of what turns or slides"},
+      {"product", &O::products, "ids, GlobalIds or unique names of the doors, or of what turns or slides"},
       {"axis-at", &O::axis_at, "a place on the axis of what turns, in the model's own frame", {.unit = "m"}},
       {"axis", &O::axis, "direction of the axis of what turns, or in which something slides; without it upwards"},
       {"speed",
