@@ -11,9 +11,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kStep_m = 0.02, kJump_m = 1.5;
-constexpr double kStray_m = 0.05;        // of straight legs from what was walked
-constexpr double kBesideCorner_m = 0.3;  // so that a smooth path does not swing out there
-constexpr double kLongest_m = 4, kStop_s = 1, kSamePlace_m = 0.1;
+constexpr double kStray_m = 0.05;  // of straight legs from what was walked
+constexpr double kStop_s = 1, kSamePlace_m = 0.1;
 
 double fromLeg(const Vector3d& p, const Vector3d& from, const Vector3d& to) {
   const Vector3d leg = to - from;
@@ -88,21 +87,6 @@ std::vector<Waypoint> WalkRecord::waypoints() const {
     if (samples_[i].until_s - samples_[i].from_s >= kStop_s) kept[i] = true;
   for (std::size_t from = 0, to = 1; to < samples_.size(); ++to)
     if (kept[to]) keepBetween(from, to, kept), from = to;
-  std::vector<double> way(samples_.size());
-  for (std::size_t i = 1; i < way.size(); ++i) way[i] = way[i - 1] + (samples_[i].feet - samples_[i - 1].feet).norm();
-  const std::vector<bool> corners = kept;
-  const auto keepAt = [&](double at_m) {
-    const auto after = std::lower_bound(way.begin(), way.end(), at_m);
-    if (after != way.end()) kept[static_cast<std::size_t>(after - way.begin())] = true;
-  };
-  for (std::size_t from = 0, to = 1; to < samples_.size(); ++to) {
-    if (!corners[to]) continue;
-    const double length = way[to] - way[from];
-    if (length > 3 * kBesideCorner_m) keepAt(way[from] + kBesideCorner_m), keepAt(way[to] - kBesideCorner_m);
-    const int parts = static_cast<int>(std::ceil(length / kLongest_m));
-    for (int k = 1; k < parts; ++k) keepAt(way[from] + length * k / parts);
-    from = to;
-  }
   std::vector<Waypoint> waypoints;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     const double stood_s = samples_[i].until_s - samples_[i].from_s;

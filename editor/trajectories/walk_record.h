@@ -21,8 +21,8 @@ class WalkRecord {
   double seconds() const;
   double length_m() const;
   double speed_mps() const;  // while they walked; 0: they stood
-  // Corners, and enough between them that a smooth path through them strays from what was walked by centimetres; where
-  // they stood for a second or longer, with the time.
+  // Corners, so that straight legs stray from what was walked by 5 cm; and where they stood for a second or longer,
+  // with the time.
   std::vector<Waypoint> waypoints() const;
 
  private:
