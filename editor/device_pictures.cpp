@@ -13,6 +13,7 @@
 #include "emulated-ui/host.h"
 #include "emulated-ui/menus.h"
 #include "emulated-ui/preview.h"
+#include "emulated-ui/walk_map.h"
 
 namespace standpoint {
 
@@ -33,8 +34,33 @@ FittedTarget fitted(const char* name, const char* kind, int points, double range
   return t;
 }
 
-// What two quick scans of the sample house look like on any device.
-Result<std::vector<StoredSetup>> scannedHouse(const fs::path& folder) {
+// A walk through living room and hall, as far as the last leg but one.
+Result<WalkState> walkedHouse(const Document& document) {
+  constexpr std::array<std::array<double, 2>, 6> kWay = {
+      {{4, 1.6}, {5.5, 1.6}, {5.5, 3.45}, {7.2, 3.45}, {7.2, 4.6}, {7.2, 3.45}}};
+  Progress quiet;
+  TRY_ASSIGN(auto scene, RayScene::build(document.environment(), quiet));
+  WalkMap map;
+  map.begin(std::move(scene), *document.georeference);
+  WalkState walk;
+  walk.recording = walk.scene = true;
+  for (const auto& [x, y] : kWay) {
+    walk.way.push_back({x, y, walk.recorded_s});
+    walk.recorded_s += 4;
+  }
+  walk.at = {6.4, 3.45};
+  walk.ahead_of = {-1, 0};
+  walk.speed_mps = 0.8;
+  walk.seen = map.grow(walk);
+  return walk;
+}
+
+// What two quick scans of the sample house look like on any device, and a walk through it.
+struct SampleWork {
+  std::vector<StoredSetup> setups;
+  WalkState walk;
+};
+Result<SampleWork> scannedHouse(const fs::path& folder) {
   Progress quiet;
   Document document;
   const auto run = [&](const char* verb, const json& options) -> Result<void> {
@@ -66,7 +92,8 @@ Result<std::vector<StoredSetup>> scannedHouse(const fs::path& folder) {
                  fitted("T3", "sphere", 0, 0)};
     setups.push_back(std::move(s));
   }
-  return setups;
+  TRY_ASSIGN(auto walk, walkedHouse(document));
+  return SampleWork{std::move(setups), std::move(walk)};
 }
 
 // The phase that shows the screen, rather with the laser on; else the one that waits for the next scan.
@@ -78,6 +105,21 @@ const PhaseRow& phaseFor(const DeviceDefinition& d, const std::string& screen) {
   }
   if (own == nullptr && rest == nullptr) return d.phases.at(1);
   return own != nullptr ? *own : *rest;
+}
+
+// The walk that is recorded, waits for the office, or came back from there.
+void putWalk(Device& device, const std::string& screen, const WalkState& sample) {
+  auto& s = device.change();
+  if (screen == "booting" || screen == "options") return;
+  s.walk = sample;
+  s.walk.recording = screen == "walking";
+  if (screen != "result" && screen != "walks") return;
+  for (auto& setup : s.projects.front().setups) {
+    setup.name = "Walk 00" + std::to_string(setup.number);
+    setup.station.clear();
+    setup.walk = WalkResult{sample.way, sample.recorded_s, lengthOf(sample.way), 1, 0, {}, sample.seen};
+  }
+  s.walk.way.clear();
 }
 
 // What only some devices have.
@@ -94,8 +136,8 @@ void putDetails(Device& device, const std::string& screen, const std::vector<Sto
         if (std::string(row.name) == action) (void)row.act(device, {});
 }
 
-void putInto(Device& device, const std::string& screen, const std::vector<StoredSetup>& setups,
-             const std::string& language) {
+void putInto(Device& device, const std::string& screen, const SampleWork& sample, const std::string& language) {
+  const auto& setups = sample.setups;
   auto& s = device.change();
   const auto& phase = phaseFor(device.type().definition, screen);
   s.language = language;
@@ -123,6 +165,7 @@ void putInto(Device& device, const std::string& screen, const std::vector<Stored
     s.scanned_s = 0.4 * (device.expected().scan_seconds + device.expected().imaging_seconds);
   }
   putDetails(device, screen, setups);
+  if (device.type().instrument.moving) putWalk(device, screen, sample.walk);
   s.entries["measured"] = "3.4180";
   s.entries["tapped"] = "0.21,0.55;0.62,0.5";
 }
@@ -131,7 +174,7 @@ void putInto(Device& device, const std::string& screen, const std::vector<Stored
 
 Result<int> drawDevicePictures(const fs::path& folder, const std::string& language, float scale) {
   const auto scratch = fs::temp_directory_path() / "standpoint-device-pictures";
-  TRY_ASSIGN(const auto setups, scannedHouse(scratch));
+  TRY_ASSIGN(const auto sample, scannedHouse(scratch));
   std::error_code error;
   int count = 0;
   for (const auto& row : emulatedDevices()) {
@@ -152,7 +195,7 @@ Result<int> drawDevicePictures(const fs::path& folder, const std::string& langua
         if (faceOf(*shared, screen.id).id == face.id) screens.push_back(screen.id);
       for (const auto& screen : screens) {
         Device device(type);
-        if (!screen.empty()) putInto(device, screen, setups, language);
+        if (!screen.empty()) putInto(device, screen, sample, language);
         DeviceView view;
         view.layout = shared;
         view.still = true;

@@ -9,11 +9,13 @@
 
 #include "core/json_file.h"
 #include "core/units.h"
+#include "emulated-ui/device/numbers.h"
 #include "emulated-ui/hand_over.h"
 #include "emulated-ui/memory.h"
 #include "emulated-ui/preview.h"
 #include "emulated-ui/sensors.h"
 #include "emulated-ui/sighting.h"
+#include "emulated-ui/walk_scan.h"
 #include "pointclouds/filters/cleaning.h"
 #include "project/survey/register_verb.h"
 #include "project/survey/scan_preparation.h"
@@ -33,6 +35,15 @@ Document withScan(Document document, const std::string& station_name, const Scan
   Job job = *document.job;
   for (auto& station : job.stations)
     if (station.name == station_name) station.scans.push_back(scan);
+  document.job = std::make_shared<const Job>(std::move(job));
+  return document;
+}
+
+// Adds a walk with its scan to the document as it is now.
+Document withWalk(Document document, const CarriedTrajectory& walked) {
+  Job job = *document.job;
+  std::erase_if(job.trajectories, [&](const CarriedTrajectory& t) { return t.name == walked.name; });
+  job.trajectories.push_back(walked);
   document.job = std::make_shared<const Job>(std::move(job));
   return document;
 }
@@ -127,28 +138,40 @@ fs::path scanFile(const fs::path& scans_folder, const ScanOrder& order) {
   return folder / (order.name + ".e57");
 }
 
+namespace {
+
+// Nothing where another instrument made it, or its name has no number.
+std::optional<StoredSetup> storedSetup(const Scan& scan, const DeviceType& type) {
+  const fs::path file = scan.file;
+  const int number = numberIn(file.stem().string());
+  if (scan.instrument != type.instrument.id || number == 0) return std::nullopt;
+  StoredSetup s;
+  s.project = file.parent_path().filename().string();
+  s.number = number;
+  s.name = file.stem().string();
+  s.settings = scan.settings;
+  s.file = scan.file;
+  s.points = scan.points;
+  s.bytes = static_cast<double>(scan.points) * type.definition.body.bytes_per_point;
+  s.instrument_seconds = scan.instrument_seconds;
+  return s;
+}
+
+}  // namespace
+
 std::vector<StoredSetup> storedSetups(const Document& document, const DeviceType& type) {
   std::vector<StoredSetup> stored;
   if (!document.job) return stored;
   for (const auto& station : document.job->stations)
-    for (const auto& scan : station.scans) {
-      const fs::path file = scan.file;
-      const int number = numberIn(file.stem().string());
-      if (scan.instrument != type.instrument.id || number == 0) continue;
-      StoredSetup s;
-      s.project = file.parent_path().filename().string();
-      s.number = number;
-      s.name = file.stem().string();
-      s.station = station.name;
-      s.settings = scan.settings;
-      s.file = scan.file;
-      s.points = scan.points;
-      s.bytes = static_cast<double>(scan.points) * type.definition.body.bytes_per_point;
-      s.instrument_seconds = scan.instrument_seconds;
-      const auto& pose = station.solved_pose ? *station.solved_pose : station.true_pose;
-      putOnPlan(s, pose);
-      stored.push_back(std::move(s));
-    }
+    for (const auto& scan : station.scans)
+      if (auto s = storedSetup(scan, type)) {
+        s->station = station.name;
+        putOnPlan(*s, station.solved_pose ? *station.solved_pose : station.true_pose);
+        stored.push_back(*std::move(s));
+      }
+  for (const auto& trajectory : document.job->trajectories)
+    for (const auto& scan : trajectory.scans)
+      if (auto s = storedSetup(scan, type)) stored.push_back(*std::move(s));
   std::stable_sort(stored.begin(), stored.end(), [](const StoredSetup& a, const StoredSetup& b) {
     return std::pair(a.project, a.number) < std::pair(b.project, b.number);
   });
@@ -175,6 +198,7 @@ void DeviceHost::startScan(const ScanOrder& order, const Document& document, con
   fs::create_directories(file_.parent_path(), error);
   if (error) return device_.orderFailed("Cannot create " + file_.parent_path().string() + ": " + error.message());
   notes_ = order.notes;
+  if (order.walk) return startWalk(order, document);
   if (const auto* station = stationOf(document, order.station)) {
     const auto readings =
         sensorReadings(document, *station, device_.type().definition.sensors, order.sensors, seed, order.number);
@@ -205,6 +229,28 @@ void DeviceHost::startScan(const ScanOrder& order, const Document& document, con
               if (!scan) return failure(scan.error());
               return [order, scan = *std::move(scan)](DeviceHost& host, const Document& now) {
                 host.takeScan(order, scan, now);
+              };
+            });
+}
+
+Result<void> DeviceHost::wayIsFree(const std::string& walk_to) const {
+  const auto& walk = device_.state().walk;
+  const auto numbers = numbersIn(walk_to);
+  if (!walk.at || !numbers || numbers->size() < 2) return {};  // the hand itself says what is wrong
+  const auto from = walk.legs.empty() ? *walk.at : std::array{walk.legs.back().x_m, walk.legs.back().y_m};
+  const auto wall = map_.between(from, {numbers->at(0), numbers->at(1)});
+  if (!wall.empty()) return failure(ErrorKind::usage, device_.word("in_the_way") + ": " + wall, "walk_to");
+  return {};
+}
+
+void DeviceHost::startWalk(const ScanOrder& order, const Document& document) {
+  const WalkScanOptions options{file_, seed, truth};
+  startTask(fmt::format("{}: {}", device_.type().definition.title, order.name),
+            [order, options, document](Progress& p) -> Result<Delivery> {
+              auto scanned = scanWalk(document, order, options, p);
+              if (!scanned) return failure(scanned.error());
+              return [order, scanned = *std::move(scanned)](DeviceHost& host, const Document&) {
+                host.takeWalk(order, scanned.trajectory, scanned.result);
               };
             });
 }
@@ -266,6 +312,14 @@ void DeviceHost::start(const Order& order, const Document& document, const fs::p
         host.device_.pickDone(file, picked);
       };
     });
+  } else if (std::holds_alternative<SceneOrder>(order)) {
+    startTask("Surroundings", [document](Progress& p) -> Result<Delivery> {
+      TRY_ASSIGN(auto scene, RayScene::build(document.environment(), p));
+      return [scene = std::move(scene), g = *document.georeference](DeviceHost& host, const Document&) {
+        host.map_.begin(scene, g);
+        host.device_.sceneDone();
+      };
+    });
   } else if (const auto* preview = std::get_if<PreviewOrder>(&order)) {
     startTask("Preview", [file = preview->file](Progress& p) -> Result<Delivery> {
       auto read = readPreview(file, p);
@@ -297,6 +351,25 @@ void DeviceHost::start(const Order& order, const Document& document, const fs::p
                 };
               });
   }
+}
+
+void DeviceHost::takeWalk(const ScanOrder& order, const CarriedTrajectory& trajectory, const WalkResult& result) {
+  const Scan& scan = trajectory.scans.back();
+  StoredSetup s;
+  s.project = order.project;
+  s.number = order.number;
+  s.name = order.name;
+  s.settings = order.settings;
+  s.file = file_.string();
+  s.points = scan.points;
+  s.bytes = static_cast<double>(s.points) * device_.type().definition.body.bytes_per_point;
+  s.instrument_seconds = scan.instrument_seconds;
+  s.notes = notes_;
+  s.walk = result;
+  station_.clear();
+  walked_ = trajectory;
+  finished_ = scan;
+  device_.scanDone(std::move(s));
 }
 
 void DeviceHost::takeScan(const ScanOrder& order, const Scan& scan, const Document& document) {
@@ -408,6 +481,7 @@ std::optional<Outcome> DeviceHost::goOn(const Document& document, const fs::path
     if (const auto order = device_.takeOrder()) start(*order, document, scans_folder);
   collect(document);
   if (!clockStands()) device_.tick(seconds * time_factor);
+  if (auto map = map_.grow(device_.state().walk)) device_.seen(std::move(map));
   if (!may_store) return std::nullopt;
   if (const auto orientation = device_.takeOriented()) {
     if (const auto* station = stationOf(document, orientation->station))
@@ -416,9 +490,13 @@ std::optional<Outcome> DeviceHost::goOn(const Document& document, const fs::path
     device_.note("failed", "orientation");
   }
   if (!finished_ || !device_.takeStored()) return std::nullopt;
-  Outcome outcome{withScan(document, station_, *finished_), json::object(), {}, {}, {}};
-  outcome.description = fmt::format("Scanned '{}' at {} with {}", fs::path(finished_->file).stem().string(), station_,
-                                    device_.type().definition.title);
+  const auto name = fs::path(finished_->file).stem().string();
+  const auto& title = device_.type().definition.title;
+  const bool carried = station_.empty();
+  Outcome outcome{carried ? withWalk(document, walked_) : withScan(document, station_, *finished_), json::object(), {},
+                  {}, {}};
+  outcome.description = carried ? fmt::format("Scanned '{}' on foot with {}", name, title)
+                                : fmt::format("Scanned '{}' at {} with {}", name, station_, title);
   finished_.reset();
   return outcome;
 }

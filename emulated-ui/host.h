@@ -12,6 +12,7 @@
 #include "core/points.h"
 #include "core/report.h"
 #include "emulated-ui/device/device.h"
+#include "emulated-ui/walk_map.h"
 #include "project/task.h"
 #include "project/verb.h"
 
@@ -53,6 +54,9 @@ class DeviceHost {
   std::optional<Outcome> update(const Document& document, const std::filesystem::path& scans_folder, double seconds,
                                 bool may_store = true);
 
+  // Whether whoever carries the scanner can go there from where the way ends so far: "4.5,3,0.8".
+  Result<void> wayIsFree(const std::string& walk_to) const;
+
   // What a task has computed, on its way to the device: called in the thread that owns the host.
   using Delivery = std::function<void(DeviceHost&, const Document&)>;
   // What was lost since this was asked last: a copy in another format does not hold all of a scan.
@@ -69,6 +73,7 @@ class DeviceHost {
   void keepMemory(const std::filesystem::path& scans_folder);
   void start(const Order& order, const Document& document, const std::filesystem::path& scans_folder);
   void startScan(const ScanOrder& order, const Document& document, const std::filesystem::path& scans_folder);
+  void startWalk(const ScanOrder& order, const Document& document);
   Document leaning(Document document, const std::string& station) const;
   Result<Pose> believedBy(const StationOrientation& orientation, const Station& station, bool compensator,
                           const Document& document) const;
@@ -76,6 +81,7 @@ class DeviceHost {
   void collect(const Document& document);
   Result<Outcome> oriented(const Document& document, const StationOrientation& orientation) const;
   void takeScan(const ScanOrder& order, const Scan& scan, const Document& document);
+  void takeWalk(const ScanOrder& order, const CarriedTrajectory& trajectory, const WalkResult& result);
 
   Device device_;
   std::function<void()> wake_;
@@ -85,6 +91,8 @@ class DeviceHost {
   std::shared_ptr<const Job> known_of_;  // whose places the device was told
   std::optional<Scan> finished_;         // waits for the device to store it
   std::string station_;                  // of the finished scan
+  CarriedTrajectory walked_;             // of the finished scan, where it was carried
+  WalkMap map_;
   SettingValues notes_;                  // of the scan that runs
   bool remembers_ = false;
   std::uint64_t kept_at_ = 0;  // events of the device when its memory was written last

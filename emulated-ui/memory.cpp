@@ -81,6 +81,19 @@ FittedTarget targetFrom(const json& j) {
 json toJson(const PlaceError& e) { return {e.plan_m, e.height_m, e.turn_rad}; }
 PlaceError placeErrorFrom(const json& j) { return {j.at(0), j.at(1), j.at(2)}; }
 
+json toJson(const WalkResult& w) {
+  return {{"way", w.way},           {"seconds", w.seconds}, {"length_m", w.length_m},
+          {"closures", w.closures}, {"held", w.held},       {"errors", w.errors}};
+}
+WalkResult walkFrom(const json& j) {
+  WalkResult w;
+  w.way = j.at("way").get<WalkedWay>();
+  w.seconds = j.at("seconds"), w.length_m = j.at("length_m");
+  w.closures = j.at("closures"), w.held = j.at("held");
+  w.errors = j.at("errors").get<std::vector<std::array<double, 3>>>();
+  return w;
+}
+
 json toJson(const StoredSetup& s) {
   json j = {{"file", s.file},
             {"number", s.number},
@@ -97,6 +110,7 @@ json toJson(const StoredSetup& s) {
   if (s.link) j["link"] = toJson(*s.link);
   if (s.operator_in_view) j["operator_in_view"] = true;
   if (s.placed) j["placed"] = toJson(*s.placed);
+  if (s.walk) j["walk"] = toJson(*s.walk);
   return j;
 }
 // The rest of it is what the project holds.
@@ -112,6 +126,7 @@ void recallSetup(const json& j, StoredSetup& s) {
   if (j.contains("link")) s.link = linkFrom(j["link"]);
   s.operator_in_view = j.value("operator_in_view", false);
   if (j.contains("placed")) s.placed = placeErrorFrom(j["placed"]);
+  if (j.contains("walk")) s.walk = walkFrom(j["walk"]);
 }
 
 json toJson(const std::vector<ControlPlace>& places) {

@@ -37,7 +37,7 @@ bool acts(const WidgetRow& w) {
   return !w.gestures.empty() || (kind == WidgetKind::plan && !w.empty()) ||
          (kind != WidgetKind::status && kind != WidgetKind::readout && kind != WidgetKind::note &&
           kind != WidgetKind::progress && kind != WidgetKind::lamp && kind != WidgetKind::level &&
-          kind != WidgetKind::plan);
+          kind != WidgetKind::plan && kind != WidgetKind::seen);
 }
 
 // Where the places of widgets come from: "S", "K", "P", or several where the screens differ.

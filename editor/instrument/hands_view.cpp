@@ -71,6 +71,8 @@ void drawHands(InstrumentDesk& desk, Editor& editor) {
   bool first = true;
   for (const auto& hand : handRows()) {
     const std::string id = hand.id;
+    const bool carried = device.type().instrument.moving.has_value();
+    if (std::string(hand.group) == (carried ? "tripod" : "walk")) continue;
     if (hand.group != group) {
       group = hand.group;
       ui::gap(editor);

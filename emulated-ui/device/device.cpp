@@ -54,6 +54,10 @@ void spellOutSettings(std::vector<WidgetRow>& widgets, const Instrument& instrum
   widgets.insert(widgets.erase(star), rows.begin(), rows.end());
 }
 
+Result<ScanSettings> settingsOf(const Instrument& instrument, const SettingValues& values) {
+  return instrument.moving ? resolveMovingSettings(instrument, values) : resolveSettings(instrument, values);
+}
+
 // The device speaks every language that there are words in.
 void offerLanguages(std::vector<ValueRow>& values, const Words& words) {
   for (auto& value : values)
@@ -72,9 +76,9 @@ Result<std::shared_ptr<const DeviceType>> makeDeviceType(DeviceDefinition defini
   if (!any && std::find(drives.begin(), drives.end(), instrument.id) == drives.end())
     return failure(ErrorKind::usage, fmt::format("drives {}, not '{}'", fmt::join(drives, ", "), instrument.id),
                    definition.id);
-  if (instrument.moving)
+  if (instrument.moving && any)
     return failure(ErrorKind::usage, "the device needs a tripod, but this instrument is mobile", instrument.id);
-  if (auto default_value = resolveSettings(instrument, {}); !default_value) return failure(default_value.error());
+  if (auto default_value = settingsOf(instrument, {}); !default_value) return failure(default_value.error());
   for (auto& screen : definition.screens) spellOutSettings(screen.widgets, instrument);
   offerLanguages(definition.values, *words);
   auto type = std::make_shared<DeviceType>();
@@ -99,7 +103,7 @@ Device::Device(std::shared_ptr<const DeviceType> type) : type_(std::move(type)) 
   state_.screen = d.phases.front().screen;
   state_.around.card_bytes = d.body.card_bytes;
   for (const auto& value : d.values) state_.values[value.id] = value.default_value;
-  expected_ = *resolveSettings(type_->instrument, {});
+  expected_ = *settingsOf(type_->instrument, {});
   state_.settings = expected_.values;
 }
 
@@ -110,7 +114,7 @@ bool Device::on() const {
 
 bool Device::busy() const {
   const auto* phase = findPhase(type_->definition, state_.phase);
-  return order_.has_value() || (phase != nullptr && phase->ends() && !phase->waits);
+  return order_.has_value() || !state_.walk.legs.empty() || (phase != nullptr && phase->ends() && !phase->waits);
 }
 
 bool Device::idles() const {
@@ -141,7 +145,7 @@ std::string Device::setting(const std::string& key) const {
 }
 
 Result<void> Device::setSettings(const SettingValues& wanted) {
-  TRY_ASSIGN(auto resolved, resolveSettings(type_->instrument, wanted));
+  TRY_ASSIGN(auto resolved, settingsOf(type_->instrument, wanted));
   expected_ = std::move(resolved);
   state_.settings = expected_.values;
   return {};
@@ -283,6 +287,7 @@ void Device::pass(double seconds) {
   around.battery = std::max(0.0, around.battery - drain * seconds / type_->definition.body.battery_s);
   state_.untouched_s = busy() ? 0 : state_.untouched_s + seconds;
   state_.elapsed_s += seconds;
+  walkOn(state_.walk, seconds);
   if (state_.running && phase->ends()) state_.scanned_s += seconds;
   if (state_.running && phase->laser) state_.laser_s += seconds;
 }
@@ -459,6 +464,10 @@ void Device::orderFailed(const std::string& message) {
   note("failed", message);
   fire(Event::failed);
   ask("failed", message);
+}
+
+void Device::sceneDone() {
+  state_.walk.scene = true;
 }
 
 void Device::load(const std::vector<StoredSetup>& stored) {

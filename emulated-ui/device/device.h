@@ -74,6 +74,8 @@ class Device {
   void previewDone(const std::string& file, const std::shared_ptr<const ScanPreview>& preview);
   void sightDone(const FittedTarget& target);
   void pickDone(const std::string& file, const FittedTarget& target);
+  void sceneDone();
+  void seen(std::shared_ptr<const SeenMap> map) { state_.walk.seen = std::move(map); }
   void transferDone(const std::vector<std::string>& files);
   void orderFailed(const std::string& message);
   // True once after the device has stored a scan: from then on the setup exists.

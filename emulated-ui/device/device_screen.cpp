@@ -201,7 +201,7 @@ std::optional<Widget> Device::widget(const WidgetRow& row) const {
   if (row.kind == WidgetKind::progress || row.kind == WidgetKind::number)
     w.number = std::strtod(w.value.c_str(), nullptr);
   if (row.kind == WidgetKind::progress) w.number = fact(row.shows).value_or(numberFact(0)).number.value_or(0);
-  if (row.kind == WidgetKind::lamp) w.value = findPhase(type_->definition, state_.phase)->lamp;
+  if (row.kind == WidgetKind::lamp && row.shows.empty()) w.value = findPhase(type_->definition, state_.phase)->lamp;
   if (row.kind == WidgetKind::preview && shownSetup() != nullptr) w.value = shownSetup()->file;
   w.leads = leadsOf(row, type_->program, state_);
   w.acts = (row.kind != WidgetKind::list && row.kind != WidgetKind::plan) || !row.empty();

@@ -233,6 +233,11 @@ const std::vector<NamedEffect>& namedEffects() {
       {"lose_tracking", loseTracking},    {"reset_tracking", resetTracking},
       {"delete_setup", deleteShownSetup}, {"delete_project", deleteOpenProject},
       {"format_card", formatCard},        {"remove_link", removeLink},
+      {"order_scene", orderScene},        {"begin_walk", beginWalk},
+      {"pause_walk", pauseWalk},          {"resume_walk", resumeWalk},
+      {"fix_walk", fixWalk},              {"end_walk", endWalk},
+      {"drop_walk", dropWalk},            {"process_walk", orderWalk},
+      {"store_walk", storeWalk},
   };
   return rows;
 }

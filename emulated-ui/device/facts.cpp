@@ -511,6 +511,7 @@ const std::vector<FactRow>& sharedFacts() {
     };
     const auto newest = newestFacts();
     all.insert(all.end(), newest.begin(), newest.end());
+    all.insert(all.end(), walkFacts().begin(), walkFacts().end());
     return all;
   }();
   return rows;

@@ -16,6 +16,7 @@ namespace {
 
 using Event = EngineEvent;
 
+constexpr double kUsualWalk_mps = 0.8, kSlowest_mps = 0.1, kFastest_mps = 3;
 constexpr double kLevelled_deg = 0.01;  // what a careful hand reaches with the foot screws
 
 Result<void> insertCard(Device& d, const std::string&) {
@@ -176,6 +177,41 @@ Result<void> stepBehind(Device& d, const std::string&) {
   return {};
 }
 
+bool isCarried(const Device& d) { return d.type().instrument.moving.has_value(); }
+
+// "4.5,3" or "4.5,3,0.8": a place, and how fast they go there. The first place is where they come from.
+Result<void> walkTo(Device& d, const std::string& value) {
+  if (!isCarried(d)) return failure(ErrorKind::usage, d.word("not_carried"));
+  const auto numbers = numbersIn(value);
+  const bool whole = numbers && (numbers->size() == 2 || numbers->size() == 3);
+  const double speed_mps = whole && numbers->size() == 3 ? numbers->at(2) : kUsualWalk_mps;
+  if (!whole || !(speed_mps >= kSlowest_mps && speed_mps <= kFastest_mps))
+    return failure(ErrorKind::usage,
+                   fmt::format("must be a place, and a speed of {:g} to {:g} m/s behind it: 4.5,3,0.8", kSlowest_mps,
+                               kFastest_mps));
+  auto& walk = d.change().walk;
+  if (!walk.at)
+    walk.at = {numbers->at(0), numbers->at(1)};
+  else
+    walk.legs.push_back({numbers->at(0), numbers->at(1), speed_mps});
+  if (d.in(PhaseId{"initialising"})) d.fire(Event::tripod_moved);
+  return {};
+}
+
+Result<void> standStill(Device& d, const std::string&) {
+  if (!isCarried(d)) return failure(ErrorKind::usage, d.word("not_carried"));
+  d.change().walk.legs.clear();
+  return {};
+}
+
+Result<void> openDoors(Device& d, const std::string&) {
+  if (!isCarried(d)) return failure(ErrorKind::usage, d.word("not_carried"));
+  auto& walk = d.change().walk;
+  if (walk.recording) return failure(ErrorKind::usage, d.word("doors_too_late"));
+  walk.doors_open = true;
+  return {};
+}
+
 Result<void> closeCover(Device& d, const std::string&) {
   d.change().around.cover_open = false;
   return {};
@@ -205,6 +241,9 @@ const std::vector<HandRow>& handRows() {
       {"tilt", "tripod", "x,y in degrees", tiltTo},
       {"level", "tripod", "", level},
       {"tripod_moved", "tripod", "", moveTripod},
+      {"walk_to", "walk", "x,y in metres, and the speed in m/s behind a comma; or nothing", walkTo},
+      {"stand_still", "walk", "", standStill},
+      {"open_doors", "walk", "", openDoors},
       {"wipe_optics", "around", "", wipeOptics},
       {"close_cover", "around", "", closeCover},
       {"clear_view", "around", "", clearView},

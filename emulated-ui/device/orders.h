@@ -10,6 +10,7 @@
 
 #include "core/survey.h"
 #include "emulated-ui/device/orientation.h"
+#include "emulated-ui/device/walk.h"
 #include "scanners/instruments/instrument.h"
 
 namespace standpoint {
@@ -22,7 +23,20 @@ struct OperatorPlace {
   std::optional<double> azimuth_deg;  // clockwise from the zero of the circle; nothing: the middle of what is scanned
 };
 
-// Scan from where the tripod stands.
+// A walk that is processed in the office.
+struct WalkOrder {
+  WalkedWay way;
+  std::vector<std::array<double, 2>> pauses;  // from and to, in seconds since it began: no points are kept
+  std::vector<WalkFix> fixes;
+  bool closures = true;      // places that it comes back to are recognised
+  bool stations = false;     // scanned stations hold it
+  bool doors_open = false;   // else they are opened on the way
+};
+
+// Read the model for what a carried scanner sees on its way.
+struct SceneOrder {};
+
+// Scan from where the tripod stands, or along a walk.
 struct ScanOrder {
   std::string instrument;  // id
   std::string project;     // on the device
@@ -47,6 +61,7 @@ struct ScanOrder {
   double tilt_x_deg = 0, tilt_y_deg = 0;  // of the standing axis when it began
   std::vector<std::string> sensors;       // ids of the definition's that are on and leave a reading
   SettingValues notes;                    // key and text: what goes into the file's record, such as who measured
+  std::optional<WalkOrder> walk;          // of a scanner that is carried
 };
 
 // How a setup joins an earlier one: cloud to cloud.
@@ -119,7 +134,8 @@ struct TransferOrder {
   std::string extension;  // of the copies: ".las"; empty: as the files are
 };
 
-using Order = std::variant<ScanOrder, LinkOrder, TargetOrder, PreviewOrder, TransferOrder, SightOrder, PickOrder>;
+using Order =
+    std::variant<ScanOrder, LinkOrder, TargetOrder, PreviewOrder, TransferOrder, SightOrder, PickOrder, SceneOrder>;
 
 struct StoredSetup {
   std::string project;
@@ -148,6 +164,7 @@ struct StoredSetup {
   SettingValues notes;                         // key and text: readings of the sensors, who measured
   bool operator_in_view = false;               // somebody stood in the scanner's view meanwhile
   std::optional<PlaceError> placed;            // of the pose in the file, of a device that gives its scans coordinates
+  std::optional<WalkResult> walk;              // of a scanner that is carried
 };
 
 }  // namespace standpoint

@@ -26,11 +26,12 @@ enum class WidgetKind {
   level,     // a bubble: `options` holds the two tilts in degrees
   preview,   // the picture of the scan that is shown
   plan,      // the stations from above with their links
+  seen,      // what a carried scanner has seen so far, from above
   note,      // a paragraph
 };
 inline constexpr const char* kWidgetKindNames[] = {"status", "readout", "button", "key",  "lamp",     "choice",
                                                    "toggle", "text",    "number", "list", "progress", "area",
-                                                   "level",  "preview", "plan",   "note"};
+                                                   "level",  "preview", "plan",   "seen", "note"};
 
 // What a finger does with a widget beside tapping it. The value of the press says on what: the row of a list, the
 // set-up of a mark on a plan.

@@ -9,6 +9,7 @@
 
 #include "emulated-ui/device/orders.h"
 #include "emulated-ui/device/orientation.h"
+#include "emulated-ui/device/walk.h"
 
 namespace standpoint {
 
@@ -67,6 +68,7 @@ struct DeviceState {
   std::map<std::string, std::string> values;
   std::map<std::string, std::string> entries;  // fields that are typed but not yet taken: a new project's name
   Surroundings around;
+  WalkState walk;  // of a scanner that is carried
   std::vector<DeviceProject> projects;
   int project = -1;  // the open one
   int shown = -1;    // setup on view

@@ -200,7 +200,8 @@ int rowsOf(const Widget& w) {
     case WidgetKind::number: return 2;
     case WidgetKind::area:
     case WidgetKind::preview:
-    case WidgetKind::plan: return 5;
+    case WidgetKind::plan:
+    case WidgetKind::seen: return 5;
     case WidgetKind::level: return 4;
     case WidgetKind::readout: return 1;
     default: return 2;
@@ -281,7 +282,7 @@ bool isStrip(RegionKind kind) {
 
 bool isPicture(const Screen& screen, const Region& region) {
   const auto* w = region.kind == RegionKind::widget ? onScreen(screen, region.widget) : nullptr;
-  return w != nullptr && (w->kind == WidgetKind::plan || w->kind == WidgetKind::preview);
+  return w != nullptr && (w->kind == WidgetKind::plan || w->kind == WidgetKind::seen || w->kind == WidgetKind::preview);
 }
 
 }  // namespace

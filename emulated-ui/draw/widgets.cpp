@@ -290,6 +290,7 @@ void drawWidget(Pen& pen, const Widget& w) {
     case WidgetKind::area: return drawArea(pen, w);
     case WidgetKind::preview: return drawPreview(pen, w);
     case WidgetKind::plan: return drawPlan(pen, w);
+    case WidgetKind::seen: return drawSeen(pen, w);
   }
 }
 

@@ -18,7 +18,7 @@ namespace {
 constexpr double kRound = 1e-6;
 constexpr float kStripPerText = 2.2F;  // height of the titles of tabs, in heights of letters
 
-const std::set<WidgetKind> kPictures = {WidgetKind::plan, WidgetKind::preview, WidgetKind::area};
+const std::set<WidgetKind> kPictures = {WidgetKind::plan, WidgetKind::seen, WidgetKind::preview, WidgetKind::area};
 const std::set<WidgetKind> kPressed = {WidgetKind::button, WidgetKind::key,  WidgetKind::choice,
                                        WidgetKind::toggle, WidgetKind::text, WidgetKind::number};
 

@@ -99,6 +99,11 @@ std::vector<EventRow> sharedEvents() {
       {.name = "registration", .detail = Detail::text, .about = "link state (X7, VZ-i)"},
       {.name = "transferred", .detail = Detail::text, .about = "files copied to the office: number"},
       {.name = "card_formatted", .detail = Detail::text, .about = "number of setups lost without a copy"},
+      {.name = "walk_started", .about = "recording of a walk began"},
+      {.name = "walk_paused", .about = "recording paused"},
+      {.name = "walk_ended", .about = "recording ended"},
+      {.name = "walk_fixed", .detail = Detail::text, .about = "known point measured on a walk: its name"},
+      {.name = "walk_dropped", .about = "recorded walk discarded without processing"},
       {.name = "field", .detail = Detail::field_verb, .about = "action in the environment", .logged = false},
       {.name = "targets_moved", .about = "targets that moved since an earlier scan", .logged = false},
   };

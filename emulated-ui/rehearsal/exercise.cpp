@@ -96,9 +96,9 @@ RehearsalAction action(JsonFields& f, bool prepares = false) {
     const bool field = isFieldVerb(a.name);
     if (!a.options.is_object())
       f.needs("options", a.options, "an object, such as {\"add\": \"S1\", \"on\": [4.3, 1.6, 0]}");
-    if (!field && !(prepares && a.name == "treat"))
+    if (!field && !(prepares && (a.name == "treat" || a.name == "scan")))
       f.wrong("verb", fmt::format("'{}' is not allowed here; allowed: {}", a.name,
-                                  prepares ? "station, target, plan, treat" : "station, target and plan"));
+                                  prepares ? "station, target, plan, treat, scan" : "station, target and plan"));
   } else if (named("hint", Kind::hint)) {
   } else if (const auto* way = f.raw("walk")) {
     a.kind = Kind::walk;

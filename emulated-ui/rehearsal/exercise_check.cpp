@@ -204,7 +204,9 @@ class Checker {
     };
     if (names("add")) stations_.push_back(options["add"].get<std::string>());
     if (names("remove")) std::erase(stations_, options["remove"].get<std::string>());
-    if (auto ok = checkOptions(*findVerb(verbs(), name), options); !ok) fault(place + "/options", ok.error().message);
+    auto complete = options;
+    if (name == "scan") complete["output"] = "static";  // the rehearsal says where
+    if (auto ok = checkOptions(*findVerb(verbs(), name), complete); !ok) fault(place + "/options", ok.error().message);
   }
 
   // What neither adds nor treats anything prepares nothing.

@@ -272,6 +272,21 @@ WalkFigures walked(const WalkedWay& walk, const Exercise& exercise) {
   return w;
 }
 
+// The largest error of the solved way where it passes the exercise's check points; without any, on all of it.
+double measuredDrift_mm(const WalkResult& result, const Exercise& exercise) {
+  const bool checked = std::any_of(exercise.places.begin(), exercise.places.end(),
+                                   [](const auto& place) { return place.first.starts_with("check"); });
+  double worst = 0;
+  for (const auto& [x, y, error_m] : result.errors) {
+    const bool counts = !checked || std::any_of(exercise.places.begin(), exercise.places.end(), [&](const auto& place) {
+      return place.first.starts_with("check") &&
+             std::hypot(x - place.second[0], y - place.second[1]) <= kSamePlace_m;
+    });
+    if (counts) worst = std::max(worst, 1000 * error_m);
+  }
+  return worst;
+}
+
 constexpr std::string_view kNear = "walk.near.";
 
 // From a place of the exercise to the nearest spot of the way.
@@ -367,20 +382,30 @@ const std::vector<ProofRow>& fieldProofRows() {
 
 const std::vector<ProofRow>& walkProofRows() {
   static const std::vector<ProofRow> rows = {
-      {"walk.length", "m", numbers(0, 1e6), "length of the planned path"},
+      {"walk.length", "m", numbers(0, 1e6), "length of the path: as it was walked, else as it was planned"},
       {"walk.closure", "m", numbers(0, 1e6), "gap between start and end"},
       {"walk.stretch", "m", numbers(0, 1e6), "longest stretch without returning within 1 m of the earlier path"},
       {"walk.speed", "m/s", numbers(0, 1e6), "highest speed between two waypoints"},
       {"walk.door_speed", "m/s", numbers(0, 1e6),
        "highest speed on legs that begin or end within 1.5 m of a place whose name begins with door"},
       {"walk.drift", "mm", numbers(0, 1e6),
-       "expected drift at the end of the longest stretch: 0.3 mm per metre, half if the path closes"},
+       "largest error of the solved path, at places whose name begins with check if there are any; of a planned path "
+       "0.3 mm per metre of the longest stretch, half if it closes"},
+      {"walk.end", "mm", numbers(0, 1e6), "error of the solved path at its end"},
+      {"walk.closures", "", numbers(0, 1e6), "places that were recognised when the walk was processed"},
+      {"walk.held", "", numbers(0, 1e6), "known points and static scans that hold the processed walk"},
   };
   return rows;
 }
 
-std::optional<Fact> walkProof(const std::string& name, const Exercise& exercise, const WalkedWay& walk) {
-  if (!name.starts_with("walk.") || walk.size() < 2) return std::nullopt;
+std::optional<Fact> walkProof(const std::string& name, const Exercise& exercise, const WalkedWay& planned,
+                              const Device& device) {
+  if (!name.starts_with("walk.")) return std::nullopt;
+  const auto* newest = device.newestSetup();
+  const auto* result = newest != nullptr && newest->walk ? &*newest->walk : nullptr;
+  const auto& recorded = device.state().walk.way;
+  const WalkedWay& walk = result != nullptr ? result->way : recorded.size() > 1 ? recorded : planned;
+  if (walk.size() < 2) return std::nullopt;
   if (name.starts_with(kNear)) {
     const auto near = nearest_m(walk, exercise, std::string_view(name).substr(kNear.size()));
     return near ? std::optional(numberFact(*near)) : std::nullopt;
@@ -391,7 +416,13 @@ std::optional<Fact> walkProof(const std::string& name, const Exercise& exercise,
   if (name == "walk.stretch") return numberFact(w.stretch_m);
   if (name == "walk.speed") return numberFact(w.speed_m_s);
   if (name == "walk.door_speed") return numberFact(w.door_speed_m_s);
-  if (name == "walk.drift") return numberFact(kDrift_mm_per_m * w.stretch_m * (w.closure_m <= kSamePlace_m ? 0.5 : 1));
+  if (name == "walk.drift")
+    return numberFact(result != nullptr ? measuredDrift_mm(*result, exercise)
+                                        : kDrift_mm_per_m * w.stretch_m * (w.closure_m <= kSamePlace_m ? 0.5 : 1));
+  if (result == nullptr) return std::nullopt;
+  if (name == "walk.end") return numberFact(result->errors.empty() ? 0 : 1000 * result->errors.back()[2]);
+  if (name == "walk.closures") return numberFact(static_cast<double>(result->closures));
+  if (name == "walk.held") return numberFact(static_cast<double>(result->held));
   return std::nullopt;
 }
 

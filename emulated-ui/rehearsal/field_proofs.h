@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,9 +22,9 @@ const std::vector<ProofRow>& fieldProofRows();
 std::optional<Fact> fieldProof(const std::string& name, const Device& device, const Document& document);
 
 // Of a walk with a handheld scanner that was planned: x, y, seconds. None of them is there before.
-using WalkedWay = std::vector<std::array<double, 3>>;
 const std::vector<ProofRow>& walkProofRows();
-std::optional<Fact> walkProof(const std::string& name, const Exercise& exercise, const WalkedWay& walk);
+std::optional<Fact> walkProof(const std::string& name, const Exercise& exercise, const WalkedWay& planned,
+                              const Device& device);
 
 // Facts with a name of their own: "place.door" of an exercise's places: metres from there to the nearest setup, in
 // plan; "walk.near.corner": metres from there to the nearest spot of the planned walk; "expected.reach.10": the range

@@ -9,6 +9,7 @@
 
 #include "core/data_folder.h"
 #include "core/nearest_name.h"
+#include "core/number_text.h"
 #include "emulated-ui/device/format.h"
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/field_proofs.h"
@@ -138,8 +139,10 @@ Result<void> Rehearsal::prepareModel(Progress& progress) {
   if (!document) return failure(document.error());
   document_ = *std::move(document);
   for (std::size_t i = 0; i < exercise_.setup.size(); ++i) {
-    const auto& step = exercise_.setup[i];
-    document = done(document_, step.at("verb").get<std::string>(), step.at("options"), progress);
+    const auto verb = exercise_.setup[i].at("verb").get<std::string>();
+    auto options = exercise_.setup[i].at("options");
+    if (verb == "scan") options["output"] = (folder_ / "static").string();
+    document = done(document_, verb, options, progress);
     if (!document)
       return failure(preparing(document.error()), "cannot prepare the environment: " + document.error().message,
                      fmt::format("{} /setup/{}/options", exercise_.file, i));
@@ -203,6 +206,7 @@ Result<void> Rehearsal::apply(const RehearsalAction& action, Progress& progress)
             ErrorKind::usage,
             fmt::format("unknown station '{}'; {}", action.value, knownInstead(action.value, stationNames(document_))),
             action.name);
+      if (action.name == "walk_to") TRY(host_->wayIsFree(action.value));
       return device().hand(action.name, action.value);
     case Kind::wait: return passVirtually(action.seconds, progress);
     case Kind::finish: return finish(progress);
@@ -224,7 +228,7 @@ Result<void> Rehearsal::apply(const RehearsalAction& action, Progress& progress)
       for (const auto& place : action.options)
         walk_.push_back({place[0].get<double>(), place[1].get<double>(), place[2].get<double>()});
       counts_["field.walk"] += 1;
-      return {};
+      return device().type().instrument.moving ? goAlong(walk_) : Result<void>();
     case Kind::hint: {
       for (std::size_t i = 0; i < exercise_.steps.size(); ++i)
         if (exercise_.steps[i].id == action.name) {
@@ -234,6 +238,20 @@ Result<void> Rehearsal::apply(const RehearsalAction& action, Progress& progress)
         }
       return failure(ErrorKind::usage, fmt::format("unknown step '{}'", action.name), exercise_.id);
     }
+  }
+  return {};
+}
+
+// With a scanner in the hand the planned way is gone at once, each leg as fast as its times have it; to where it begins
+// at the usual pace.
+Result<void> Rehearsal::goAlong(const WalkedWay& way) {
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    const double length = i == 0 ? 0 : std::hypot(way[i][0] - way[i - 1][0], way[i][1] - way[i - 1][1]);
+    const auto pace = i == 0 ? std::string() : fmt::format(",{:.3f}", length / (way[i][2] - way[i - 1][2]));
+    if (i > 0 && length < 1e-6) continue;
+    const auto value = fmt::format("{},{}{}", exactText(way[i][0]), exactText(way[i][1]), pace);
+    TRY(host_->wayIsFree(value));
+    TRY(device().hand("walk_to", value));
   }
   return {};
 }
@@ -335,7 +353,7 @@ std::optional<Fact> Rehearsal::fact(const std::string& name) const {
     const auto found = answers_.find(name.substr(7));
     return wordFact(found == answers_.end() ? "" : found->second);
   }
-  if (auto planned = walkProof(name, exercise_, walk_)) return planned;
+  if (auto planned = walkProof(name, exercise_, walk_, device())) return planned;
   if (auto shown = proofs_.fact(name, exercise_, device(), document_, folder_)) return shown;
   return device().fact(name);
 }

@@ -98,6 +98,7 @@ class Rehearsal {
       : exercise_(std::move(exercise)), folder_(std::move(folder)) {}
   Result<void> prepare(const std::string& device, std::function<void()> wake, Progress& progress);
   Result<void> apply(const RehearsalAction& action, Progress& progress);
+  Result<void> goAlong(const WalkedWay& way);
   Result<void> runFieldVerb(const RehearsalAction& action, Progress& progress);
   Result<void> prepareModel(Progress& progress);
   Result<void> checkParts() const;

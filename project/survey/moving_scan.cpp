@@ -61,12 +61,12 @@ Result<Mounting> mountingFrom(const KeyValues& texts, const char* option) {
   return Mounting{{unitRotation(rotationOf(angles)), {figures[0], figures[1], figures[2]}}, figures[6]};
 }
 
-// Somebody on foot who holds the scanner, or has it on the back. Of a recorded trajectory it is not known.
-std::optional<ScanOperator> operatorOf(const CarriedTrajectory& trajectory, const CarriedMotion& carried,
+// Somebody on foot who holds the scanner, or has it on the back. Of a recorded trajectory it is not known by itself.
+std::optional<ScanOperator> operatorOf(const CarriedTrajectory& trajectory, const CarriedMotion& carried, bool on_foot,
                                        const ScanVerbOptions& options) {
   const auto carrier =
       std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == trajectory.carrier; });
-  if (!trajectory.file.empty() || carrier == kCarriers.end() || carrier->gait <= 0) return std::nullopt;
+  if ((!trajectory.file.empty() && !on_foot) || carrier == kCarriers.end() || carrier->gait <= 0) return std::nullopt;
   return ScanOperator{.scanner_path = carried.path,
                       .height_m = trajectory.height_m > 0 ? trajectory.height_m : carrier->limits.height_m,
                       .in_front = carrier->id == "hand",
@@ -101,6 +101,24 @@ std::string motionText(const CarriedTrajectory& trajectory, const CarriedMotion&
                      carried.seconds(), profile == nullptr ? "known exactly" : profile->id, hash & 0xFFFFFFFFU);
 }
 
+Result<CarriedMotion> motionOf(const CarriedTrajectory& trajectory, const Georeference& georeference,
+                               const ScanSurroundings& company, Report& report, Progress& progress) {
+  if (company.carried) return company.carried->motion;
+  return carriedMotion(trajectory, georeference, report, progress);
+}
+
+// The stretches of the walk of which points are kept, as blocks of its pattern: all of it where nothing else is known.
+std::vector<std::array<std::uint32_t, 2>> blocksKept(const ScanSurroundings& company, const ScanOptions& options,
+                                                     std::uint32_t blocks, double seconds) {
+  if (!company.carried) return {{options.first_column, options.end_column}};
+  std::vector<std::array<std::uint32_t, 2>> kept;
+  const auto at = [&](double time_s) {
+    return static_cast<std::uint32_t>(std::clamp(std::round(blocks * time_s / seconds), 0.0, double{blocks}));
+  };
+  for (const auto& [from_s, to_s] : company.carried->recorded) kept.push_back({at(from_s), at(to_s)});
+  return kept;
+}
+
 }  // namespace
 
 Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanVerbOptions& options,
@@ -114,10 +132,11 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
   Report& report = outcome.report;
   noteDefaultRules(document, report);
   progress.stage("Prepare " + trajectory.name, 0, 0.1);
-  TRY_ASSIGN(const auto carried, carriedMotion(trajectory, *document.georeference, report, progress));
+  TRY_ASSIGN(const auto carried, motionOf(trajectory, *document.georeference, company, report, progress));
+  if (company.carried) request.settings.firing_s *= company.carried->one_pulse_in;
   ScanSurroundings at_hand = company;
   const bool with_movers = options.movers == Switch::on;
-  const auto carries = options.operator_there == Switch::on ? operatorOf(trajectory, carried, options) : std::nullopt;
+  const auto carries = options.operator_there == Switch::on ? operatorOf(trajectory, carried, company.carried != nullptr, options) : std::nullopt;
   if (carries || !at_hand.preparation || !at_hand.preparation->fits(document, with_movers)) {
     TRY_ASSIGN(at_hand.preparation, prepareScan(document, nullptr, progress, with_movers, carries));
   }
@@ -129,6 +148,7 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
           : errorProfile(options.trajectory_error, request.instrument.moving->mount);
   progress.stage("Solve " + trajectory.name, 0.1, 0.15);
   TRY_ASSIGN(auto control, controlOf(options.control, *document.georeference));
+  if (company.carried) control.insert(control.end(), company.carried->control.begin(), company.carried->control.end());
   TRY_ASSIGN(const auto solved, solveMotion(carried, scene, document.job->stations, trajectory.name,
                                             {.profile = profile,
                                              .closures = options.closures == Switch::on,
@@ -137,6 +157,7 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
                                              .seed = request.options.seed,
                                              .max_range_m = request.settings.max_range_m},
                                             progress));
+  if (company.carried && company.carried->solved) company.carried->solved(carried, solved);
   const PoseFunction& known = solved.pose ? *solved.pose : *carried.truth;
   request.notes.push_back(motionText(trajectory, carried, solved, profile));
   if (options.deskew != Deskew::pulse)
@@ -179,8 +200,14 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
   const auto watched = company.watcher == nullptr ? nullptr : std::make_unique<WatchedSink>(*writer, *company.watcher);
   PointSink& sink = watched ? static_cast<PointSink&>(*watched) : *writer;
   TRY(sink.begin(header));
-  TRY_ASSIGN(const auto count, scan(scene, at_hand.preparation->world.assignment, request.instrument, request.settings,
-                                    motion, request.options, sink, progress));
+  ScanCount count;
+  const auto all_blocks = blocksOf(request.instrument, request.settings, carried.seconds());
+  for (const auto& [first, end] : blocksKept(company, request.options, all_blocks, carried.seconds())) {
+    request.options.first_column = first, request.options.end_column = end;
+    TRY_ASSIGN(const auto part, scan(scene, at_hand.preparation->world.assignment, request.instrument,
+                                     request.settings, motion, request.options, sink, progress));
+    count.pulses += part.pulses, count.returns += part.returns, count.points += part.points;
+  }
   TRY(sink.end());
   TRY(writer->close());
   report.append(writer->report());

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "core/points.h"
 #include "project/survey/survey_verbs.h"
 #include "survey/scanning/scan_world.h"
+#include "survey/trajectories/carried_motion.h"
 
 namespace standpoint {
 
@@ -41,12 +44,22 @@ Result<std::shared_ptr<const ScanPreparation>> prepareScan(const Document& docum
                                                            bool with_movers = true,
                                                            const std::optional<ScanOperator>& who = {});
 
+// How somebody on foot carried a scanner along a trajectory of the job, for whoever knows it better than by its file.
+struct CarriedBy {
+  CarriedMotion motion;
+  std::vector<std::array<double, 2>> recorded;  // from and to: only then points are kept
+  unsigned one_pulse_in = 1;                    // of the instrument's
+  std::vector<ControlPoint> control;            // local frame, beside those of a file
+  std::function<void(const CarriedMotion&, const SolvedMotion&)> solved;  // what became of it; may be empty
+};
+
 // Whom a scan is made for: what was prepared for it, who watches its points beside the file, and where its crew
 // believes that it stands. Each may be missing.
 struct ScanSurroundings {
   std::shared_ptr<const ScanPreparation> preparation;
   std::shared_ptr<PointSink> watcher;
   std::optional<Pose> believed;  // of every station, local frame: else where it stands, as levelled by the compensator
+  std::shared_ptr<const CarriedBy> carried;
 };
 
 // The verb `scan` with company.

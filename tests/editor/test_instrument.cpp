@@ -353,7 +353,7 @@ TEST_F(Desk, AnExerciseThatRunsKeepsItsModelAndItsPast) {
 }
 
 TEST_F(Desk, AWayIsTimedByItsSpeeds) {
-  desk.device = findDevice("generic");
+  desk.device = findDevice("leica-blk2go");
   begin("E19");
   const auto way = timedWay({{0, 0, 0, 9}, {3, 4, 0, 0.5}, {3, 3, 0, 1}});
   EXPECT_EQ(way, nlohmann::json::parse("[[0.0, 0.0, 0.0], [3.0, 4.0, 10.0], [3.0, 3.0, 11.0]]"));

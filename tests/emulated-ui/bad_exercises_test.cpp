@@ -141,7 +141,7 @@ TEST_F(BadExercise, EachMistakeIsNamedWithItsPlace) {
       {"/places/door", {1}, "x.json /places/door", "x and y"},
       {"/setup", 5, "x.json /setup", "list"},
       {"/setup/0/verb", "export", "x.json /setup/0/verb",
-       "'export' is not allowed here; allowed: station, target, plan, treat"},
+       "'export' is not allowed here; allowed: station, target, plan, treat, scan"},
       {"/setup/0", {{"press", "power"}}, "x.json /setup/0", "must be a verb, such as"},
       {"/start/0", {{"verb", "treat"}}, "x.json /start/0/verb", "allowed: station, target and plan"},
       {"/start/0", {{"dance", "power"}}, "x.json /start/0", "an action must be one of"},

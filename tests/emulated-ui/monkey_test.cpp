@@ -112,6 +112,8 @@ class Monkey {
       d_->sightDone(sighted(sight->target));
     else if (const auto* transfer = std::get_if<TransferOrder>(&*order))
       d_->transferDone(transfer->files);
+    else if (std::holds_alternative<SceneOrder>(*order))
+      d_->sceneDone();
   }
 
   // Whatever was done: a known phase and screen, something to press, no label without a word, and no stored scan is

@@ -25,6 +25,15 @@ inline std::vector<const EmulatedDevice*> everyDevice() {
   for (const auto& device : emulatedDevices()) all.push_back(&device);
   return all;
 }
+// Those that stand on a tripod.
+inline std::vector<const EmulatedDevice*> everyTripod() {
+  auto all = everyDevice();
+  std::erase_if(all, [](const EmulatedDevice* device) {
+    const auto type = loadDevice(*device);
+    return type && (*type)->instrument.moving;
+  });
+  return all;
+}
 inline std::string deviceName(const testing::TestParamInfo<const EmulatedDevice*>& info) {
   std::string name = info.param->id;
   std::replace(name.begin(), name.end(), '-', '_');
