@@ -493,8 +493,8 @@ std::optional<Outcome> DeviceHost::goOn(const Document& document, const fs::path
   const auto name = fs::path(finished_->file).stem().string();
   const auto& title = device_.type().definition.title;
   const bool carried = station_.empty();
-  Outcome outcome{carried ? withWalk(document, walked_) : withScan(document, station_, *finished_), json::object(), {},
-                  {}, {}};
+  Outcome outcome{
+      carried ? withWalk(document, walked_) : withScan(document, station_, *finished_), json::object(), {}, {}, {}};
   outcome.description = carried ? fmt::format("Scanned '{}' on foot with {}", name, title)
                                 : fmt::format("Scanned '{}' at {} with {}", name, station_, title);
   finished_.reset();

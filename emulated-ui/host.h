@@ -93,7 +93,7 @@ class DeviceHost {
   std::string station_;                  // of the finished scan
   CarriedTrajectory walked_;             // of the finished scan, where it was carried
   WalkMap map_;
-  SettingValues notes_;                  // of the scan that runs
+  SettingValues notes_;  // of the scan that runs
   bool remembers_ = false;
   std::uint64_t kept_at_ = 0;  // events of the device when its memory was written last
   nlohmann::json kept_;

@@ -90,7 +90,7 @@ WalkResult walkFrom(const json& j) {
   w.way = j.at("way").get<WalkedWay>();
   w.seconds = j.at("seconds"), w.length_m = j.at("length_m");
   w.closures = j.at("closures"), w.held = j.at("held");
-  w.errors = j.at("errors").get<std::vector<std::array<double, 3>>>();
+  w.errors = j.at("errors").get<std::vector<std::array<double, 5>>>();
   return w;
 }
 

@@ -36,8 +36,8 @@ void WalkMap::begin(std::shared_ptr<const RayScene> scene, const Georeference& g
 
 bool WalkMap::look(double x_m, double y_m) {
   if (map_.cells.empty()) {
-    const auto floor = waypointsOf({exactText(x_m) + "," + exactText(y_m)}, *scene_, {.shift_m = shift_m_},
-                                   carriedHeight_m(), "walk");
+    const auto floor =
+        waypointsOf({exactText(x_m) + "," + exactText(y_m)}, *scene_, {.shift_m = shift_m_}, carriedHeight_m(), "walk");
     if (!floor) return false;
     eye_m_ = floor->front().floor_m.z() + carriedHeight_m();
     map_.x_m = x_m - kHalf_m, map_.y_m = y_m - kHalf_m;

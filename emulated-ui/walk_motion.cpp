@@ -17,7 +17,7 @@ namespace standpoint {
 namespace {
 
 constexpr double kKnot_s = 0.1;
-constexpr int kRounded = 4;     // knots to either side over which a body's way is the mean of the straight one [P]
+constexpr int kRounded = 4;  // knots to either side over which a body's way is the mean of the straight one [P]
 constexpr double kSampled_hz = 200;
 
 // Of one place and time after the other: where, and looking which way.
@@ -45,8 +45,7 @@ void lookAhead(std::vector<Stand>& stands) {
   }
   // The end of a leg looks as the leg did, until the turn begins.
   for (std::size_t i = 1; i + 1 < stands.size(); ++i)
-    if ((stands[i + 1].place_m - stands[i].place_m).head<2>().norm() <= 1e-9)
-      stands[i].yaw_rad = stands[i - 1].yaw_rad;
+    if ((stands[i + 1].place_m - stands[i].place_m).head<2>().norm() <= 1e-9) stands[i].yaw_rad = stands[i - 1].yaw_rad;
 }
 
 Stand between(const std::vector<Stand>& stands, double time_s) {
@@ -86,9 +85,7 @@ Result<CarriedMotion> motionOf(const WalkedWay& way, const RayScene& scene, cons
   TRY_ASSIGN(const auto floor, waypointsOf(texts, scene, georeference, carriedHeight_m(), "walk"));
   std::vector<Stand> stands;
   for (std::size_t i = 0; i < way.size(); ++i)
-    stands.push_back({way[i][2] - way.front()[2],
-                      floor[i].floor_m + Eigen::Vector3d(0, 0, carriedHeight_m()),
-                      0});
+    stands.push_back({way[i][2] - way.front()[2], floor[i].floor_m + Eigen::Vector3d(0, 0, carriedHeight_m()), 0});
   lookAhead(stands);
   const double end_s = stands.back().time_s;
   Trajectory knots;

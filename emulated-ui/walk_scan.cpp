@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 constexpr unsigned kOnePulseIn = 16;
 constexpr double kWritten_hz = 200;
-constexpr double kJudged_s = 0.25;   // of the way, between two looks at the error
-constexpr double kDoorOpens_s = 3;   // before somebody is in it [P]
+constexpr double kJudged_s = 0.25;  // of the way, between two looks at the error
+constexpr double kDoorOpens_s = 3;  // before somebody is in it [P]
 constexpr double kDoorsBefore_s = 60;
 
 // By the movers' clock, which shows kDoorsBefore_s when the walk begins.
@@ -98,8 +98,9 @@ Result<ScannedWalk> scanWalk(const Document& document, const ScanOrder& order, c
     const auto& truth = *motion.truth;
     for (double t = truth.first_s(); t <= truth.last_s(); t += kJudged_s) {
       const Eigen::Vector3d place = truth.pose(t).translation;
-      result.errors.push_back(
-          {place.x(), place.y(), solved.pose ? (solved.pose->pose(t).translation - place).norm() : 0});
+      const Eigen::Vector3d error =
+          solved.pose ? Eigen::Vector3d(solved.pose->pose(t).translation - place) : Eigen::Vector3d::Zero();
+      result.errors.push_back({place.x(), place.y(), error.x(), error.y(), error.z()});
     }
   };
   ScanVerbOptions options;

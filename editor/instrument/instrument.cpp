@@ -151,8 +151,8 @@ class InstrumentPanel {
   // On the open project the tripod begins at its first station; in an exercise the student carries it there.
   void standSomewhere(Editor& editor) {
     const auto& job = editor.session.document().job;
-    if (desk_.rehearsal || desk_.host->busy() || desk_.shown()->type().instrument.moving || !desk_.shown()->state().around.station.empty() || !job ||
-        job->stations.empty())
+    if (desk_.rehearsal || desk_.host->busy() || desk_.shown()->type().instrument.moving ||
+        !desk_.shown()->state().around.station.empty() || !job || job->stations.empty())
       return;
     (void)desk_.shown()->hand("stand_at", job->stations.front().name);
   }

@@ -466,9 +466,7 @@ void Device::orderFailed(const std::string& message) {
   ask("failed", message);
 }
 
-void Device::sceneDone() {
-  state_.walk.scene = true;
-}
+void Device::sceneDone() { state_.walk.scene = true; }
 
 void Device::load(const std::vector<StoredSetup>& stored) {
   state_.projects.clear();

@@ -28,9 +28,9 @@ struct WalkOrder {
   WalkedWay way;
   std::vector<std::array<double, 2>> pauses;  // from and to, in seconds since it began: no points are kept
   std::vector<WalkFix> fixes;
-  bool closures = true;      // places that it comes back to are recognised
-  bool stations = false;     // scanned stations hold it
-  bool doors_open = false;   // else they are opened on the way
+  bool closures = true;     // places that it comes back to are recognised
+  bool stations = false;    // scanned stations hold it
+  bool doors_open = false;  // else they are opened on the way
 };
 
 // Read the model for what a carried scanner sees on its way.

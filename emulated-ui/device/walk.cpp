@@ -173,12 +173,9 @@ void orderWalk(Device& device) {
   beginScan(device);
   const auto& walk = device.state().walk;
   ScanOrder order = *device.state().running;
-  order.walk = WalkOrder{walk.way,
-                         walk.pauses,
-                         walk.fixes,
-                         device.value("closures") != "off",
-                         device.value("static_scans") == "on",
-                         walk.doors_open};
+  order.walk = WalkOrder{
+      walk.way,       walk.pauses, walk.fixes, device.value("closures") != "off", device.value("static_scans") == "on",
+      walk.doors_open};
   device.change().running = order;
   device.give(std::move(order));
 }

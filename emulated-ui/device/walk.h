@@ -60,9 +60,10 @@ struct WalkState {
 struct WalkResult {
   WalkedWay way;
   double seconds = 0, length_m = 0;
-  std::uint64_t closures = 0, held = 0;       // places that were recognised; points and stations that hold it
-  std::vector<std::array<double, 3>> errors;  // x, y, and how far the solved place is from the true one: m
-  std::shared_ptr<const SeenMap> seen;        // as the app showed it last; null once the project was closed
+  std::uint64_t closures = 0, held = 0;  // places that were recognised; points and stations that hold it
+  // Each quarter of a second: x and y of the true place in the model's file, and the solved place less that, m.
+  std::vector<std::array<double, 5>> errors;
+  std::shared_ptr<const SeenMap> seen;  // as the app showed it last; null once the project was closed
 };
 
 // What the app's light tells from on: a pace and a turn above these are too fast for it [P; E19 asks for 1 m/s].

@@ -38,9 +38,9 @@ double gap_m(const WalkState& w) {
 }
 
 double length_m(const WalkState& w) {
-  const double since =
-      w.recording && !w.way.empty() && w.at ? std::hypot(w.at->front() - w.way.back()[0], w.at->back() - w.way.back()[1])
-                                            : 0;
+  const double since = w.recording && !w.way.empty() && w.at
+                           ? std::hypot(w.at->front() - w.way.back()[0], w.at->back() - w.way.back()[1])
+                           : 0;
   return lengthOf(w.way) + since;
 }
 
@@ -74,9 +74,7 @@ const std::vector<FactRow>& walkFacts() {
        .domain = atMost(1e6),
        .value = [](const Device& d) { return numberFact(walk(d).hurried_s); },
        .about = "how long the walk was too fast"},
-      {.name = "carried.light",
-       .value = [](const Device& d) { return wordFact(light(d)); },
-       .about = "of the ring"},
+      {.name = "carried.light", .value = [](const Device& d) { return wordFact(light(d)); }, .about = "of the ring"},
       {.name = "carried.speed",
        .domain = atMost(100),
        .value = [](const Device& d) { return numberFact(std::round(walk(d).speed_mps * 100) / 100); },
@@ -142,15 +140,15 @@ const std::vector<FactRow>& walkFacts() {
        .about = "time to process it there"},
       {.name = "result.closures",
        .domain = atMost(1e6),
-       .value = [](const Device& d) {
-         return numberFact(result(d) == nullptr ? 0 : static_cast<double>(result(d)->closures));
-       },
+       .value =
+           [](const Device& d) {
+             return numberFact(result(d) == nullptr ? 0 : static_cast<double>(result(d)->closures));
+           },
        .about = "places recognised in the processed walk"},
       {.name = "result.held",
        .domain = atMost(1e6),
-       .value = [](const Device& d) {
-         return numberFact(result(d) == nullptr ? 0 : static_cast<double>(result(d)->held));
-       },
+       .value =
+           [](const Device& d) { return numberFact(result(d) == nullptr ? 0 : static_cast<double>(result(d)->held)); },
        .about = "known points and static scans that hold the processed walk"},
       {.name = "result.length",
        .unit = Unit::metres,

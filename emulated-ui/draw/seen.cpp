@@ -96,7 +96,8 @@ void way(const Pen& pen, ImDrawList* list, const WalkedWay& way, const SeenFrame
 void here(const Pen& pen, ImDrawList* list, ImVec2 p, const std::array<double, 2>& ahead, bool hurried) {
   const float r = 0.9F * pen.unit;
   const float x = static_cast<float>(ahead[0]), y = -static_cast<float>(ahead[1]);
-  const ImVec2 tip{p.x + r * x, p.y + r * y}, left{p.x - 0.7F * r * x + 0.6F * r * y, p.y - 0.7F * r * y - 0.6F * r * x},
+  const ImVec2 tip{p.x + r * x, p.y + r * y},
+      left{p.x - 0.7F * r * x + 0.6F * r * y, p.y - 0.7F * r * y - 0.6F * r * x},
       right{p.x - 0.7F * r * x - 0.6F * r * y, p.y - 0.7F * r * y + 0.6F * r * x};
   list->AddTriangleFilled(tip, left, right, hurried ? kHurried : kHere);
   list->AddTriangle(tip, left, right, IM_COL32_BLACK, pen.hair(1.2F));

@@ -272,19 +272,44 @@ WalkFigures walked(const WalkedWay& walk, const Exercise& exercise) {
   return w;
 }
 
-// The largest error of the solved way where it passes the exercise's check points; without any, on all of it.
+// How far off the mean place of some samples is: what shakes within a moment is no drift.
+double meanError_mm(const WalkResult& result, std::size_t from, std::size_t to) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t i = from; i < to; ++i)
+    sum += Eigen::Vector3d(result.errors[i][2], result.errors[i][3], result.errors[i][4]);
+  return 1000 * sum.norm() / static_cast<double>(to - from);
+}
+
+constexpr std::size_t kMoment = 4;  // samples: a second
+
+// The largest drift of the solved way where it passes the exercise's check points, each pass by itself; without any, of
+// each second.
 double measuredDrift_mm(const WalkResult& result, const Exercise& exercise) {
-  const bool checked = std::any_of(exercise.places.begin(), exercise.places.end(),
-                                   [](const auto& place) { return place.first.starts_with("check"); });
+  const auto count = result.errors.size();
   double worst = 0;
-  for (const auto& [x, y, error_m] : result.errors) {
-    const bool counts = !checked || std::any_of(exercise.places.begin(), exercise.places.end(), [&](const auto& place) {
-      return place.first.starts_with("check") &&
-             std::hypot(x - place.second[0], y - place.second[1]) <= kSamePlace_m;
-    });
-    if (counts) worst = std::max(worst, 1000 * error_m);
+  bool checked = false;
+  for (const auto& [name, place] : exercise.places) {
+    if (!name.starts_with("check")) continue;
+    checked = true;
+    const auto is_there = [&](std::size_t i) {
+      return i < count && std::hypot(result.errors[i][0] - place[0], result.errors[i][1] - place[1]) <= kSamePlace_m;
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!is_there(i)) continue;
+      std::size_t end = i;
+      while (is_there(end)) ++end;
+      worst = std::max(worst, meanError_mm(result, i, end));
+      i = end;
+    }
   }
+  if (!checked)
+    for (std::size_t i = 0; i + kMoment <= count; ++i) worst = std::max(worst, meanError_mm(result, i, i + kMoment));
   return worst;
+}
+
+double endError_mm(const WalkResult& result) {
+  const auto count = result.errors.size();
+  return count < kMoment ? 0 : meanError_mm(result, count - kMoment, count);
 }
 
 constexpr std::string_view kNear = "walk.near.";
@@ -389,7 +414,8 @@ const std::vector<ProofRow>& walkProofRows() {
       {"walk.door_speed", "m/s", numbers(0, 1e6),
        "highest speed on legs that begin or end within 1.5 m of a place whose name begins with door"},
       {"walk.drift", "mm", numbers(0, 1e6),
-       "largest error of the solved path, at places whose name begins with check if there are any; of a planned path "
+       "largest mean error of the solved path, at places whose name begins with check if there are any, else of any "
+       "second; of a planned path "
        "0.3 mm per metre of the longest stretch, half if it closes"},
       {"walk.end", "mm", numbers(0, 1e6), "error of the solved path at its end"},
       {"walk.closures", "", numbers(0, 1e6), "places that were recognised when the walk was processed"},
@@ -420,7 +446,7 @@ std::optional<Fact> walkProof(const std::string& name, const Exercise& exercise,
     return numberFact(result != nullptr ? measuredDrift_mm(*result, exercise)
                                         : kDrift_mm_per_m * w.stretch_m * (w.closure_m <= kSamePlace_m ? 0.5 : 1));
   if (result == nullptr) return std::nullopt;
-  if (name == "walk.end") return numberFact(result->errors.empty() ? 0 : 1000 * result->errors.back()[2]);
+  if (name == "walk.end") return numberFact(endError_mm(*result));
   if (name == "walk.closures") return numberFact(static_cast<double>(result->closures));
   if (name == "walk.held") return numberFact(static_cast<double>(result->held));
   return std::nullopt;

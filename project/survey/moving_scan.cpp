@@ -136,7 +136,9 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
   if (company.carried) request.settings.firing_s *= company.carried->one_pulse_in;
   ScanSurroundings at_hand = company;
   const bool with_movers = options.movers == Switch::on;
-  const auto carries = options.operator_there == Switch::on ? operatorOf(trajectory, carried, company.carried != nullptr, options) : std::nullopt;
+  const auto carries = options.operator_there == Switch::on
+                           ? operatorOf(trajectory, carried, company.carried != nullptr, options)
+                           : std::nullopt;
   if (carries || !at_hand.preparation || !at_hand.preparation->fits(document, with_movers)) {
     TRY_ASSIGN(at_hand.preparation, prepareScan(document, nullptr, progress, with_movers, carries));
   }
@@ -204,8 +206,8 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
   const auto all_blocks = blocksOf(request.instrument, request.settings, carried.seconds());
   for (const auto& [first, end] : blocksKept(company, request.options, all_blocks, carried.seconds())) {
     request.options.first_column = first, request.options.end_column = end;
-    TRY_ASSIGN(const auto part, scan(scene, at_hand.preparation->world.assignment, request.instrument,
-                                     request.settings, motion, request.options, sink, progress));
+    TRY_ASSIGN(const auto part, scan(scene, at_hand.preparation->world.assignment, request.instrument, request.settings,
+                                     motion, request.options, sink, progress));
     count.pulses += part.pulses, count.returns += part.returns, count.points += part.points;
   }
   TRY(sink.end());

@@ -47,9 +47,9 @@ Result<std::shared_ptr<const ScanPreparation>> prepareScan(const Document& docum
 // How somebody on foot carried a scanner along a trajectory of the job, for whoever knows it better than by its file.
 struct CarriedBy {
   CarriedMotion motion;
-  std::vector<std::array<double, 2>> recorded;  // from and to: only then points are kept
-  unsigned one_pulse_in = 1;                    // of the instrument's
-  std::vector<ControlPoint> control;            // local frame, beside those of a file
+  std::vector<std::array<double, 2>> recorded;                            // from and to: only then points are kept
+  unsigned one_pulse_in = 1;                                              // of the instrument's
+  std::vector<ControlPoint> control;                                      // local frame, beside those of a file
   std::function<void(const CarriedMotion&, const SolvedMotion&)> solved;  // what became of it; may be empty
 };
 
