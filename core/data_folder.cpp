@@ -2,6 +2,7 @@
 #include "core/data_folder.h"
 
 #include <cstdlib>
+#include <utility>
 
 namespace standpoint {
 
@@ -12,6 +13,11 @@ namespace fs = std::filesystem;
 const char* given(const char* variable) {
   const char* value = std::getenv(variable);
   return value != nullptr && *value != 0 ? value : nullptr;
+}
+
+fs::path& folderInUse() {
+  static fs::path folder;
+  return folder;
 }
 
 }  // namespace
@@ -25,9 +31,12 @@ fs::path dataFolderOf(const fs::path& program) {
 
 fs::path dataFolder() {
   if (const char* folder = given("STANDPOINT_DATA")) return folder;
+  if (!folderInUse().empty()) return folderInUse();
   std::error_code error;
   return dataFolderOf(fs::read_symlink("/proc/self/exe", error));
 }
+
+void useDataFolder(fs::path folder) { folderInUse() = std::move(folder); }
 
 fs::path ownPath(const char* variable, const char* name) {
   if (const char* path = variable == nullptr ? nullptr : given(variable)) return path;

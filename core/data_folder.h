@@ -10,6 +10,10 @@ namespace standpoint {
 // rule.
 std::filesystem::path dataFolder();
 
+// Of code that another's program has loaded, such as Python's module: where its data lies, in place of what would be
+// beside that program. STANDPOINT_DATA still comes first. Called before anything asks for data.
+void useDataFolder(std::filesystem::path folder);
+
 // share/standpoint beside the folder of the program, if it is data of ours, so that a tree can be moved; else where the
 // build was told to install it.
 std::filesystem::path dataFolderOf(const std::filesystem::path& program);

@@ -104,6 +104,13 @@ Result<const CloudFormat*> known(const std::filesystem::path& file) {
   return failure(ErrorKind::usage, "no point-cloud format has this extension; use " + extensions, file.string());
 }
 
+Result<const CloudFormat*> readable(const std::filesystem::path& file) {
+  TRY_ASSIGN(const auto format, known(file));
+  if (!format->read)
+    return failure(ErrorKind::usage, std::string(format->name) + " files can only be written", file.string());
+  return format;
+}
+
 }  // namespace
 
 std::span<const CloudFormat> cloudFormats() {
@@ -137,10 +144,13 @@ const CloudFormat* readableCloudFormat(const std::filesystem::path& file) {
   return std::string_view(format->name) == kPly.name && ply::hasFaces(file) ? nullptr : format;
 }
 
+Result<Report> readCloud(const std::filesystem::path& file, PointSink& sink, Progress& progress) {
+  TRY_ASSIGN(const auto format, readable(file));
+  return format->read(file, sink, progress);
+}
+
 Result<CloudExtent> measureCloud(const std::filesystem::path& file, Progress& progress) {
-  TRY_ASSIGN(const auto format, known(file));
-  if (!format->read)
-    return failure(ErrorKind::usage, std::string(format->name) + " files can only be written", file.string());
+  TRY_ASSIGN(const auto format, readable(file));
   TRY_ASSIGN(const auto info, format->info(file));
   CloudExtent extent{.format = info.format, .crs = info.crs};
   ExtentSink sink(extent);
@@ -152,10 +162,8 @@ Result<CloudExtent> measureCloud(const std::filesystem::path& file, Progress& pr
 Result<std::vector<std::filesystem::path>> convertCloud(const std::filesystem::path& in,
                                                         const std::filesystem::path& out, const std::string& as,
                                                         Report& report, Progress& progress, const SinkBefore& through) {
-  TRY_ASSIGN(const auto from, known(in));
+  TRY_ASSIGN(const auto from, readable(in));
   TRY_ASSIGN(const auto to, known(out));
-  if (!from->read)
-    return failure(ErrorKind::usage, std::string(from->name) + " files can only be written", in.string());
   if (!to->writer) return failure(ErrorKind::usage, std::string(to->name) + " files can only be read", out.string());
   TRY_ASSIGN(const auto writer, writerOf(*to, as));
   bool one_each = false;

@@ -25,6 +25,9 @@ Result<CloudFormat::Writer> writerOf(const CloudFormat& format, const std::strin
 // As cloudFormatFor, but looks into what can be either: a PLY with faces is a model, and the answer null.
 const CloudFormat* readableCloudFormat(const std::filesystem::path& file);
 
+// Streams every scan of a file to `sink`, whatever its format: as CloudFormat::read.
+Result<Report> readCloud(const std::filesystem::path& file, PointSink& sink, Progress& progress);
+
 struct CloudExtent {
   std::string format;
   std::uint64_t points = 0;

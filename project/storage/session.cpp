@@ -42,24 +42,32 @@ Result<Outcome> runOnNewProject(const Verb& verb, const fs::path& folder, const 
   return outcome;
 }
 
-// What another has written since `before` was read is not lost.
-Result<void> saveChange(const Verb& verb, const fs::path& folder, const json& own, const Document& document,
-                        const std::string& before, Outcome& outcome, Progress& progress) {
+// What another has written since `before` was read is not lost. `kept` becomes what is in the folder then.
+Result<void> saveChange(const Verb& verb, const fs::path& folder, const json& own, const KeptProject& before,
+                        Outcome& outcome, KeptProject* kept, Progress& progress) {
   TRY_ASSIGN(const auto lock, ProjectLock::acquire(folder, verb.name, progress));
-  TRY_ASSIGN(const auto now, projectText(folder));
-  if (now != before) {
-    TRY_ASSIGN(const auto newest, loadProject(folder, progress));
+  TRY_ASSIGN(auto now, projectText(folder));
+  Document there = kept != nullptr ? before.document : Document();  // else all its parts are written again
+  bool changed = true;
+  if (now != before.text) {
+    TRY_ASSIGN(there, loadProject(folder, progress));
     if (verb.carry_over) {
-      outcome.document = verb.carry_over(document, outcome.document, newest);
+      outcome.document = verb.carry_over(before.document, outcome.document, there);
     } else {
-      TRY_ASSIGN(outcome, runVerb(verb, newest, own, progress));
+      TRY_ASSIGN(outcome, runVerb(verb, there, own, progress));
     }
-    if (outcome.document == newest) return {};
+    changed = outcome.document != there;
+    there = {};
   }
-  return saveProject(outcome.document, folder, progress);
+  if (changed) {
+    TRY(saveChanges(there, outcome.document, folder, progress));
+    TRY_ASSIGN(now, projectText(folder));
+  }
+  if (kept != nullptr) *kept = {outcome.document, std::move(now)};
+  return {};
 }
 
-Result<Outcome> runOnProject(const Verb& verb, const json& options, Progress& progress) {
+Result<Outcome> runOnProject(const Verb& verb, const json& options, KeptProject* kept, Progress& progress) {
   TRY_ASSIGN(auto folder, projectFolder(verb, options));
   json own = options;
   own.erase("project");
@@ -69,26 +77,45 @@ Result<Outcome> runOnProject(const Verb& verb, const json& options, Progress& pr
   if (update && options.value("replace", false))
     return failure(ErrorKind::usage, "--update and --replace cannot be combined", "--update");
   if (verb.scope == VerbScope::creates && !update) return runOnNewProject(verb, folder, own, progress);
-  const auto before = projectText(folder);
+  KeptProject for_once;
+  KeptProject& current = kept != nullptr ? *kept : for_once;
   Report dropped;
-  TRY_ASSIGN(const auto document, loadProject(folder, progress, &dropped));
-  TRY_ASSIGN(auto outcome, runVerb(verb, document, own, progress));
+  TRY(currentDocument(folder, current, progress, &dropped));
+  const KeptProject before = current;
+  TRY_ASSIGN(auto outcome, runVerb(verb, before.document, own, progress));
   outcome.report.append(dropped);
-  if (verb.scope == VerbScope::reads || outcome.document == document) return outcome;
-  TRY(saveChange(verb, folder, own, document, before.value_or(""), outcome, progress));
+  if (verb.scope == VerbScope::reads || outcome.document == before.document) return outcome;
+  TRY(saveChange(verb, folder, own, before, outcome, kept, progress));
+  return outcome;
+}
+
+Result<Outcome> run(const Verb& verb, const json& options, KeptProject* kept, Progress& progress) {
+  const auto started = std::chrono::steady_clock::now();
+  auto outcome = verb.scope == VerbScope::files ? runVerb(verb, {}, options, progress)
+                                                : runOnProject(verb, options, kept, progress);
+  if (!outcome) return outcome;
+  outcome->answer["issues"] = toJson(outcome->report);
+  outcome->answer["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return outcome;
 }
 
 }  // namespace
 
 Result<Outcome> runOnDisk(const Verb& verb, const json& options, Progress& progress) {
-  const auto started = std::chrono::steady_clock::now();
-  auto outcome =
-      verb.scope == VerbScope::files ? runVerb(verb, {}, options, progress) : runOnProject(verb, options, progress);
-  if (!outcome) return outcome;
-  outcome->answer["issues"] = toJson(outcome->report);
-  outcome->answer["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  return outcome;
+  return run(verb, options, nullptr, progress);
+}
+
+Result<Outcome> runOnDisk(const Verb& verb, const json& options, KeptProject& kept, Progress& progress) {
+  const bool has_project = verb.scope == VerbScope::changes || verb.scope == VerbScope::reads;
+  return run(verb, options, has_project ? &kept : nullptr, progress);
+}
+
+Result<Document> currentDocument(const fs::path& folder, KeptProject& kept, Progress& progress, Report* report) {
+  const auto text = projectText(folder);
+  if (text && *text == kept.text && kept.document.imported) return kept.document;
+  TRY_ASSIGN(auto document, loadProject(folder, progress, report));
+  kept = {document, text.value_or("")};
+  return document;
 }
 
 }  // namespace standpoint

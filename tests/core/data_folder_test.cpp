@@ -41,7 +41,11 @@ TEST(DataFolder, IsWhatTheEnvironmentSays) {
   EXPECT_EQ(samplesFolder(), "/some/where/samples");
   setenv("STANDPOINT_SAMPLES", "/else/where", 1);
   EXPECT_EQ(samplesFolder(), "/else/where");
+  useDataFolder("/of/a/module");
+  EXPECT_EQ(dataFolder(), "/some/where");
   setenv("STANDPOINT_DATA", "", 1);  // set to nothing is not set
+  EXPECT_EQ(dataFolder(), "/of/a/module");
+  useDataFolder({});
   EXPECT_EQ(dataFolder(), fs::path(BINARY_DIR) / "share/standpoint");
   unsetenv("STANDPOINT_DATA");
   unsetenv("STANDPOINT_SAMPLES");

@@ -143,6 +143,25 @@ TEST_F(SharedProject, IsNotGivenAStationTwiceByWritersWhoNameItAlike) {
   EXPECT_THAT(stations(), testing::ElementsAre("S1"));
 }
 
+TEST_F(SharedProject, IsReadAgainByWhoKeepsItOnlyWhereAnotherHasWritten) {
+  KeptProject kept;
+  Progress progress;
+  const auto add = [&](const char* name, double x) {
+    return runOnDisk(*findVerb(verbs(), "station"),
+                     {{"project", folder_.path().string()}, {"add", name}, {"at", {x, 1.0, 1.6}}, {"stand", "free"}},
+                     kept, progress);
+  };
+  ASSERT_TRUE(add("S1", 1));
+  const auto model = kept.document.imported;
+  ASSERT_TRUE(add("S2", 2));
+  EXPECT_EQ(kept.document.imported, model);
+  ASSERT_TRUE(runHere("station", {{"add", "W"}, {"at", {3, 1, 1.6}}, {"stand", "free"}}));
+  ASSERT_TRUE(add("S3", 4));
+  EXPECT_NE(kept.document.imported, model);
+  EXPECT_THAT(stations(), testing::ElementsAre("S1", "S2", "W", "S3"));
+  EXPECT_EQ(kept.text, *projectText(folder_.path()));
+}
+
 TEST_F(SharedProject, IsImportedIntoByOneOfTwo) {
   const TemporaryFolder other;
   std::ofstream(other.path() / "a.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
