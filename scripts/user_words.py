@@ -7,7 +7,7 @@ import sys
 
 GLOSSARY = 'docs/glossary.md'
 CODE = ('core/', 'importers/', 'materials/', 'optimizer/', 'scanners/', 'pointclouds/', 'survey/', 'project/',
-        'emulated-ui/', 'editor/', 'cli/')
+        'emulated-ui/', 'editor/', 'cli/', 'python/')
 
 
 def patterns():

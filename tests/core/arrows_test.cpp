@@ -36,6 +36,7 @@ const std::map<std::string, Folders>& allowed() {
       {"emulated-ui", below_doors},
       {"editor", with(below_doors, {"emulated-ui"})},
       {"cli", with(below_doors, {"emulated-ui"})},
+      {"python", with(below_doors, {"emulated-ui"})},
   };
   return table;
 }
