@@ -35,6 +35,7 @@ standpoint_link(${PROJECT_SOURCE_DIR}/samples/pictures ${built_data}/sample-pict
 set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # tests are not what is installed
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME standpoint)  # a package each: this one, and `python` (python/CMakeLists.txt)
 
 set(data ${CMAKE_INSTALL_DATADIR}/standpoint)
 install(TARGETS standpoint standpoint-editor)

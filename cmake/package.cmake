@@ -15,7 +15,6 @@ set(STANDPOINT_CONTACT "Standpoint developers <developers@standpoint.example>" C
 set(CPACK_PACKAGE_NAME standpoint)
 set(CPACK_PACKAGE_VENDOR "Standpoint developers")
 set(CPACK_PACKAGE_CONTACT "${STANDPOINT_CONTACT}")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "rehearse laser scanning in building models")
 set(CPACK_PACKAGE_DIRECTORY ${CMAKE_BINARY_DIR}/packages)
 set(CPACK_PACKAGE_FILE_NAME standpoint-${PROJECT_VERSION}-deb${RELEASE_VERSION_ID}-${CMAKE_SYSTEM_PROCESSOR})
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -27,8 +26,9 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_VERSION ${PROJECT_VERSION}~deb${RELEASE_VERSION_ID})
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_HOMEPAGE ${STANDPOINT_HOMEPAGE})
-set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
-"Standpoint turns a building model (IFC, glTF, OBJ, PLY, STL) into an
+set(CPACK_DEBIAN_STANDPOINT_DESCRIPTION
+"rehearse laser scanning in building models
+Standpoint turns a building model (IFC, glTF, OBJ, PLY, STL) into an
 environment in which laser scanning can be rehearsed. It brings the model to
 a polygon budget, makes collision shapes, assigns physical materials, and
 scans it through emulated instrument menus into E57, LAS, PTX and other
@@ -42,10 +42,36 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
   "fonts-inter, fonts-jetbrains-mono, fonts-font-awesome, libifcplusplus, libgl1-mesa-dri, proj-data")
 
+# A package each; the archive has both.
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_COMPONENTS_ALL standpoint)
+set(CPACK_DEBIAN_STANDPOINT_PACKAGE_NAME standpoint)
+if(STANDPOINT_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  math(EXPR python_after "${Python_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-standpoint)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "standpoint (= ${CPACK_DEBIAN_PACKAGE_VERSION}), python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${python_after}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+    "${PROJECT_SOURCE_DIR}/packaging/python/postinst;${PROJECT_SOURCE_DIR}/packaging/python/prerm")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+  set(CPACK_DEBIAN_PYTHON_DESCRIPTION
+"rehearse laser scanning in building models (Python)
+The verbs of Standpoint as functions of Python, and its points, labels and
+meshes as NumPy arrays without a copy: for researchers who make labelled
+point clouds with known truth, and for notebooks.")
+endif()
+
 configure_file(packaging/changelog.in ${CMAKE_BINARY_DIR}/changelog @ONLY)
 add_custom_command(OUTPUT ${CMAKE_BINARY_DIR}/changelog.gz
   COMMAND gzip -9nkf ${CMAKE_BINARY_DIR}/changelog DEPENDS ${CMAKE_BINARY_DIR}/changelog)
 add_custom_target(package_changelog DEPENDS ${CMAKE_BINARY_DIR}/changelog.gz)
 add_dependencies(installable package_changelog)
 install(FILES packaging/copyright ${CMAKE_BINARY_DIR}/changelog.gz DESTINATION ${CMAKE_INSTALL_DOCDIR})
+if(STANDPOINT_PYTHON)
+  install(FILES packaging/copyright ${CMAKE_BINARY_DIR}/changelog.gz
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-standpoint COMPONENT python)
+endif()
 include(CPack)

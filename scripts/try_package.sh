@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # try_package.sh [--base FOLDER] [--keep] DEB: installs the package in a clean root of this release of Debian and does the
-# main job from it as a plain user, with times; tries the .tar.zst beside it, too. Needs root or sudo. Exit code 5: no clean
+# main job from it as a plain user, with times; tries the .tar.zst and Python's package beside it, too. Needs root or sudo. Exit code 5: no clean
 # root could be made, for want of Debian's packages, so nothing was tried.
 #   --base FOLDER   the bare root is made here once and copied from here the next time
 #   --keep          leaves the root that was tried
@@ -99,6 +99,20 @@ if [[ -n $archive ]]; then
     fail "the archive does not find its own data"
   as_user "$unpacked/standpoint-editor" --help >/dev/null
   say "archive with libraries" "finds its own data"
+fi
+python=$(ls "${deb%/*}"/python3-standpoint_*.deb 2>/dev/null) || true
+if [[ -n $python ]]; then
+  since=$SECONDS
+  cp "$python" "$root/tmp/python3-standpoint.deb"
+  in_root apt-get update -qq || exit 5
+  in_root apt-get install -y --no-install-recommends /tmp/python3-standpoint.deb >"$work/log" 2>&1 ||
+    { cat "$work/log" >&2; exit 4; }
+  in_root apt-get clean
+  read_by_python=$(as_user python3 -c 'import standpoint
+print(sum(map(len, standpoint.read_cloud("/home/surveyor/job/out/scan.e57"))), len(standpoint.instruments()["instruments"]))')
+  [[ $read_by_python == "${points#*:} "[1-9]* ]] || fail "Python reads $read_by_python of ${points#*:} points"
+  say "Python's package" "$(took) with what it needs, reads ${read_by_python% *} points"
+  in_root apt-get purge -y python3-standpoint >/dev/null 2>&1
 fi
 in_root apt-get purge -y standpoint >/dev/null 2>&1
 left=$(find "$root/usr" "$root/etc" -iname '*standpoint*')
