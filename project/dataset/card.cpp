@@ -17,7 +17,7 @@ constexpr const char* kCardStyle =
     R"(body{font:10pt sans-serif;color:#111;background:#fff;max-width:180mm;margin:2em auto}
 h1{font-size:16pt}h2{font-size:12pt;margin:1.4em 0 .4em}table{border-collapse:collapse;width:100%}
 td,th{border-bottom:1px solid #ccc;padding:3px 6px;text-align:left}td.n,th.n{text-align:right;white-space:nowrap}
-td.b{width:45%}td.b span{display:block;height:.8em;background:#0072B2}td.b span.s{background:#D55E00}
+img{max-width:100%}
 )";
 
 // What both cards say, as rows of name and value.
@@ -77,11 +77,15 @@ std::string cardMarkdown(const Recipe& recipe, const SetCheck& check) {
   for (const auto& e : recipe.environments)
     text += fmt::format("| {} | {} | {} | {} |\n", e.id, e.building, recipe.splitOf(e),
                         e.license.empty() ? "not stated" : e.license);
+  text += "\n## Plans\n";
+  for (const auto& e : recipe.environments)
+    text += fmt::format("\n{}\n\n![Plan with its stations]({})\n", e.id, pictureFile(e).generic_string());
   text += "\n## Axes\n\n| id | what |\n|---|---|\n";
   for (const auto& row : axesOf(recipe)) text += fmt::format("| {} | {} |\n", row.id, row.what);
   for (std::size_t m = 0; m < recipe.classes.size(); ++m) {
     const auto balance = balanceOf(recipe, check, m);
-    text += fmt::format("\n## Classes: {}\n\n| id | class |", recipe.classes[m].map.name);
+    text += fmt::format("\n## Classes: {}\n\n![Balance of the classes]({})\n\n| id | class |",
+                        recipe.classes[m].map.name, balanceFile(recipe.classes[m]));
     for (const auto& split : balance) text += fmt::format(" {} |", split.split);
     text += "\n|--:|---|";
     for (std::size_t s = 0; s < balance.size(); ++s) text += "--:|";
@@ -112,30 +116,29 @@ std::string cardHtml(const Recipe& recipe, const SetCheck& check) {
   for (const auto& row : axesOf(recipe))
     text += fmt::format("<tr><td>{}<td>{}</tr>\n", htmlText(row.id), htmlText(row.what));
   text += "</table>\n";
-  for (std::size_t m = 0; m < recipe.classes.size(); ++m)
-    for (const auto& split : balanceOf(recipe, check, m)) {
-      text += fmt::format(
-          "<h2>Classes: {}, {}</h2>\n<table><tr><th class=\"n\">Id<th>Class<th class=\"n\">Points"
-          "<th class=\"n\">Share<th></tr>\n",
-          htmlText(recipe.classes[m].map.name), split.split);
-      const auto& classes = recipe.classes[m].map.classes;
-      for (std::size_t k = 0; k < classes.size(); ++k) {
-        const auto& one = classes[k];
-        const double share = one.ignored || split.counted == 0
-                                 ? 0
-                                 : static_cast<double>(split.points[k]) / static_cast<double>(split.counted);
-        text += fmt::format("<tr><td class=\"n\">{}<td>{}<td class=\"n\">{}<td class=\"n\">{}<td class=\"b\">", one.id,
-                            htmlText(one.name), groupedDigits(split.points[k]),
-                            one.ignored ? "ignored" : fmt::format("{:.2f}&nbsp;%", 100 * share));
-        if (!one.ignored)
-          text += fmt::format("<span{} style=\"width:{:.2f}%\"></span>",
-                              share < recipe.starved_below ? " class=\"s\"" : "", 100 * share);
-        text += "</tr>\n";
-      }
-      text += "</table>\n";
+  text += "<h2>Plans</h2>\n";
+  for (const auto& e : recipe.environments)
+    text += fmt::format("<h3>{0}</h3>\n<p><img src=\"{1}\" alt=\"Plan of {0} with its stations\"></p>\n",
+                        htmlText(e.id), pictureFile(e).generic_string());
+  for (std::size_t m = 0; m < recipe.classes.size(); ++m) {
+    const auto& map = recipe.classes[m];
+    text += fmt::format("<h2>Classes: {0}</h2>\n<p><img src=\"{1}\" alt=\"Balance of the classes of {0}\"></p>\n",
+                        htmlText(map.map.name), balanceFile(map));
+    const auto balance = balanceOf(recipe, check, m);
+    text += "<table><tr><th class=\"n\">Id<th>Class";
+    for (const auto& split : balance) text += fmt::format("<th class=\"n\">Points: {}", split.split);
+    text += "</tr>\n";
+    for (std::size_t k = 0; k < map.map.classes.size(); ++k) {
+      const auto& one = map.map.classes[k];
+      text +=
+          fmt::format("<tr><td class=\"n\">{}<td>{}{}", one.id, htmlText(one.name), one.ignored ? " (ignored)" : "");
+      for (const auto& split : balance) text += fmt::format("<td class=\"n\">{}", groupedDigits(split.points[k]));
+      text += "</tr>\n";
     }
-  return text +
-         fmt::format("<p>Orange: less than {} % of the split.</p>\n</body></html>\n", 100 * recipe.starved_below);
+    text += "</table>\n";
+  }
+  return text + fmt::format("<p>Starved: less than {} % of the points of a split.</p>\n</body></html>\n",
+                            100 * recipe.starved_below);
 }
 
 }  // namespace standpoint

@@ -55,7 +55,7 @@ Result<void> checkRecipe(const DatasetOptions& options, DatasetOutcome& outcome,
   answer.recipe = recipe.name;
   answer.scans = forecast.scans;
   answer.points = static_cast<std::uint64_t>(std::llround(forecast.points));
-  if (forecast.bytes) answer.bytes = static_cast<std::uint64_t>(std::llround(*forecast.bytes));
+  answer.bytes = static_cast<std::uint64_t>(std::llround(forecast.bytes));
   constexpr double kSecondsPerHour = 3600;
   answer.instrument_hours = forecast.instrument_seconds / kSecondsPerHour;
   answer.compute_hours = forecast.points / options.rate_points_per_s / kSecondsPerHour;
@@ -73,9 +73,9 @@ Result<void> checkRecipe(const DatasetOptions& options, DatasetOutcome& outcome,
     outcome.report.note(recipe.name,
                         fmt::format("{} of {} classes of a split are starved: less than {} % of its points", starved,
                                     forecast.classes.size(), 100 * recipe.starved_below));
-  outcome.description = fmt::format(
-      "{} would make {} scans with {:.1f} M points{} in {:.1f} h", recipe.name, forecast.scans, forecast.points / 1e6,
-      forecast.bytes ? fmt::format(" and {:.2f} GB", *forecast.bytes / 1e9) : "", *answer.compute_hours);
+  outcome.description =
+      fmt::format("{} would make {} scans with {:.1f} M points and {:.2f} GB in {:.1f} h", recipe.name, forecast.scans,
+                  forecast.points / 1e6, forecast.bytes / 1e9, *answer.compute_hours);
   answer.environments = std::move(forecast.environments);
   answer.classes = std::move(forecast.classes);
   answer.unmapped = std::move(forecast.unmapped);
@@ -105,14 +105,21 @@ std::string wrongWith(const SetCheck& check) {
       check.missing.size(), check.damaged.size(), first);
 }
 
+// What is in it is nobody's loss: a run goes on and will finish it, or died and was resumed.
+void noteWork(const fs::path& set, DatasetOutcome& outcome) {
+  outcome.answer.working = workFoldersOf(set);
+  for (const auto& folder : outcome.answer.working)
+    outcome.report.note(folder, "is of a run that goes on, or that died on another machine: then it can be removed");
+}
+
 Result<void> describeSet(const fs::path& set, const Recipe& recipe, DatasetOutcome& outcome, Progress& progress) {
   TRY_ASSIGN(const auto check, checkSet(set, recipe, progress));
   takeCheck(check, outcome.answer);
   if (!check.isWhole()) return failure(ErrorKind::unusable, wrongWith(check), set.string());
-  std::error_code ignored;
-  fs::remove_all(set / kWorkFolder, ignored);  // of machines that are gone
   TRY_ASSIGN(outcome.answer.written, writeManifest(set, recipe, check, progress));
-  fs::remove(set / kWorkFolder, ignored);
+  std::error_code ignored;
+  fs::remove(set / kWorkFolder, ignored);  // where no other run has anything in it
+  noteWork(set, outcome);
   return {};
 }
 
@@ -143,6 +150,7 @@ Result<void> verifySet(const DatasetOptions& options, DatasetOutcome& outcome, P
   for (const auto& path : check.missing) outcome.report.lose(path, "is missing: resume the run to make it");
   for (const auto& path : check.damaged) outcome.report.lose(path, "is damaged: remove it and resume the run");
   for (const auto& path : check.unknown) outcome.report.warn(path, "belongs to no scan of the recipe");
+  noteWork(options.of, outcome);
   outcome.description = check.isWhole()
                             ? fmt::format("{} is whole: {} files as they were written", recipe.name, check.files)
                             : fmt::format("{} is not whole: {} files missing, {} damaged", recipe.name,
@@ -249,6 +257,7 @@ const AnswerFields<DatasetAnswer>& answerFields(const DatasetAnswer*) {
                                          {"missing", &A::missing, kLeftOut},
                                          {"damaged", &A::damaged, kLeftOut},
                                          {"unknown", &A::unknown, kLeftOut},
+                                         {"working", &A::working, kLeftOut},
                                          {"written", &A::written, kLeftOut}};
   return fields;
 }

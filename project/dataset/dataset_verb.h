@@ -30,19 +30,19 @@ struct DatasetOptions {
   std::optional<Shard> shard;
   bool resume = false;
   int threads = 0;
-  unsigned shards = 1;                // of slurm
-  std::size_t samples = 20000;        // of check
-  double rate_points_per_s = 300000;  // of check: that the machine makes
+  unsigned shards = 1;                 // of slurm
+  std::size_t samples = 20000;         // of check
+  double rate_points_per_s = 1000000;  // of check: that the machine makes
 };
 const Fields<DatasetOptions>& datasetFields();
 
 const AnswerFields<SetEnvironmentForecast>& answerFields(const SetEnvironmentForecast*);
 const AnswerFields<SetClassForecast>& answerFields(const SetClassForecast*);
 struct DatasetAnswer {
-  std::string recipe;                   // its name
-  std::optional<std::size_t> scans;     // that there are, or would be
-  std::optional<std::uint64_t> points;  // likewise
-  std::optional<std::uint64_t> bytes;   // of clouds and labels; nothing where a format's size is only known afterwards
+  std::string recipe;                                     // its name
+  std::optional<std::size_t> scans;                       // that there are, or would be
+  std::optional<std::uint64_t> points;                    // likewise
+  std::optional<std::uint64_t> bytes;                     // of clouds and labels
   std::optional<double> instrument_hours, compute_hours;  // of check
   std::optional<std::size_t> places;                      // of the recipe, or of the shard
   std::vector<SetEnvironmentForecast> environments;       // of check
@@ -52,6 +52,7 @@ struct DatasetAnswer {
   std::optional<double> points_per_second;                // of run
   std::optional<std::size_t> files, not_made;             // of verify and manifest
   std::vector<std::string> missing, damaged, unknown;     // likewise
+  std::vector<std::string> working;                       // likewise: work folders of other runs
   std::vector<std::string> written;                       // of run, manifest and slurm
 };
 const AnswerFields<DatasetAnswer>& answerFields(const DatasetAnswer*);

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <map>
 
+#include "project/dataset/cloud_size.h"
 #include "project/dataset/set_environment.h"
-#include "project/survey/scan_request.h"
 #include "scanners/forecast/scan_forecast.h"
 #include "survey/instruments.h"
 #include "survey/scanning/scan_world.h"
@@ -15,7 +15,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr double kBytesOfId = 2, kBytesOfInstance = 4;
+constexpr double kBytesOfId = 2, kBytesOfInstance = 4, kBytesOfArrayHead = 128;
 
 // Points of each class of each map, by split.
 using ClassPoints = std::map<std::string, std::vector<std::vector<double>>>;
@@ -26,8 +26,6 @@ class SetForecaster {
     // What differs in nothing that a forecast knows is forecast once.
     each_ = recipe.weather.size() * recipe.seeds.size() * recipe.effects.size();
     for (const auto& fault : recipe.field_faults) faults_ += fault.fault.until_fraction;
-    forecast_.bytes = 0;
-    if (recipe.format != "e57" || !recipe.as.empty()) forecast_.bytes.reset();
   }
 
   Result<SetForecast> make(Report& report, Progress& progress) {
@@ -60,39 +58,48 @@ class SetForecaster {
       for (const auto& map : recipe_.classes) points.emplace_back(map.map.classes.size(), 0);
     for (const auto& materials : recipe_.materials) {
       TRY_ASSIGN(const auto document, withMaterials(opened.document, materials, inner));
-      const auto assignment = std::make_shared<const MaterialAssignment>(document.materials->result.assignment);
+      TRY_ASSIGN(const auto preparation, prepareScan(document, opened.scene, inner));
       for (const auto& instrument : recipe_.instruments) {
         TRY(progress.check());
-        TRY(scans(opened, document, assignment, instrument, samples, points, row));
+        TRY(scans(opened, document, preparation, instrument, samples, points, row, inner));
       }
     }
     forecast_.scans += row.scans;
     forecast_.points += row.points;
     forecast_.instrument_seconds += row.instrument_seconds;
-    if (forecast_.bytes) *forecast_.bytes += row.bytes;
+    forecast_.bytes += row.bytes;
     forecast_.environments.push_back(std::move(row));
     return {};
   }
 
   Result<void> scans(const SetEnvironment& opened, const Document& document,
-                     const std::shared_ptr<const MaterialAssignment>& assignment, const RecipeInstrument& setting,
+                     const std::shared_ptr<const ScanPreparation>& preparation, const RecipeInstrument& setting,
                      const SurfaceSamples& samples, std::vector<std::vector<double>>& points,
-                     SetEnvironmentForecast& row) {
+                     SetEnvironmentForecast& row, Progress& progress) {
     TRY_ASSIGN(const auto instrument, instrumentNamed(setting.instrument));
     TRY_ASSIGN(const auto settings, resolveSettings(instrument, setting.settings));
+    const auto assignment = std::make_shared<const MaterialAssignment>(document.materials->result.assignment);
     const Expectation expectation(opened.scene, assignment, ReturnLaw(instrument, settings));
-    const ScanChannels channels{
-        .time = recipe_.truth, .returns = recipe_.truth || instrument.waveform.max_returns > 1, .truth = recipe_.truth};
-    const double labels = kBytesOfId * static_cast<double>(recipe_.classes.size()) + kBytesOfInstance;
-    const double bytes = bytesPerPoint(settings, channels, *document.environment(), assignment->materials.size());
+    const auto arrays = static_cast<double>(recipe_.classes.size());
+    const double label = kBytesOfId * arrays + kBytesOfInstance, head = kBytesOfArrayHead * (arrays + 1);
     const double times = static_cast<double>(each_) * faults_;
-    for (const auto& station : document.job->stations) {
-      const auto scan = forecastScan(expectation, station.true_pose, samples, {});
-      row.scans += each_ * recipe_.field_faults.size();
+    const auto count = each_ * recipe_.field_faults.size();
+    const double cells = static_cast<double>(settings.rows) * settings.columns;
+    const auto& stations = document.job->stations;
+    std::vector<ScanForecast> forecasts;
+    for (const auto& station : stations) forecasts.push_back(forecastScan(expectation, station.true_pose, samples, {}));
+    const auto most = std::max_element(forecasts.begin(), forecasts.end(),
+                                       [](const auto& a, const auto& b) { return a.points < b.points; });
+    TRY_ASSIGN(const auto size, measureCloudSize(recipe_, setting, document,
+                                                 stations[static_cast<std::size_t>(most - forecasts.begin())],
+                                                 preparation, most->points, progress));
+    for (std::size_t k = 0; k < stations.size(); ++k) {
+      const auto& scan = forecasts[k];
+      row.scans += count;
       row.points += scan.points * times;
       row.instrument_seconds += scan.seconds * times;
-      row.bytes += scan.points * times * (bytes + labels);
-      addBalance(*document.environment(), samples, station.true_pose, settings, scan, times, points);
+      row.bytes += static_cast<double>(count) * (size.of(cells, 0) + head) + scan.points * times * (size.point + label);
+      addBalance(*document.environment(), samples, stations[k].true_pose, settings, scan, times, points);
     }
     return {};
   }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,14 +26,14 @@ struct SetForecast {
   std::vector<SetEnvironmentForecast> environments;
   std::vector<SetClassForecast> classes;
   std::size_t scans = 0;
-  double points = 0, instrument_seconds = 0;
-  std::optional<double> bytes;        // of clouds and labels; nothing for formats whose size is only known afterwards
-  std::vector<std::string> unmapped;  // "s3dis: IfcFlowTerminal"
+  double points = 0, bytes = 0, instrument_seconds = 0;  // bytes of clouds and labels
+  std::vector<std::string> unmapped;                     // "s3dis: IfcFlowTerminal"
 };
 
 // What a recipe would make, without scanning: the models are read, the stations found and each scan forecast by the
 // laws of its instrument (scanners/forecast), in clear air and with one return of a pulse. `samples` on the surfaces of
-// each environment carry the balance of the classes.
+// each environment carry the balance of the classes, and of each instrument there some thousand points are written as
+// the recipe wants them, for the bytes.
 Result<SetForecast> forecastSet(const Recipe& recipe, std::size_t samples, Report& report, Progress& progress);
 
 }  // namespace standpoint

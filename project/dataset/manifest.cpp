@@ -3,14 +3,20 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
+#include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "core/csv_text.h"
 #include "core/part_file.h"
 #include "core/sha256.h"
 #include "project/dataset/program_version.h"
+#include "project/dataset/set_pictures.h"
+#include "project/dataset/stac_item.h"
+#include "survey/instruments.h"
 
 namespace standpoint {
 
@@ -20,6 +26,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char *kScansFile = "scans.csv", *kCroissantFile = "croissant.json";
+// Of this program and the data that it ships.
+constexpr const char* kOwnLicense = "https://spdx.org/licenses/GPL-3.0-or-later.html";
 
 struct ScanColumn {
   const char *name, *type, *what;
@@ -43,6 +51,8 @@ constexpr ScanColumn kColumns[] = {{"scan", "sc:Text", "Name of the scan, the ke
 
 // "s3dis:wall"
 std::string classColumn(const RecipeClasses& map, const ClassMap::Class& one) { return map.id + ":" + one.name; }
+
+std::string sumColumn(const std::string& labels) { return "sha256:" + labels; }
 
 // Ids are parts of addresses: letters, digits and '-'.
 std::string asId(std::string name) {
@@ -120,6 +130,47 @@ Json context() {
           {"transform", "cr:transform"}};
 }
 
+// What the points come from: models, instruments, figures of materials and this program, with their licences.
+Json basedOn(const Recipe& recipe, const SetCheck& check) {
+  const auto work = [](const char* type, const std::string& name, const std::string& what, const std::string& license) {
+    return Json{{"@type", type},
+                {"name", name},
+                {"description", what},
+                {"license", license.empty() ? std::string("not stated") : license}};
+  };
+  Json works = Json::array();
+  auto program = work("sc:SoftwareApplication", "Standpoint", "The simulator", kOwnLicense);
+  program["softwareVersion"] = programVersion();
+  works.push_back(std::move(program));
+  for (std::size_t e = 0; e < recipe.environments.size(); ++e) {
+    const auto& environment = recipe.environments[e];
+    works.push_back(work("sc:CreativeWork", "model " + environment.id,
+                         (environment.model.empty() ? environment.project : environment.model).filename().string() +
+                             "; " + check.environments[e].identity,
+                         environment.license));
+  }
+  std::set<std::string> instruments;
+  for (const auto& one : recipe.instruments)
+    if (instruments.insert(one.instrument).second) {
+      const bool own = isInstrumentFile(one.instrument);
+      works.push_back(
+          work("sc:CreativeWork", "instrument " + (own ? fs::path(one.instrument).filename().string() : one.instrument),
+               own ? "Figures of the instrument, a file of its own" : "Figures of the instrument, of Standpoint",
+               own ? "" : kOwnLicense));
+    }
+  std::map<std::string, std::set<std::string>> materials;  // by licence
+  for (const auto& environment : check.environments)
+    for (const auto& [id, licenses] : environment.materials) {
+      for (const auto& license : licenses) materials[license].insert(id);
+      if (licenses.empty()) materials[""].insert(id);
+    }
+  for (const auto& [license, ids] : materials)
+    works.push_back(work("sc:CreativeWork",
+                         license.empty() ? "materials without measured figures" : "figures of materials",
+                         fmt::format("{}", fmt::join(ids, ", ")), license.empty() ? kOwnLicense : license));
+  return works;
+}
+
 Json splitRecords(const Recipe& recipe) {
   Json data = Json::array();
   for (const auto& split : recipe.splits) {
@@ -165,6 +216,9 @@ Json scanRecords(const Recipe& recipe) {
     if (std::string_view(column.name) == "split") fields.back()["references"] = {{"field", {{"@id", "splits/name"}}}};
   }
   for (const auto& map : recipe.classes)
+    fields.push_back(fieldOf(sumColumn(map.id), "sc:Text", "Checksum of the labels *." + map.id + ".npy"));
+  fields.push_back(fieldOf(sumColumn("instances"), "sc:Text", "Checksum of the labels *.instances.npy"));
+  for (const auto& map : recipe.classes)
     for (const auto& one : map.map.classes)
       fields.push_back(fieldOf(classColumn(map, one), "sc:Integer", "Points of the class"));
   return {{"@type", "cr:RecordSet"},
@@ -180,6 +234,8 @@ Json scanRecords(const Recipe& recipe) {
 std::string scansCsv(const Recipe& recipe, const SetCheck& check) {
   std::string text;
   for (const auto& column : kColumns) text += (text.empty() ? "" : ",") + std::string(column.name);
+  for (const auto& map : recipe.classes) text += "," + sumColumn(map.id);
+  text += "," + sumColumn("instances");
   for (const auto& map : recipe.classes)
     for (const auto& one : map.map.classes) text += "," + csvText(classColumn(map, one));
   text += "\n";
@@ -192,6 +248,7 @@ std::string scansCsv(const Recipe& recipe, const SetCheck& check) {
                         scan.place.station, recipe.instruments[v.instrument].id, recipe.weather[v.weather].id,
                         recipe.materials[v.materials].id, recipe.field_faults[v.fault].id, recipe.effects[v.effects].id,
                         recipe.seeds[v.seed], scan.record.seed, scan.record.points);
+    for (std::size_t k = 1; k < scan.record.files.size(); ++k) text += "," + scan.record.files[k].sha256;
     for (const auto& map : recipe.classes)
       for (const auto count : scan.record.classes.at(map.id)) text += fmt::format(",{}", count);
     text += "\n";
@@ -212,12 +269,10 @@ std::string croissantText(const Recipe& recipe, const SetCheck& check, const std
   files.push_back(fileObject(kScansFile, "text/csv", scans_csv.size(), sha256Of(scans_csv)));
   for (const auto& other : check.others)
     if (!other.path.starts_with("records/"))
-      files.push_back(fileObject(other.path, "application/json", other.bytes, other.sha256));
-  const auto format = recipe.format == "e57"   ? std::string("model/e57")
-                      : recipe.format == "las" ? std::string("application/vnd.las")
-                                               : std::string("application/octet-stream");
+      files.push_back(fileObject(other.path, other.path.ends_with(".svg") ? "image/svg+xml" : "application/json",
+                                 other.bytes, other.sha256));
   files.push_back(fileSet("clouds", "Point clouds with product and material of each point",
-                          "scans/**/*" + recipe.extension(), format));
+                          "scans/**/*" + recipe.extension(), cloudMediaType(recipe)));
   for (const auto& map : recipe.classes)
     files.push_back(fileSet("labels-" + map.id, "Class of each point, in the order of the cloud: " + map.map.name,
                             "labels/**/*." + map.id + ".npy", "application/octet-stream"));
@@ -239,10 +294,19 @@ std::string croissantText(const Recipe& recipe, const SetCheck& check, const std
                      {"version", recipe.version},
                      {"keywords", {"laser scanning", "point cloud", "semantic segmentation", "simulation"}},
                      {"isLiveDataset", false},
+                     {"isBasedOn", basedOn(recipe, check)},
                      {"dataCollection", fmt::format("Simulated with Standpoint {} from recipe.json", programVersion())},
                      {"distribution", std::move(files)},
                      {"recordSet", std::move(records)}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string balanceFile(const RecipeClasses& map) { return "balance/" + map.id + ".svg"; }
+
+std::string cloudMediaType(const Recipe& recipe) {
+  return recipe.format == "e57"   ? "model/e57"
+         : recipe.format == "las" ? "application/vnd.las"
+                                  : "application/octet-stream";
 }
 
 std::vector<SplitBalance> balanceOf(const Recipe& recipe, const SetCheck& check, std::size_t map) {
@@ -268,10 +332,16 @@ Result<std::vector<std::string>> writeManifest(const fs::path& set, const Recipe
   std::vector<SetFile> files = check.others;
   for (const auto& scan : check.scans) files.insert(files.end(), scan.record.files.begin(), scan.record.files.end());
   const auto csv = scansCsv(recipe, check);
-  const std::pair<std::string, std::string> texts[] = {{kScansFile, csv},
-                                                       {kCroissantFile, croissantText(recipe, check, csv)},
-                                                       {"card.html", cardHtml(recipe, check)},
-                                                       {"card.md", cardMarkdown(recipe, check)}};
+  std::vector<std::pair<std::string, std::string>> texts = {{kScansFile, csv},
+                                                            {kCroissantFile, croissantText(recipe, check, csv)},
+                                                            {"card.html", cardHtml(recipe, check)},
+                                                            {"card.md", cardMarkdown(recipe, check)}};
+  for (std::size_t m = 0; m < recipe.classes.size(); ++m)
+    texts.emplace_back(balanceFile(recipe.classes[m]), balanceChart(recipe, check, m));
+  for (std::size_t e = 0; e < recipe.environments.size(); ++e) {
+    TRY_ASSIGN(const auto item, stacItem(recipe, check, e));
+    if (item) texts.emplace_back(stacFile(recipe.environments[e]), *item);
+  }
   std::vector<std::string> written;
   TRY_ASSIGN(const auto folder, SetFolder::open(set, recipe));
   for (const auto& [name, text] : texts) {

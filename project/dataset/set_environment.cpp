@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/sha256.h"
+#include "project/dataset/set_pictures.h"
 #include "project/materials/materials_verb.h"
 #include "project/model/import_verb.h"
 #include "project/storage/project_files.h"
@@ -184,6 +186,40 @@ Result<void> checkMaps(const Recipe& recipe, const RecipeEnvironment& environmen
   return {};
 }
 
+// The licences of the sources that figures of materials come from, by material: of all entries of that axis.
+Result<Json> materialLicences(const Recipe& recipe, const Document& document, Progress& progress) {
+  std::map<std::string, std::set<std::string>> licences;
+  for (const auto& materials : recipe.materials) {
+    TRY_ASSIGN(const auto assigned, withMaterials(document, materials, progress));
+    for (const auto& material : assigned.materials->result.assignment.materials)
+      for (const auto& source : material.sources)
+        if (auto& of_material = licences[material.id]; !source.licence.empty()) of_material.insert(source.licence);
+  }
+  Json json = Json::array();
+  for (const auto& [id, texts] : licences) json.push_back({{"id", id}, {"licenses", texts}});
+  return json;
+}
+
+// Where it is on a map: the corners of its plan and its heights, in metres of the CRS; null where it is nowhere.
+Json placeOnMap(const Document& document) {
+  const auto& g = *document.georeference;
+  if (g.crs.empty()) return nullptr;
+  const Bounds box = bounds(sceneOf(*document.environment()));
+  const auto onMap = [&](double x, double y, double z) -> Eigen::Vector3d {
+    const Eigen::Vector3d file = Eigen::Vector3d(x, y, z) + g.shift_m;
+    return g.map_from_file ? mapFromFile(*g.map_from_file, file) : file;
+  };
+  Json corners = Json::array();
+  for (const auto& [x, y] : {std::pair(box.min.x(), box.min.y()), std::pair(box.max.x(), box.min.y()),
+                             std::pair(box.max.x(), box.max.y()), std::pair(box.min.x(), box.max.y())}) {
+    const auto at = onMap(x, y, box.min.z());
+    corners.push_back({at.x(), at.y()});
+  }
+  return {{"crs", g.crs},
+          {"corners", std::move(corners)},
+          {"heights", {onMap(0, 0, box.min.z()).z(), onMap(0, 0, box.max.z()).z()}}};
+}
+
 Result<std::string> describedEnvironment(const Recipe& recipe, std::size_t index, const SetEnvironment& made,
                                          Progress& progress) {
   const auto& environment = recipe.environments[index];
@@ -217,6 +253,11 @@ Result<std::string> describedEnvironment(const Recipe& recipe, std::size_t index
   json["world"] = fmt::format("{:016x}", fingerprintOf(world));
   json["products"] = document.environment()->products.size();
   json["triangles"] = sceneTriangleCount(*document.environment());
+  json["map"] = placeOnMap(document);
+  TRY_ASSIGN(json["materials"], materialLicences(recipe, document, progress));
+  json["picture"] = {{"path", pictureFile(environment).generic_string()},
+                     {"bytes", made.picture.size()},
+                     {"sha256", sha256Of(made.picture)}};
   json["stations"] = std::move(stations);
   json["without_room"] = std::move(empty);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -244,6 +285,7 @@ Result<SetEnvironment> openEnvironment(const Recipe& recipe, std::size_t index, 
   }
   TRY_ASSIGN(made.scene, RayScene::build(made.document.environment(), progress));
   TRY(StationFinder(environment, recipe.seed, made, report).find(progress));
+  made.picture = plansOf(made.document);
   TRY_ASSIGN(made.described, describedEnvironment(recipe, index, made, progress));
   return made;
 }

@@ -17,7 +17,8 @@ struct SetEnvironment {
   Document document;                                // its job has the stations, and no others
   std::shared_ptr<const RayScene> scene;            // of its model alone
   std::vector<std::optional<std::size_t>> station;  // of each place in the environment's order: index into the job
-  std::string described;                            // what environments/ID.json says, the same for every shard
+  std::string picture;                              // environments/ID.svg, the same for every shard
+  std::string described;                            // what environments/ID.json says, likewise
   std::vector<std::string> unmapped;                // IFC classes for which a map has no rule, as "map: class"
 };
 

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <csignal>
+#include <cstdlib>
+#include <tuple>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -29,13 +32,39 @@ std::string hostName() {
   return ::gethostname(name.data(), name.size() - 1) == 0 ? std::string(name.data()) : "host";
 }
 
-// "HOST.PID" of another process that has ended.
+// Which numbers of processes are of the same processes: a container may have its own.
+std::string processSpace() {
+  std::error_code error;
+  const auto text = fs::read_symlink("/proc/self/ns/pid", error).string();  // "pid:[4026531836]"
+  const auto from = text.find('['), to = text.find(']');
+  return to < text.size() && from < to ? text.substr(from + 1, to - from - 1) : "0";
+}
+
+// "rack7.4026531836." of this process and those beside it.
+std::string machineName() { return fmt::format("{}.{}.", hostName(), processSpace()); }
+
+// "8_3.1." in the second start of task 3 of Slurm's job 8, else nothing.
+std::string taskName() {
+  const auto word = [](const char* name) {
+    const char* const value = std::getenv(name);
+    std::string text = value != nullptr ? value : "";
+    std::erase_if(text, [](unsigned char c) { return std::isalnum(c) == 0; });
+    return text;
+  };
+  const auto array = word("SLURM_ARRAY_JOB_ID"), job = array.empty() ? word("SLURM_JOB_ID") : array;
+  if (job.empty()) return {};
+  const auto task = word("SLURM_ARRAY_TASK_ID"), restart = word("SLURM_RESTART_COUNT");
+  return fmt::format("{}{}{}.{}.", job, task.empty() ? "" : "_", task, restart.empty() ? "0" : restart);
+}
+
+// The work folder of a process of this machine that has ended.
 bool isLeft(const std::string& name) {
-  const auto dot = name.rfind('.');
-  if (dot == std::string::npos || name.substr(0, dot) != hostName()) return false;
+  const auto machine = machineName();
+  const auto at = name.rfind(machine);
+  if (at == std::string::npos || (at > 0 && name[at - 1] != '.')) return false;
   pid_t process = 0;
   const char* const end = name.data() + name.size();
-  if (std::from_chars(name.data() + dot + 1, end, process).ptr != end || process <= 0) return false;
+  if (std::from_chars(name.data() + at + machine.size(), end, process).ptr != end || process <= 0) return false;
   return ::kill(process, 0) != 0 && errno == ESRCH;
 }
 
@@ -55,6 +84,26 @@ tl::unexpected<Error> cannotMake(const fs::path& path, const std::error_code& er
 
 std::uint64_t wholeAt(JsonFields& fields, const char* key) {
   return static_cast<std::uint64_t>(fields.number(key, 0, kMostCount));
+}
+
+SetEnvironmentRecord::MapPlace placeOf(JsonFields& map) {
+  constexpr double kFarthest_m = 1e9;
+  SetEnvironmentRecord::MapPlace place;
+  const auto pair = [&](const nlohmann::json& value, const std::string& pointer) -> std::pair<double, double> {
+    if (!value.is_array() || value.size() != 2) {
+      map.fault().needs(pointer, value, "a list of two numbers");
+      return {};
+    }
+    return {numberAt(map.fault(), value[0], pointer + "/0", -kFarthest_m, kFarthest_m),
+            numberAt(map.fault(), value[1], pointer + "/1", -kFarthest_m, kFarthest_m)};
+  };
+  place.crs = map.text("crs");
+  if (const auto* heights = map.required("heights"))
+    std::tie(place.lowest_m, place.highest_m) = pair(*heights, map.pointer("heights"));
+  const auto* corners = map.required("corners");
+  for (std::size_t k = 0; corners != nullptr && corners->is_array() && k < corners->size(); ++k)
+    place.corners.push_back(pair((*corners)[k], fmt::format("{}/{}", map.pointer("corners"), k)));
+  return place;
 }
 
 }  // namespace
@@ -123,19 +172,42 @@ std::optional<SetRecord> finishedScan(const fs::path& set, const Recipe& recipe,
 
 Result<SetEnvironmentRecord> readEnvironmentRecord(const fs::path& set, const RecipeEnvironment& environment) {
   const auto file = set / environmentFile(environment);
-  SetEnvironmentRecord record;
-  TRY_ASSIGN(record.text, readWholeFile(file, kLargestJsonFile));
-  TRY_ASSIGN(const auto json, parseJson(record.text, nameWithFolder(file)));
+  TRY_ASSIGN(const auto json, readJsonFile(file));
   JsonFault fault(nameWithFolder(file));
   JsonFields root(fault, json, "");
+  SetEnvironmentRecord record;
+  const bool is_file = root.has("model_sha256");
+  record.identity =
+      (is_file ? "sha256 of the file: " : "what beams can meet: ") + root.text(is_file ? "model_sha256" : "world");
+  if (root.isNull("map"))
+    root.skip("map");
+  else
+    root.object("map", [&](JsonFields& map) { record.map = placeOf(map); });
+  root.list("materials", [&](JsonFields& one) {
+    auto id = one.text("id");
+    record.materials.emplace_back(std::move(id), one.texts("licenses"));
+  });
+  root.object("picture", [&](JsonFields& one) {
+    record.picture = {one.text("path"), wholeAt(one, "bytes"), one.text("sha256")};
+  });
   root.list("stations", [&](JsonFields& one) {
     record.stations.push_back(one.text("name"));
     one.skip("at");
     one.skip("height_m");
   });
   record.without_room = root.texts("without_room");
+  if (record.picture.path != pictureFile(environment).generic_string()) root.wrong("picture", "is another file");
   TRY(fault.result());
   return record;
+}
+
+std::vector<std::string> workFoldersOf(const fs::path& set) {
+  std::vector<std::string> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(set / kWorkFolder, error))
+    found.push_back((fs::path(kWorkFolder) / entry.path().filename()).generic_string());
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 Result<SetFolder> SetFolder::open(const fs::path& set, const Recipe& recipe) {
@@ -143,8 +215,11 @@ Result<SetFolder> SetFolder::open(const fs::path& set, const Recipe& recipe) {
   const bool is_new = !fs::exists(set / "recipe.json", error);
   if (is_new && holdsOther(set))
     return failure(ErrorKind::usage, "the folder is not empty and no set: choose a new folder", set.string());
-  const auto work = set / kWorkFolder / fmt::format("{}.{}", hostName(), ::getpid());
-  fs::create_directories(work, error);
+  const auto work = set / kWorkFolder / fmt::format("{}{}{}", taskName(), machineName(), ::getpid());
+  // Who finds the parent empty removes it: another may do so between the two folders that are made here.
+  constexpr int kTries = 10;
+  for (int k = 0; k < kTries && (k == 0 || error == std::errc::no_such_file_or_directory); ++k)
+    fs::create_directories(work, error);
   if (error) return cannotMake(work, error);
   for (const auto& entry : fs::directory_iterator(set / kWorkFolder, error))
     if (isLeft(entry.path().filename().string())) {

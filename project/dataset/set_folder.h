@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "project/dataset/set_scans.h"
@@ -35,13 +36,22 @@ std::optional<SetRecord> finishedScan(const std::filesystem::path& set, const Re
 // What environments/ID.json says of its places.
 struct SetEnvironmentRecord {
   std::vector<std::string> stations, without_room;
-  std::string text;
+  std::string identity;  // of its model: a checksum of the file, or of what beams can meet
+  SetFile picture;
+  struct MapPlace {
+    std::string crs;
+    std::vector<std::pair<double, double>> corners;  // of its plan, m
+    double lowest_m = 0, highest_m = 0;
+  };
+  std::optional<MapPlace> map;
+  std::vector<std::pair<std::string, std::vector<std::string>>> materials;  // id, and the licences of its figures
 };
 Result<SetEnvironmentRecord> readEnvironmentRecord(const std::filesystem::path& set,
                                                    const RecipeEnvironment& environment);
 
-// The folder of a set while scans are made for it. Files are made in a folder of this process and renamed to their
-// places, so that writers on several machines, and one whose task was given to another, never meet in a file.
+// The folder of a set while scans are made for it. Files are made in a folder of this process, named by its task, host,
+// process space and process, and renamed to their places, so that writers on several machines, and one whose task was
+// given to another, never meet in a file.
 class SetFolder {
  public:
   // Makes the set, or opens one of the same recipe; one of another is an error. Takes away what processes of this
@@ -64,6 +74,10 @@ class SetFolder {
       : set_(std::move(set)), work_(std::move(work)) {}
   std::filesystem::path set_, work_;
 };
+
+// Work folders that a set has: of runs that go on, and of such as died on another machine, which nobody here can tell
+// apart.
+std::vector<std::string> workFoldersOf(const std::filesystem::path& set);
 
 inline constexpr const char* kWorkFolder = ".work";  // in a set
 

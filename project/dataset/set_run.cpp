@@ -86,7 +86,9 @@ class SetRun {
   bool isFinished(std::size_t first, std::size_t next) {
     if (!options_.resume) return false;
     const auto record = readEnvironmentRecord(folder_.path(), recipe_.environments[places_[first].environment]);
-    if (!record) return false;
+    std::error_code error;
+    if (!record || fs::file_size(folder_.path() / record->picture.path, error) != record->picture.bytes || error)
+      return false;
     SetRunCount found;
     for (std::size_t k = first; k < next; ++k) {
       const auto& none = record->without_room;
@@ -122,8 +124,9 @@ class SetRun {
       InnerProgress opening(progress, "Open " + recipe_.environments[index].id, fraction(first), fraction(first));
       TRY_ASSIGN(opened, openEnvironment(recipe_, index, report_, *opening));
     }
-    TRY(folder_.putSame(environmentFile(recipe_.environments[index]), opened->described,
-                        "this environment has changed since the set was begun: choose a new folder"));
+    constexpr const char* kChanged = "this environment has changed since the set was begun: choose a new folder";
+    TRY(folder_.putSame(pictureFile(recipe_.environments[index]), opened->picture, kChanged));
+    TRY(folder_.putSame(environmentFile(recipe_.environments[index]), opened->described, kChanged));
     std::size_t begin = 0;  // of the environment in the order of all places
     while (placesInOrder()[begin].environment != index) ++begin;
     for (std::size_t v = 0; v < variants_.size();) {  // variants with the same materials follow each other

@@ -74,4 +74,8 @@ std::filesystem::path environmentFile(const RecipeEnvironment& environment) {
   return std::filesystem::path("environments") / (environment.id + ".json");
 }
 
+std::filesystem::path pictureFile(const RecipeEnvironment& environment) {
+  return std::filesystem::path("environments") / (environment.id + ".svg");
+}
+
 }  // namespace standpoint

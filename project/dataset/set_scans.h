@@ -41,5 +41,6 @@ struct SetFiles {
 };
 SetFiles filesOf(const Recipe& recipe, const SetPlace& place, const SetVariant& variant);
 std::filesystem::path environmentFile(const RecipeEnvironment& environment);
+std::filesystem::path pictureFile(const RecipeEnvironment& environment);  // its plans
 
 }  // namespace standpoint

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "core/json_file.h"
-#include "core/part_file.h"
 #include "core/sha256.h"
 
 namespace standpoint {
@@ -73,7 +72,7 @@ class SetChecker {
   Result<void> listFiles() {
     std::error_code error;
     for (fs::recursive_directory_iterator at(set_, error), end; !error && at != end; at.increment(error)) {
-      if (!at->is_regular_file() || isPart(at->path())) continue;
+      if (!at->is_regular_file()) continue;
       const auto path = fs::relative(at->path(), set_).generic_string();
       if (!isBeside(path)) there_.insert(path);
     }
@@ -118,12 +117,16 @@ class SetChecker {
     const auto path = environmentFile(environment).generic_string();
     TRY(other(path, progress));
     if (!there_.contains(path)) return {};
-    const auto record = readEnvironmentRecord(set_, environment);
+    auto record = readEnvironmentRecord(set_, environment);
     if (!record) {
       damaged(path);
       return {};
     }
     none = {record->without_room.begin(), record->without_room.end()};
+    TRY(other(record->picture.path, progress));
+    if (there_.contains(record->picture.path) && found_.others.back().sha256 != record->picture.sha256)
+      damaged(record->picture.path);
+    found_.environments.push_back(*std::move(record));
     return {};
   }
 

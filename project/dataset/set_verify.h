@@ -27,7 +27,8 @@ struct SetCheck {
   std::size_t files = 0;             // that were looked at
   std::uint64_t bytes = 0;
   std::vector<SetScan> scans;   // in the order of the recipe
-  std::vector<SetFile> others;  // recipe, classes, environments and records, with their sums
+  std::vector<SetFile> others;  // recipe, classes, environments, their pictures and records, with their sums
+  std::vector<SetEnvironmentRecord> environments;  // in the order of the recipe, where all could be read
   bool isWhole() const { return missing.empty() && damaged.empty() && not_made == 0; }
 };
 

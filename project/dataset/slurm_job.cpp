@@ -12,12 +12,13 @@ namespace {
 namespace fs = std::filesystem;
 
 // What both scripts begin with. STANDPOINT stands for another program, such as
-// "apptainer exec --bind /data standpoint.sif standpoint".
-std::string beginningOf(const Recipe& recipe, const char* name, int threads) {
+// "apptainer exec --bind /data standpoint.sif standpoint". TERM comes a minute before a time limit, and at once where
+// a task is cancelled or given to another node.
+std::string beginningOf(const Recipe& recipe, const char* name, int threads, const char* log) {
   return fmt::format(
       "#!/bin/sh\n#SBATCH --job-name={}-{}\n#SBATCH --ntasks=1\n#SBATCH --cpus-per-task={}\n"
-      "#SBATCH --requeue\n#SBATCH --open-mode=append\n#SBATCH --signal=B:TERM@60\n#SBATCH --output=%x-%A-%a.log\n\n",
-      recipe.name, name, threads);
+      "#SBATCH --requeue\n#SBATCH --open-mode=append\n#SBATCH --signal=B:TERM@60\n#SBATCH --output={}\n\n",
+      recipe.name, name, threads, log);
 }
 
 }  // namespace
@@ -37,12 +38,12 @@ Result<std::vector<std::string>> writeSlurmJob(const SlurmJob& job, const Recipe
   // `exec`, so that the signal of a task that ends reaches the program: it stops between two points and what is
   // finished stays.
   const auto array =
-      beginningOf(recipe, "scans", job.threads) +
+      beginningOf(recipe, "scans", job.threads, "%x-%A-%a.log") +
       fmt::format(
           "exec {} dataset run {} -o {} --shard \"$SLURM_ARRAY_TASK_ID/{}\" --threads \"${{SLURM_CPUS_PER_TASK:-{}}}\" "
           "--resume\n",
           program, shellWord(job.recipe.string()), shellWord(job.set.string()), job.shards, job.threads);
-  const auto manifest = beginningOf(recipe, "manifest", 1) +
+  const auto manifest = beginningOf(recipe, "manifest", 1, "%x-%j.log") +
                         fmt::format("exec {} dataset manifest {}\n", program, shellWord(job.set.string()));
   // What is given to `submit` goes to both: a partition, an account, a time limit.
   const std::string submit = fmt::format(

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/dataset/set_pictures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <compare>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/html_text.h"
+#include "core/number_text.h"
+#include "project/dataset/manifest.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr const char* kFont = "sans-serif";
+// Okabe and Ito's colours, which people with any colour vision tell apart.
+constexpr std::array kColours = {"#0072B2", "#E69F00", "#009E73"};
+constexpr const char *kStarved = "#D55E00", *kInk = "#333333";
+
+// Stations that one plan shows: those of one floor.
+struct Storey {
+  double z = 0;  // of the section, m, local
+  std::vector<const Station*> stations;
+};
+
+std::vector<Storey> storeysWithStations(const Job& job) {
+  constexpr double kWithin_m = 1.5;  // from the lowest instrument of a floor to its highest
+  std::vector<const Station*> stations;
+  for (const auto& s : job.stations) stations.push_back(&s);
+  std::stable_sort(stations.begin(), stations.end(), [](const Station* a, const Station* b) {
+    return a->true_pose.translation.z() < b->true_pose.translation.z();
+  });
+  std::vector<Storey> storeys;
+  for (const auto* station : stations) {
+    const double z = station->true_pose.translation.z();
+    if (storeys.empty() || z > storeys.back().z + kWithin_m) storeys.push_back({z, {}});
+    storeys.back().stations.push_back(station);
+  }
+  return storeys;
+}
+
+// A line in steps of the picture's grid.
+struct Line {
+  long ax = 0, ay = 0, bx = 0, by = 0;
+  auto operator<=>(const Line&) const = default;
+};
+
+// What a horizontal plane cuts, each line once, however many triangles lie in it.
+class Section {
+ public:
+  Section(const Eigen::Vector2d& low, double step_m) : low_(low), step_m_(step_m) {}
+
+  std::set<Line> of(const Environment& environment, double z) const {
+    std::set<Line> lines;
+    for (const auto& instance : environment.instances) {
+      const auto& mesh = *environment.meshes[instance.mesh];
+      const Bounds box = bounds(mesh, instance.world_from_mesh);
+      if (!(box.min.z() < z && box.max.z() > z)) continue;
+      std::vector<Eigen::Vector3d> places;
+      places.reserve(mesh.positions.size());
+      for (const auto& p : mesh.positions) places.emplace_back(instance.world_from_mesh * p.cast<double>());
+      for (const auto& t : mesh.triangles) cut(places[t[0]], places[t[1]], places[t[2]], z, lines);
+    }
+    return lines;
+  }
+
+ private:
+  void cut(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, double z,
+           std::set<Line>& lines) const {
+    std::array<std::pair<long, long>, 2> ends;
+    std::size_t found = 0;
+    const std::array<std::pair<const Eigen::Vector3d*, const Eigen::Vector3d*>, 3> edges = {
+        {{&a, &b}, {&b, &c}, {&c, &a}}};
+    for (const auto& [from, to] : edges) {
+      if ((from->z() >= z) == (to->z() >= z)) continue;
+      const double t = (z - from->z()) / (to->z() - from->z());
+      const auto step = [&](int axis) {
+        return std::lround(((*from)[axis] + t * ((*to)[axis] - (*from)[axis]) - low_[axis]) / step_m_);
+      };
+      ends[found++] = {step(0), step(1)};
+    }
+    if (found != 2 || ends[0] == ends[1]) return;
+    if (ends[1] < ends[0]) std::swap(ends[0], ends[1]);
+    lines.insert({ends[0].first, ends[0].second, ends[1].first, ends[1].second});
+  }
+
+  Eigen::Vector2d low_;
+  double step_m_;
+};
+
+// 1, 2 or 5 times a power of ten, of which four or more fit.
+double scaleBar(double width_m) {
+  double bar = 1e-3;
+  for (const double factor : {1.0, 2.0, 5.0})
+    for (double power = 1e-3; power < 1e6; power *= 10)
+      if (factor * power <= width_m / 4) bar = std::max(bar, factor * power);
+  return bar;
+}
+
+std::string textAt(double x, double y, double size, const char* anchor, const std::string& text,
+                   const char* colour = kInk) {
+  return fmt::format(
+      "<text x=\"{:.1f}\" y=\"{:.1f}\" font-family=\"{}\" font-size=\"{:.0f}\" text-anchor=\"{}\" "
+      "fill=\"{}\">{}</text>\n",
+      x, y, kFont, size, anchor, colour, htmlText(text));
+}
+
+std::string svgOf(double width, double height, const std::string& content) {
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
+      "{1:.0f}\">\n"
+      "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{2}</svg>\n",
+      width, height, content);
+}
+
+}  // namespace
+
+std::string plansOf(const Document& document) {
+  constexpr double kWidth = 720, kMargin = 24, kTitle = 22, kMost = 720;
+  constexpr double kSteps = 4;  // of the section's grid in a unit of the picture
+  const auto& scene = sceneOf(*document.environment());
+  const Bounds box = bounds(scene);
+  const Eigen::Vector2d low = box.min.head<2>(), size = (box.max - box.min).head<2>();
+  const double scale = std::min((kWidth - 2 * kMargin) / std::max(size.x(), 1e-3), kMost / std::max(size.y(), 1e-3));
+  const double drawn = size.y() * scale;
+  const Section section(low, 1 / (scale * kSteps));
+  const auto& shift = document.georeference->shift_m;
+  std::string content;
+  double top = 0;
+  for (const auto& storey : storeysWithStations(*document.job)) {
+    const double y0 = top + kTitle + kMargin, left = (kWidth - size.x() * scale) / 2;
+    content += textAt(kMargin, top + kTitle, 13, "start",
+                      fmt::format("Section at {:.2f} m, {} station{}", storey.z + shift.z(), storey.stations.size(),
+                                  storey.stations.size() == 1 ? "" : "s"));
+    content += fmt::format("<path fill=\"none\" stroke=\"{}\" stroke-width=\"0.7\" d=\"", kInk);
+    for (const auto& line : section.of(scene, storey.z)) {
+      const auto x = [&](long step) { return left + static_cast<double>(step) / kSteps; };
+      const auto y = [&](long step) { return y0 + drawn - static_cast<double>(step) / kSteps; };
+      content += fmt::format("M{:.2f} {:.2f}L{:.2f} {:.2f}", x(line.ax), y(line.ay), x(line.bx), y(line.by));
+    }
+    content += "\"/>\n";
+    for (const auto* station : storey.stations) {
+      const Eigen::Vector2d at = (station->true_pose.translation.head<2>() - low) * scale;
+      const double x = left + at.x(), y = y0 + drawn - at.y();
+      content += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\" fill=\"{}\"/>\n", x, y, kStarved);
+      content += textAt(x, y - 7, 11, "middle", station->name, kStarved);
+    }
+    const double bar = scaleBar(size.x()), below = y0 + drawn + 16;
+    content += fmt::format("<path stroke=\"{}\" stroke-width=\"2\" d=\"M{:.1f} {:.1f}h{:.1f}\"/>\n", kInk, left, below,
+                           bar * scale);
+    content += textAt(left + bar * scale + 6, below + 4, 11, "start", fmt::format("{:g} m", bar));
+    top = below + kMargin / 2;
+  }
+  return svgOf(kWidth, top + kMargin / 2, content);
+}
+
+std::string balanceChart(const Recipe& recipe, const SetCheck& check, std::size_t map) {
+  constexpr double kWidth = 720, kNames = 150, kFigures = 190, kBar = 11, kGap = 8, kTop = 34;
+  const auto& classes = recipe.classes[map].map.classes;
+  const auto balance = balanceOf(recipe, check, map);
+  const auto shareOf = [&](const SplitBalance& split, std::size_t k) {
+    return split.counted == 0 ? 0 : static_cast<double>(split.points[k]) / static_cast<double>(split.counted);
+  };
+  double most = 0;
+  for (const auto& split : balance)
+    for (std::size_t k = 0; k < classes.size(); ++k)
+      if (!classes[k].ignored) most = std::max(most, shareOf(split, k));
+  const double room = kWidth - kNames - kFigures;
+  std::string content;
+  double x = kNames;
+  for (std::size_t s = 0; s < balance.size(); ++s) {
+    content += fmt::format("<rect x=\"{:.1f}\" y=\"10\" width=\"12\" height=\"12\" fill=\"{}\"/>\n", x,
+                           kColours[s % kColours.size()]);
+    content += textAt(x + 18, 20, 12, "start", balance[s].split);
+    x += 110;
+  }
+  double y = kTop;
+  for (std::size_t k = 0; k < classes.size(); ++k) {
+    if (classes[k].ignored) continue;
+    content += textAt(kNames - 8, y + kBar * static_cast<double>(balance.size()) / 2 + 4, 12, "end", classes[k].name);
+    for (std::size_t s = 0; s < balance.size(); ++s, y += kBar) {
+      const double share = shareOf(balance[s], k), width = most > 0 ? room * share / most : 0;
+      const bool starved = share < recipe.starved_below;
+      content += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.2f}\" height=\"{:.1f}\" fill=\"{}\"/>\n",
+                             kNames, y, width, kBar - 1, kColours[s % kColours.size()]);
+      content += textAt(
+          kNames + width + 6, y + kBar - 2, 10, "start",
+          fmt::format("{:.2f} %  ({}){}", 100 * share, groupedDigits(balance[s].points[k]), starved ? "  starved" : ""),
+          starved ? kStarved : kInk);
+    }
+    y += kGap;
+  }
+  return svgOf(kWidth, y + kGap, content);
+}
+
+}  // namespace standpoint
