@@ -7,7 +7,7 @@ set(data_folders
   optimizer/lod
   pointclouds/classes
   scanners/instruments scanners/stands scanners/targets)
-set(data_files materials/schema.json)
+set(data_files materials/schema.json project/dataset/schema.json)
 # The page of a SCORM package. The code for its signatures is a file of Debian's, as it is.
 set(page_folder emulated-ui/classroom/sco)
 set(sample_pictures samples/pictures/house.ifc.png samples/pictures/street.ifc.png)

@@ -335,7 +335,7 @@ Result<std::vector<std::string>> writeManifest(const fs::path& set, const Recipe
   std::vector<std::pair<std::string, std::string>> texts = {{kScansFile, csv},
                                                             {kCroissantFile, croissantText(recipe, check, csv)},
                                                             {"card.html", cardHtml(recipe, check)},
-                                                            {"card.md", cardMarkdown(recipe, check)}};
+                                                            {"README.md", cardMarkdown(recipe, check)}};
   for (std::size_t m = 0; m < recipe.classes.size(); ++m)
     texts.emplace_back(balanceFile(recipe.classes[m]), balanceChart(recipe, check, m));
   for (std::size_t e = 0; e < recipe.environments.size(); ++e) {

@@ -11,7 +11,7 @@
 namespace standpoint {
 
 // What describes a set that is whole: scans.csv (a row for each scan), croissant.json (Croissant 1.0), card.html and
-// card.md with charts of the balance of classes, a STAC item of each environment that is somewhere on a map, and
+// README.md with charts of the balance of classes, a STAC item of each environment that is somewhere on a map, and
 // SHA256SUMS of all files, those included. The same set has the same bytes. `check` must be whole. Returns the files,
 // from the set's folder on.
 Result<std::vector<std::string>> writeManifest(const std::filesystem::path& set, const Recipe& recipe,

@@ -109,6 +109,11 @@ std::vector<Writer> writers() {
        {"dataset", "slurm", "recipe.json", "-o", "set", "--shards", "2"},
        {"set/slurm/array.sbatch", "set/slurm/manifest.sbatch"},
        true},
+      {"dataset",
+       "run",
+       {"dataset", "run", "recipe.json", "-o", "set", "--resume"},
+       {"set/croissant.json", "set/SHA256SUMS"},
+       true},
       {"score", "html", {"score", "t.labels", "p.txt", "--classes", "s3dis", "-o", "o.html"}, {"o.html"}},
       {"score", "csv", {"score", "t.labels", "p.txt", "--classes", "s3dis", "-o", "o.csv"}, {"o.csv"}},
       {"score", "json", {"score", "t.labels", "p.txt", "--classes", "s3dis", "-o", "o.json"}, {"o.json"}},
@@ -271,6 +276,12 @@ class Faults : public ::testing::TestWithParam<Writer> {
                        [&](const auto& file) { return textOf(folder / file) == textOf(base.path() / file); });
   }
 
+  bool allAreNew(const fs::path& folder) const {
+    for (std::size_t i = 0; i < after.size(); ++i)
+      if (textOf(folder / writer().files[i]) != after[i]) return false;
+    return true;
+  }
+
   static std::size_t partsIn(const fs::path& folder) {
     std::size_t count = 0;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) count += isPart(entry.path()) ? 1U : 0U;
@@ -316,10 +327,35 @@ TEST_P(Faults, KilledLeaveTheOldFileOrTheNewOneAndWorkAgain) {
   }
 }
 
+class FaultsOfSets : public Faults {};
+
+// Whatever was made before stays; only what is missing is made again.
+TEST_P(FaultsOfSets, LeaveOneThatResumesToTheSameBytes) {
+  ASSERT_NO_FATAL_FAILURE(runWhole());
+  for (const char* kind : {"full", "kill"})
+    for (const long at : places()) {
+      const auto folder = fresh();
+      const auto where = std::string(" ") + kind + " at call " + std::to_string(at) + " of " + std::to_string(calls);
+      const int exited = run(writer().words, folder, faultsAt(folder, kind, at));
+      EXPECT_NE(exited, 0) << where;
+      EXPECT_EQ(run(writer().words, folder), 0) << where << ", resumed";
+      EXPECT_TRUE(allAreNew(folder)) << where << ", resumed";
+      EXPECT_EQ(run({"dataset", "verify", "set"}, folder), 0) << where << ", resumed";
+      EXPECT_FALSE(fs::exists(folder / "set/.work")) << where << ", resumed";
+    }
+}
+
 std::string nameOf(const ::testing::TestParamInfo<Writer>& writer) {
   return writer.param.verb + std::string(writer.param.name);
 }
 
+std::vector<Writer> setWriters() {
+  auto all = writers();
+  std::erase_if(all, [](const Writer& w) { return w.verb != std::string("dataset") || w.name != std::string("run"); });
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(OfSets, FaultsOfSets, ::testing::ValuesIn(setWriters()), nameOf);
 INSTANTIATE_TEST_SUITE_P(OfEachWriter, Faults, ::testing::ValuesIn(writers()), nameOf);
 
 TEST(FaultsOfEachWriter, WalkEveryVerbThatWrites) {

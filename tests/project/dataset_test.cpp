@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fstream>
 #include <functional>
+#include <set>
+#include <tuple>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,6 +19,7 @@ namespace standpoint {
 namespace {
 
 using nlohmann::json;
+using testing::Contains;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
@@ -115,6 +118,69 @@ TEST_F(Dataset, IsVerifiedFileByFile) {
   EXPECT_FALSE(dataset("manifest", set)) << "what is not whole is not described";
 }
 
+// Every file of a set, one after the other.
+TEST_F(Dataset, IsFoundDamagedAndIncompleteByTheNameOfEachFile) {
+  auto text = recipe();
+  text["environments"].erase(1);
+  text["splits"] = {{"train", {"house"}}};
+  text["stations"][0]["count"] = 1;
+  text["effects"].erase(1);
+  const auto set = folder / "set";
+  ASSERT_TRUE(dataset("run", write(text), {{"output", set.string()}}));
+  std::set<std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(set))
+    if (entry.is_regular_file()) files.insert(fs::relative(entry.path(), set).generic_string());
+  EXPECT_GE(files.size(), 13U);
+  files.erase("SHA256SUMS");
+  for (const char* needed : {"recipe.json", "classes/s3dis.json"}) {  // what is not read says so itself
+    fs::rename(set / needed, folder / "kept");
+    const auto without = dataset("verify", set);
+    ASSERT_FALSE(without);
+    EXPECT_THAT(describe(without.error()), HasSubstr(fs::path(needed).filename().string()));
+    fs::rename(folder / "kept", set / needed);
+    files.erase(needed);
+  }
+  for (const auto& file : files) {
+    fs::copy_file(set / file, folder / "kept", fs::copy_options::overwrite_existing);
+    const auto middle = static_cast<std::streamoff>(fs::file_size(set / file) / 2);
+    {
+      std::fstream change(set / file, std::ios::in | std::ios::out | std::ios::binary);
+      change.seekg(middle);
+      const char was = static_cast<char>(change.get());
+      change.seekp(middle);
+      change.put(static_cast<char>(was ^ 0x10));
+    }
+    const auto damaged = dataset("verify", set);
+    ASSERT_TRUE(damaged) << file;
+    EXPECT_THAT(damaged->answer["damaged"].get<std::vector<std::string>>(), Contains(file));
+    EXPECT_FALSE(damaged->answer.contains("unknown")) << file;
+    fs::remove(set / file);
+    const auto missing = dataset("verify", set);
+    ASSERT_TRUE(missing) << file;
+    EXPECT_EQ(missing->answer["missing"], json({file}));
+    fs::rename(folder / "kept", set / file);
+  }
+  const auto whole = dataset("verify", set);
+  ASSERT_TRUE(whole);
+  EXPECT_EQ(whole->report.losses(), 0U);
+}
+
+TEST_F(Dataset, KeepsTheWorkOfOtherRunsAndNamesIt) {
+  const auto set = folder / "set";
+  ASSERT_TRUE(dataset("run", write(recipe()), {{"output", set.string()}}));
+  EXPECT_FALSE(fs::exists(set / ".work"));
+  const auto work = set / ".work/8_3.1.rack7.4026531836.77";
+  fs::create_directories(work);
+  std::ofstream(work / "x.e57") << "half";
+  std::ofstream(set / "scans/.x.e57.part") << "half";
+  const auto verified = dataset("verify", set);
+  ASSERT_TRUE(verified);
+  EXPECT_EQ(verified->answer["working"], json({".work/8_3.1.rack7.4026531836.77"}));
+  EXPECT_EQ(verified->answer["unknown"], json({"scans/.x.e57.part"}));
+  ASSERT_TRUE(dataset("manifest", set));
+  EXPECT_TRUE(fs::exists(work / "x.e57")) << "a run on another machine goes on";
+}
+
 TEST_F(Dataset, HasALabelForEachPointAndCountsThem) {
   const auto set = folder / "set";
   ASSERT_TRUE(dataset("run", write(recipe()), {{"output", set.string()}}));
@@ -140,6 +206,34 @@ TEST_F(Dataset, IsForecastByItsRecipe) {
   bool sofa = false;
   for (const auto& c : forecast->answer["classes"]) sofa |= c["class"] == "sofa" && c["starved"] == true;
   EXPECT_TRUE(sofa) << "a class without points is starved";
+}
+
+TEST_F(Dataset, HasItsBytesForecastInEachFormat) {
+  auto text = recipe();
+  text["environments"].erase(1);
+  text["splits"] = {{"train", {"house"}}};
+  text["instruments"][0]["set"] = {"resolution=1/16", "quality=4x"};
+  text["field_faults"] = {{{"id", "none"}}, {{"id", "short"}, {"fault", {"until=0.6"}}}};
+  for (const auto& [format, as, truth] :
+       {std::tuple("e57", "", true), std::tuple("e57", "scaled", false), std::tuple("las", "", true),
+        std::tuple("ply", "", true), std::tuple("pcd", "", false), std::tuple("pcd", "points", true),
+        std::tuple("ptx", "", true), std::tuple("pts", "", false), std::tuple("xyz", "", false),
+        std::tuple("csv", "", true)}) {
+    text["output"] = {{"format", format}, {"truth", truth}};
+    if (*as != 0) text["output"]["as"] = as;
+    const auto file = write(text);
+    const auto forecast = dataset("check", file);
+    ASSERT_TRUE(forecast) << describe(forecast.error());
+    const auto set = folder / (std::string(format) + as);
+    const auto made = dataset("run", file, {{"output", set.string()}});
+    ASSERT_TRUE(made) << format << as << describe(made.error());
+    const double points = forecast->answer["points"].get<double>() / made->answer["points"].get<double>();
+    const double bytes = forecast->answer["bytes"].get<double>() / made->answer["bytes"].get<double>();
+    EXPECT_NEAR(points, 1, 0.05) << format << as;
+    EXPECT_NEAR(bytes, 1, 0.05) << format << as << ": " << made->answer["bytes"];
+    RecordProperty(std::string(format) + as, std::to_string(bytes));
+    fs::remove_all(set);
+  }
 }
 
 TEST_F(Dataset, RefusesWhatIsWrongWithARecipeByItsPlace) {
@@ -175,7 +269,12 @@ TEST_F(Dataset, RefusesClassesThatMapNothingAndShardsOutOfRange) {
   const auto none = dataset("run", write(text), {{"output", (folder / "set").string()}});
   ASSERT_FALSE(none);
   EXPECT_THAT(none.error().message, HasSubstr("map nothing"));
-  EXPECT_FALSE(dataset("run", write(recipe()), {{"output", (folder / "x").string()}, {"shard", "4/3"}}));
+  for (const char* shard : {"4/3", "0/3", "1/0", "-1/3", "a/b", "2"}) {
+    const auto refused = dataset("run", write(recipe()), {{"output", (folder / "x").string()}, {"shard", shard}});
+    ASSERT_FALSE(refused) << shard;
+    EXPECT_THAT(refused.error().source, HasSubstr("shard")) << shard;
+    EXPECT_FALSE(fs::exists(folder / "x")) << shard;
+  }
 }
 
 TEST_F(Dataset, SplitsPlacesIntoShardsThatFollowEachOther) {
