@@ -25,13 +25,16 @@ class TrueClassSink : public PointSink {
   Result<void> write(const PointBlock& block) override {
     if (block.size() == 0) return {};
     TRY(checkBlock(header_, block));
-    for (std::size_t i = 0; i < block.size(); ++i) ids.push_back(map_.classes[classes_->of(block, i)].id);
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      labels.ids.push_back(map_.classes[classes_->of(block, i)].id);
+      labels.instances.push_back(classes_->isSurfaceless(block, i) ? 0 : block.product[i] + 1);
+    }
     return {};
   }
   Result<void> end() override { return {}; }
   Result<void> close() override { return {}; }
 
-  std::vector<std::uint32_t> ids;
+  PointLabels labels;
 
  private:
   const std::filesystem::path& cloud_;
@@ -42,14 +45,13 @@ class TrueClassSink : public PointSink {
 
 }  // namespace
 
-Result<std::vector<std::uint32_t>> trueClasses(const std::filesystem::path& cloud, const ClassMap& map,
-                                               Progress& progress) {
+Result<PointLabels> trueClasses(const std::filesystem::path& cloud, const ClassMap& map, Progress& progress) {
   const auto* const format = readableCloudFormat(cloud);
   if (format == nullptr || format->read == nullptr)
     return failure(ErrorKind::usage, "unsupported point-cloud format", cloud.string());
   TrueClassSink sink(cloud, map);
   TRY(format->read(cloud, sink, progress));
-  return std::move(sink.ids);
+  return std::move(sink.labels);
 }
 
 }  // namespace standpoint

@@ -37,6 +37,26 @@ std::string classesHtml(const ScoreAnswer& answer) {
          "</small></p>\n";
 }
 
+std::string instancesHtml(const ScoreAnswer& answer) {
+  if (answer.instances.empty()) return "";
+  std::string text = reportHeading("Instances") + reportTable({{"Class"},
+                                                               {"Instances of the truth", true},
+                                                               {"Instances predicted", true},
+                                                               {"AP, %", true},
+                                                               {"AP at IoU 0.5, %", true},
+                                                               {"AP at IoU 0.25, %", true}});
+  for (const auto& c : answer.instances)
+    if (c.truth + c.predicted > 0)
+      text += fmt::format("<tr><td>{}<td class=\"n\">{}<td class=\"n\">{}{}{}{}</tr>\n", htmlText(c.name), c.truth,
+                          c.predicted, percentHtml(c.ap), percentHtml(c.ap_50), percentHtml(c.ap_25));
+  text += fmt::format("<tr><td>{}<td><td>{}{}{}</tr>\n", htmlText(printed("Mean")), percentHtml(answer.instance_ap),
+                      percentHtml(answer.instance_ap_50), percentHtml(answer.instance_ap_25));
+  return text + "</table>\n<p><small>" +
+         htmlText(printed("AP: average precision of instances of 100 points or more in each scan, the mean over IoU of "
+                          "0.5 to 0.9, as ScanNet defines it.")) +
+         "</small></p>\n";
+}
+
 // A cell as dark as its share of the truth's class.
 std::string matrixCell(std::uint64_t points, std::uint64_t of) {
   if (points == 0) return "<td>";
@@ -84,7 +104,7 @@ std::string scorePage(const ScoreAnswer& answer) {
                             answer.truth.string(), answer.map, groupedDigits(answer.points), answer.files,
                             groupedDigits(answer.ignored), groupedDigits(answer.given_up))) +
           "</p>\n";
-  return text + classesHtml(answer) + matrixHtml(answer) + "</body></html>\n";
+  return text + classesHtml(answer) + instancesHtml(answer) + matrixHtml(answer) + "</body></html>\n";
 }
 
 // The matrix goes on to the right of the figures.

@@ -2,12 +2,17 @@
 #include "project/dataset/score_verb.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
+#include "core/json_file.h"
 #include "core/output_place.h"
 #include "pointclouds/datasets/label_array.h"
 #include "pointclouds/scores/class_scores.h"
+#include "pointclouds/scores/instance_scores.h"
 #include "pointclouds/scores/true_classes.h"
 #include "project/dataset/set_scans.h"
 
@@ -19,6 +24,7 @@ namespace fs = std::filesystem;
 
 struct ScoredPair {
   fs::path truth, predicted;
+  fs::path instances;  // of the truth, where they have a file of their own
 };
 struct ScorePlan {
   ClassMap map;
@@ -97,7 +103,8 @@ Result<ScorePlan> planOfSet(const ScoreOptions& options, Report& report) {
         continue;
       }
       TRY_ASSIGN(auto predicted, predictionOf(options.predicted, files.scan, classes.id));
-      plan.pairs.push_back({options.truth / files.labels[of_map], std::move(predicted)});
+      plan.pairs.push_back(
+          {options.truth / files.labels[of_map], std::move(predicted), options.truth / files.instances});
     }
   }
   if (plan.pairs.empty())
@@ -117,13 +124,13 @@ Result<ScorePlan> planOfFile(const ScoreOptions& options) {
     return failure(ErrorKind::usage, "specify the classes that the labels are of, a name or a file (.json)",
                    "--classes");
   TRY_ASSIGN(auto map, classMapNamed(options.classes));
-  return ScorePlan{std::move(map), {{options.truth, options.predicted}}};
+  return ScorePlan{std::move(map), {{options.truth, options.predicted, {}}}};
 }
 
 // As readPointLabels; an error tells the folder, too: the files of a set have the same names in each.
-Result<std::vector<std::uint32_t>> labelsIn(const fs::path& file, Progress& progress) {
+Result<PointLabels> labelsIn(const fs::path& file, Progress& progress) {
   auto labels = readPointLabels(file, progress);
-  if (labels) return std::move(labels->ids);
+  if (labels) return labels;
   auto error = std::move(labels).error();
   if (error.source.starts_with(file.filename().string())) error.source = (file.parent_path() / error.source).string();
   return failure(std::move(error));
@@ -141,17 +148,80 @@ tl::unexpected<Error> noneOfTheClasses(const ScoredPair& pair, const UnknownLabe
                  place);
 }
 
-Result<void> addPair(const ScoredPair& pair, const ClassMap& map, ClassTally& tally, Progress& progress) {
-  TRY_ASSIGN(const auto predicted, labelsIn(pair.predicted, progress));
-  TRY_ASSIGN(const auto truth,
+// How sure the predicted instances are, from a file beside them: a line for each with its number and its confidence.
+Result<std::map<std::uint32_t, double>> confidencesOf(fs::path predicted) {
+  constexpr std::uintmax_t kLargest = std::uintmax_t{1} << 26U;
+  std::map<std::uint32_t, double> confidences;
+  const auto file = predicted.replace_extension(".confidence.txt");
+  std::error_code error;
+  if (!fs::exists(file, error)) return confidences;
+  TRY_ASSIGN(const auto text, readWholeFile(file, kLargest));
+  std::size_t number = 0;
+  for (std::size_t from = 0; from < text.size();) {
+    const char* const end = text.data() + std::min(text.find('\n', from), text.size());
+    const char* at = text.data() + from;
+    from = static_cast<std::size_t>(end - text.data()) + 1;
+    ++number;
+    const auto skip = [&] {
+      while (at != end && (*at == ' ' || *at == '\t' || *at == '\r')) ++at;
+    };
+    std::uint32_t instance = 0;
+    double confidence = 0;
+    skip();
+    if (at == end) continue;
+    const auto first = std::from_chars(at, end, instance);
+    at = first.ptr;
+    skip();
+    const auto second = std::from_chars(at, end, confidence);
+    at = second.ptr;
+    skip();
+    if (first.ec != std::errc() || second.ec != std::errc() || at != end || !std::isfinite(confidence))
+      return failure(ErrorKind::unusable, "must be the number of an instance and its confidence",
+                     fmt::format("{} line {}", file.string(), number));
+    confidences[instance] = confidence;
+  }
+  return confidences;
+}
+
+struct Tallies {
+  ClassTally classes;
+  InstanceTally instances;
+  bool with_instances = false;  // somebody predicted one
+};
+
+Result<void> addPair(const ScoredPair& pair, const ClassMap& map, Tallies& tallies, Progress& progress) {
+  TRY_ASSIGN(auto predicted, labelsIn(pair.predicted, progress));
+  TRY_ASSIGN(auto truth,
              isLabelFile(pair.truth) ? labelsIn(pair.truth, progress) : trueClasses(pair.truth, map, progress));
-  if (truth.size() != predicted.size())
+  if (truth.ids.size() != predicted.ids.size())
     return failure(ErrorKind::unusable,
-                   fmt::format("has labels of {} points, and the truth {} has {} points", predicted.size(),
-                               pair.truth.string(), truth.size()),
+                   fmt::format("has labels of {} points, and the truth {} has {} points", predicted.ids.size(),
+                               pair.truth.string(), truth.ids.size()),
                    pair.predicted.string());
-  if (const auto unknown = tally.add(truth, predicted)) return noneOfTheClasses(pair, *unknown, map);
+  if (const auto unknown = tallies.classes.add(truth.ids, predicted.ids)) return noneOfTheClasses(pair, *unknown, map);
+  const auto isOne = [](std::uint32_t instance) { return instance != 0; };
+  tallies.with_instances |= std::any_of(predicted.instances.begin(), predicted.instances.end(), isOne);
+  if (!pair.instances.empty() && !predicted.instances.empty()) {
+    TRY_ASSIGN(auto instances, labelsIn(pair.instances, progress));
+    if (instances.ids.size() != truth.ids.size())
+      return failure(ErrorKind::unusable, "has another number of points than the labels beside it; verify the set",
+                     pair.instances.string());
+    truth.instances = std::move(instances.ids);
+  }
+  truth.instances.resize(truth.ids.size());
+  predicted.instances.resize(truth.ids.size());
+  TRY_ASSIGN(const auto confidences, confidencesOf(pair.predicted));
+  tallies.instances.add({truth.ids, truth.instances}, {predicted.ids, predicted.instances}, confidences);
   return {};
+}
+
+void takeInstances(const InstanceScores& scores, ScoreAnswer& answer) {
+  answer.instance_ap = scores.ap;
+  answer.instance_ap_50 = scores.ap_50;
+  answer.instance_ap_25 = scores.ap_25;
+  answer.classes_in_instance_mean = scores.counted;
+  for (const auto& c : scores.classes)
+    answer.instances.push_back({c.name, c.id, c.truth, c.predicted, c.ap, c.ap_50, c.ap_25});
 }
 
 ScoreAnswer scoreAnswerOf(const ClassScores& scores, const ScorePlan& plan, const ScoreOptions& options) {
@@ -183,6 +253,15 @@ std::string scoreText(const ScoreAnswer& answer) {
   for (const auto& c : answer.classes)
     text += fmt::format("{:24} {:>12} {:>12} {:>10} {:>10} {:>10}\n", c.name, c.truth, c.predicted, shareText(c.iou),
                         shareText(c.precision), shareText(c.recall));
+  if (!answer.instances.empty())
+    text += fmt::format("\n{:24} {:>12} {:>12} {:>10} {:>10} {:>10}\n", "instances", "truth", "predicted", "AP",
+                        "AP 50", "AP 25");
+  for (const auto& c : answer.instances)
+    text += fmt::format("{:24} {:>12} {:>12} {:>10} {:>10} {:>10}\n", c.name, c.truth, c.predicted, shareText(c.ap),
+                        shareText(c.ap_50), shareText(c.ap_25));
+  if (!answer.instances.empty())
+    text += fmt::format("{:24} {:>12} {:>12} {:>10} {:>10} {:>10}\n\n", "mean", "", "", shareText(answer.instance_ap),
+                        shareText(answer.instance_ap_50), shareText(answer.instance_ap_25));
   return text +
          fmt::format("mean recall {}; {} points with an ignored truth left out, {} predicted as an ignored class\n",
                      shareText(answer.mean_recall), answer.ignored, answer.given_up);
@@ -215,6 +294,14 @@ const AnswerFields<ScoreRow>& answerFields(const ScoreRow*) {
   return fields;
 }
 
+const AnswerFields<InstanceRow>& answerFields(const InstanceRow*) {
+  using A = InstanceRow;
+  static const AnswerFields<A> fields = {{"class", &A::name},          {"id", &A::id}, {"truth", &A::truth},
+                                         {"predicted", &A::predicted}, {"ap", &A::ap}, {"ap_50", &A::ap_50},
+                                         {"ap_25", &A::ap_25}};
+  return fields;
+}
+
 const AnswerFields<ScoreAnswer>& answerFields(const ScoreAnswer*) {
   using A = ScoreAnswer;
   static const AnswerFields<A> fields = {{"truth", &A::truth},
@@ -229,7 +316,12 @@ const AnswerFields<ScoreAnswer>& answerFields(const ScoreAnswer*) {
                                          {"classes_in_mean", &A::classes_in_mean},
                                          {"mean_recall", &A::mean_recall},
                                          {"classes", &A::classes},
-                                         {"confusion", &A::matrix}};
+                                         {"confusion", &A::matrix},
+                                         {"instance_ap", &A::instance_ap, kLeftOut},
+                                         {"instance_ap_50", &A::instance_ap_50, kLeftOut},
+                                         {"instance_ap_25", &A::instance_ap_25, kLeftOut},
+                                         {"classes_in_instance_mean", &A::classes_in_instance_mean, kLeftOut},
+                                         {"instances", &A::instances, kLeftOut}};
   return fields;
 }
 
@@ -241,12 +333,13 @@ Result<Answered<ScoreAnswer>> runScore(const Document& document, const ScoreOpti
   TRY_ASSIGN(const auto plan,
              fs::is_directory(options.truth, error) ? planOfSet(options, outcome.report) : planOfFile(options));
   TRY(checkScoredClasses(plan.map));
-  ClassTally tally(plan.map);
+  Tallies tallies{ClassTally(plan.map), InstanceTally(plan.map)};
   for (std::size_t k = 0; k < plan.pairs.size(); ++k) {
     progress.advance(static_cast<double>(k) / static_cast<double>(plan.pairs.size()));
-    TRY(addPair(plan.pairs[k], plan.map, tally, progress));
+    TRY(addPair(plan.pairs[k], plan.map, tallies, progress));
   }
-  outcome.answer = scoreAnswerOf(tally.scores(), plan, options);
+  outcome.answer = scoreAnswerOf(tallies.classes.scores(), plan, options);
+  if (tallies.with_instances) takeInstances(tallies.instances.scores(), outcome.answer);
   const auto& answer = outcome.answer;
   if (answer.points == 0)
     return failure(ErrorKind::unusable, "no point has a class that is scored", options.truth.string());

@@ -29,6 +29,13 @@ struct ScoreRow {  // of a class; as in ClassScore
   std::optional<double> iou, precision, recall;
 };
 const AnswerFields<ScoreRow>& answerFields(const ScoreRow*);
+struct InstanceRow {  // of a class; as in InstanceScore
+  std::string name;
+  std::uint32_t id = 0;
+  std::uint64_t truth = 0, predicted = 0;  // instances
+  std::optional<double> ap, ap_50, ap_25;
+};
+const AnswerFields<InstanceRow>& answerFields(const InstanceRow*);
 struct ScoreAnswer {
   std::filesystem::path truth, predicted;          // as they were given
   std::string map;                                 // name of the classes
@@ -40,6 +47,10 @@ struct ScoreAnswer {
   std::optional<double> mean_recall;               // of the classes that the truth has
   std::vector<ScoreRow> classes;                   // that are scored, by id
   std::vector<std::vector<std::uint64_t>> matrix;  // [truth][predicted]: points; the last column is `given_up`
+  // Of instances, where the labels have such; means of the classes that the truth has instances of.
+  std::optional<double> instance_ap, instance_ap_50, instance_ap_25;
+  std::optional<std::size_t> classes_in_instance_mean;
+  std::vector<InstanceRow> instances;  // of the classes that are scored, by id
 };
 const AnswerFields<ScoreAnswer>& answerFields(const ScoreAnswer*);
 Result<Answered<ScoreAnswer>> runScore(const Document& document, const ScoreOptions& options, Progress& progress);

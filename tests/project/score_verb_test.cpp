@@ -295,5 +295,146 @@ TEST_F(Score, EqualsThatOfScikitLearn) {
   EXPECT_DOUBLE_EQ(ours["mean_iou"], sum / 3) << "of the classes that are somewhere";
 }
 
+// Class and instance of each point.
+std::string pairsOf(const std::vector<std::array<std::uint16_t, 2>>& labels) {
+  auto array = numpyHead("<u2", labels.size(), 2);
+  for (const auto& one : labels) array.append(reinterpret_cast<const char*>(one.data()), sizeof one);
+  return array;
+}
+
+// By hand: two walls of 200 points and one of 50. One prediction has 150 points of the first, one half of the second,
+// one lies on points without a truth, and one has the small wall and 50 points of a floor.
+TEST_F(Score, OfInstancesIsThatOfAHandComputedExample) {
+  std::vector<std::array<std::uint16_t, 2>> truth, predicted;
+  const auto add = [&](std::size_t points, std::array<std::uint16_t, 2> is, std::array<std::uint16_t, 2> taken_for) {
+    truth.insert(truth.end(), points, is);
+    predicted.insert(predicted.end(), points, taken_for);
+  };
+  add(150, {1, 1}, {1, 21});
+  add(50, {1, 1}, {0, 0});
+  add(100, {1, 2}, {1, 22});
+  add(100, {1, 2}, {2, 0});
+  add(120, {0, 0}, {1, 23});
+  add(50, {1, 3}, {1, 24});
+  add(50, {2, 9}, {1, 24});
+  folder.write("p.confidence.txt", "21 0.9\n22 0.8\n23 0.7\n24 0.5\n");
+  const auto scored = score(folder.write("t.npy", pairsOf(truth)), folder.write("p.npy", pairsOf(predicted)),
+                            {{"output", (folder / "o.html").string()}});
+  ASSERT_TRUE(scored) << describe(scored.error());
+  const auto& wall = scored->answer["instances"][0];
+  EXPECT_EQ(wall["truth"], 2) << "the third is too small";
+  EXPECT_EQ(wall["predicted"], 4);
+  EXPECT_DOUBLE_EQ(wall["ap_25"], 1);
+  EXPECT_DOUBLE_EQ(wall["ap_50"], 0.5) << "half a wall is not more than half";
+  EXPECT_DOUBLE_EQ(wall["ap"], 5 * 0.5 / 9) << "three quarters are enough up to 0.7";
+  EXPECT_TRUE(scored->answer["instances"][1]["ap"].is_null()) << "no floor has 100 points";
+  EXPECT_EQ(scored->answer["instance_ap_50"], 0.5);
+  EXPECT_EQ(scored->answer["classes_in_instance_mean"], 1);
+  EXPECT_THAT(textIn(folder / "o.html"), HasSubstr("Instances"));
+  folder.write("p.confidence.txt", "21 0.9\n22 sure\n");
+  const auto refused = score(folder / "t.npy", folder / "p.npy");
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().source, HasSubstr("p.confidence.txt line 2"));
+  const auto without = score(folder.write("t2.npy", arrayOf({1, 2})), folder.write("p2.npy", arrayOf({1, 2})));
+  ASSERT_TRUE(without);
+  EXPECT_FALSE(without->answer.contains("instances")) << "nobody predicted one";
+}
+
+// Written from the definition with masks of points, another way than ours.
+TEST_F(Score, OfInstancesEqualsTheDefinitionInNumpy) {
+  const std::string python = "/usr/bin/python3";
+  if (outputOf(python + " -c 'import numpy; print(1)'").find("1\n") != 0)
+    GTEST_SKIP() << "python3-numpy is not installed";
+  folder.write("ap.py", R"(
+import json, sys
+import numpy as np
+t, p = np.load(sys.argv[1]), np.load(sys.argv[2])
+sure = {int(a): float(b) for a, b in (line.split() for line in open(sys.argv[3]))}
+void = (t[:, 0] == 0) | (t[:, 1] == 0)
+
+def masks(labels, c):
+    of = labels[:, 0] == c
+    return [(int(i), of & (labels[:, 1] == i)) for i in np.unique(labels[of, 1]) if i > 0]
+
+def ap(c, least):
+    small = [m for _, m in masks(t, c) if m.sum() < 100]
+    truth = [m for _, m in masks(t, c) if m.sum() >= 100]
+    found = [(sure.get(i, 1.0), m) for i, m in masks(p, c) if m.sum() >= 100]
+    if not truth:
+        return None
+    if not found:
+        return 0.0
+    iou = np.array([[(a & m).sum() / (a | m).sum() for _, m in found] for a in truth])
+    score, right, missed, used = [], [], 0, set()
+    for row in iou:
+        hits = [k for k in np.flatnonzero(row > least) if k not in used]
+        if not hits:
+            missed += 1
+            continue
+        used.add(hits[0])
+        ranks = sorted((found[k][0] for k in hits), reverse=True)
+        score += ranks
+        right += [1] + [0] * (len(ranks) - 1)
+    for k, (confidence, m) in enumerate(found):
+        if (iou[:, k] > least).any():
+            continue
+        nothing = (m & void).sum() + sum((m & s).sum() for s in small)
+        if nothing / m.sum() <= least:
+            score.append(confidence)
+            right.append(0)
+    score, right = np.array(score), np.array(right)
+    cuts = np.unique(score)
+    precision = [right[score >= cut].sum() / (score >= cut).sum() for cut in cuts] + [1.0]
+    recall = [right[score >= cut].sum() / (right.sum() + missed) for cut in cuts] + [0.0]
+    return float(np.dot(precision, np.convolve([recall[0]] + recall + [0.0], [-0.5, 0, 0.5], 'valid')))
+
+rows = []
+for c in (1, 2, 7, 9):
+    all_of = [ap(c, x) for x in (0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9)]
+    rows.append([None if all_of[0] is None else float(np.mean(all_of)), all_of[0], ap(c, 0.25)])
+print(json.dumps(rows))
+)");
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    std::mt19937 random(seed);
+    std::vector<std::array<std::uint16_t, 2>> truth, predicted;
+    const std::array<std::uint16_t, 4> ids = {0, 1, 2, 7};
+    std::string sure;
+    std::uint16_t number = 1;
+    for (std::uint16_t instance = 1; instance < 120; ++instance) {
+      const std::uint16_t is = ids[random() % 4];
+      const std::size_t points = 40 + random() % 500;
+      truth.insert(truth.end(), points, {is, static_cast<std::uint16_t>(random() % 9 == 0 ? 0 : instance)});
+      const std::size_t cut = random() % 3 == 0 ? random() % points : points;  // one is found as two
+      for (const std::size_t part : {cut, points - cut}) {
+        const std::uint16_t taken_for = random() % 5 == 0 ? ids[random() % 4] : is;
+        if (random() % 4 != 0) ++number;  // else its neighbour goes on
+        predicted.insert(predicted.end(), part, {taken_for, number});
+      }
+    }
+    for (std::uint16_t k = 1; k <= number; ++k)
+      if (k % 10 != 0)
+        sure += std::to_string(k) + " " + std::to_string(0.05 * static_cast<double>(random() % 20)) + "\n";
+    const auto t = folder.write("t.npy", pairsOf(truth)), p = folder.write("p.npy", pairsOf(predicted)),
+               c = folder.write("p.confidence.txt", sure);
+    const auto text =
+        outputOf(python + " " + (folder / "ap.py").string() + " " + t.string() + " " + p.string() + " " + c.string());
+    const auto theirs = json::parse(text, nullptr, false);
+    ASSERT_TRUE(theirs.is_array()) << text;
+    const auto scored = score(t, p);
+    ASSERT_TRUE(scored) << describe(scored.error());
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto& ours = scored->answer["instances"][k];
+      if (theirs[k][0].is_null()) {
+        EXPECT_TRUE(ours["ap"].is_null()) << k;
+        continue;
+      }
+      EXPECT_GT(theirs[k][2], 0.1) << "a test of something";
+      EXPECT_NEAR(ours["ap"].get<double>(), theirs[k][0].get<double>(), 1e-12) << seed << " " << k;
+      EXPECT_NEAR(ours["ap_50"].get<double>(), theirs[k][1].get<double>(), 1e-12) << seed << " " << k;
+      EXPECT_NEAR(ours["ap_25"].get<double>(), theirs[k][2].get<double>(), 1e-12) << seed << " " << k;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace standpoint
