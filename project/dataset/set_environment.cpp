@@ -209,15 +209,16 @@ Json placeOnMap(const Document& document) {
     const Eigen::Vector3d file = Eigen::Vector3d(x, y, z) + g.shift_m;
     return g.map_from_file ? mapFromFile(*g.map_from_file, file) : file;
   };
+  const auto whole_mm = [](double metres) { return std::round(metres * 1e3) / 1e3; };
   Json corners = Json::array();
   for (const auto& [x, y] : {std::pair(box.min.x(), box.min.y()), std::pair(box.max.x(), box.min.y()),
                              std::pair(box.max.x(), box.max.y()), std::pair(box.min.x(), box.max.y())}) {
     const auto at = onMap(x, y, box.min.z());
-    corners.push_back({at.x(), at.y()});
+    corners.push_back({whole_mm(at.x()), whole_mm(at.y())});
   }
   return {{"crs", g.crs},
           {"corners", std::move(corners)},
-          {"heights", {onMap(0, 0, box.min.z()).z(), onMap(0, 0, box.max.z()).z()}}};
+          {"heights", {whole_mm(onMap(0, 0, box.min.z()).z()), whole_mm(onMap(0, 0, box.max.z()).z())}}};
 }
 
 Result<std::string> describedEnvironment(const Recipe& recipe, std::size_t index, const SetEnvironment& made,

@@ -44,54 +44,53 @@ std::vector<Storey> storeysWithStations(const Job& job) {
   return storeys;
 }
 
+// What the plane at `z` cuts of a triangle.
+template <class Take>
+void cutTriangle(const std::array<const Eigen::Vector3d*, 3>& corners, double z, const Take& take) {
+  std::array<Eigen::Vector2d, 2> ends;
+  std::size_t found = 0;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const auto &from = *corners[k], &to = *corners[(k + 1) % corners.size()];
+    if ((from.z() >= z) == (to.z() >= z)) continue;
+    const double t = (z - from.z()) / (to.z() - from.z());
+    ends[found++] = {from.x() + t * (to.x() - from.x()), from.y() + t * (to.y() - from.y())};
+  }
+  if (found == ends.size()) take(ends[0], ends[1]);
+}
+
+// Of all that stands in a scene.
+template <class Take>
+void cutScene(const Environment& scene, double z, const Take& take) {
+  for (const auto& instance : scene.instances) {
+    const auto& mesh = *scene.meshes[instance.mesh];
+    const Bounds box = bounds(mesh, instance.world_from_mesh);
+    if (!(box.min.z() < z && box.max.z() > z)) continue;
+    std::vector<Eigen::Vector3d> places;
+    places.reserve(mesh.positions.size());
+    for (const auto& p : mesh.positions) places.emplace_back(instance.world_from_mesh * p.cast<double>());
+    for (const auto& t : mesh.triangles) cutTriangle({&places[t[0]], &places[t[1]], &places[t[2]]}, z, take);
+  }
+}
+
 // A line in steps of the picture's grid.
 struct Line {
   long ax = 0, ay = 0, bx = 0, by = 0;
   auto operator<=>(const Line&) const = default;
 };
 
-// What a horizontal plane cuts, each line once, however many triangles lie in it.
-class Section {
- public:
-  Section(const Eigen::Vector2d& low, double step_m) : low_(low), step_m_(step_m) {}
-
-  std::set<Line> of(const Environment& environment, double z) const {
-    std::set<Line> lines;
-    for (const auto& instance : environment.instances) {
-      const auto& mesh = *environment.meshes[instance.mesh];
-      const Bounds box = bounds(mesh, instance.world_from_mesh);
-      if (!(box.min.z() < z && box.max.z() > z)) continue;
-      std::vector<Eigen::Vector3d> places;
-      places.reserve(mesh.positions.size());
-      for (const auto& p : mesh.positions) places.emplace_back(instance.world_from_mesh * p.cast<double>());
-      for (const auto& t : mesh.triangles) cut(places[t[0]], places[t[1]], places[t[2]], z, lines);
-    }
-    return lines;
-  }
-
- private:
-  void cut(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, double z,
-           std::set<Line>& lines) const {
-    std::array<std::pair<long, long>, 2> ends;
-    std::size_t found = 0;
-    const std::array<std::pair<const Eigen::Vector3d*, const Eigen::Vector3d*>, 3> edges = {
-        {{&a, &b}, {&b, &c}, {&c, &a}}};
-    for (const auto& [from, to] : edges) {
-      if ((from->z() >= z) == (to->z() >= z)) continue;
-      const double t = (z - from->z()) / (to->z() - from->z());
-      const auto step = [&](int axis) {
-        return std::lround(((*from)[axis] + t * ((*to)[axis] - (*from)[axis]) - low_[axis]) / step_m_);
-      };
-      ends[found++] = {step(0), step(1)};
-    }
-    if (found != 2 || ends[0] == ends[1]) return;
-    if (ends[1] < ends[0]) std::swap(ends[0], ends[1]);
-    lines.insert({ends[0].first, ends[0].second, ends[1].first, ends[1].second});
-  }
-
-  Eigen::Vector2d low_;
-  double step_m_;
-};
+// Each once, however many triangles lie in it.
+std::set<Line> linesOf(const Environment& scene, double z, const Eigen::Vector2d& low, double steps_per_m) {
+  std::set<Line> lines;
+  cutScene(scene, z, [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    const auto step = [&](const Eigen::Vector2d& at, int axis) {
+      return std::lround((at[axis] - low[axis]) * steps_per_m);
+    };
+    auto from = std::pair(step(a, 0), step(a, 1)), to = std::pair(step(b, 0), step(b, 1));
+    if (to < from) std::swap(from, to);
+    if (from != to) lines.insert({from.first, from.second, to.first, to.second});
+  });
+  return lines;
+}
 
 // 1, 2 or 5 times a power of ten, of which four or more fit.
 double scaleBar(double width_m) {
@@ -121,24 +120,31 @@ std::string svgOf(double width, double height, const std::string& content) {
 }  // namespace
 
 std::string plansOf(const Document& document) {
-  constexpr double kWidth = 720, kMargin = 24, kTitle = 22, kMost = 720;
+  constexpr double kWidth = 720, kMargin = 40, kTitle = 22, kMost = 720;
   constexpr double kSteps = 4;  // of the section's grid in a unit of the picture
-  const auto& scene = sceneOf(*document.environment());
-  const Bounds box = bounds(scene);
-  const Eigen::Vector2d low = box.min.head<2>(), size = (box.max - box.min).head<2>();
+  const auto scene = sceneOf(*document.environment());
+  const auto storeys = storeysWithStations(*document.job);
+  Bounds drawn_m;  // what is cut, and the stations: all plans have one scale
+  for (const auto& storey : storeys) {
+    cutScene(scene, storey.z, [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+      drawn_m.extend({a.x(), a.y(), 0});
+      drawn_m.extend({b.x(), b.y(), 0});
+    });
+    for (const auto* station : storey.stations) drawn_m.extend(station->true_pose.translation);
+  }
+  const Eigen::Vector2d low = drawn_m.min.head<2>(), size = (drawn_m.max - drawn_m.min).head<2>();
   const double scale = std::min((kWidth - 2 * kMargin) / std::max(size.x(), 1e-3), kMost / std::max(size.y(), 1e-3));
   const double drawn = size.y() * scale;
-  const Section section(low, 1 / (scale * kSteps));
   const auto& shift = document.georeference->shift_m;
   std::string content;
   double top = 0;
-  for (const auto& storey : storeysWithStations(*document.job)) {
+  for (const auto& storey : storeys) {
     const double y0 = top + kTitle + kMargin, left = (kWidth - size.x() * scale) / 2;
-    content += textAt(kMargin, top + kTitle, 13, "start",
+    content += textAt(kMargin / 2, top + kTitle, 13, "start",
                       fmt::format("Section at {:.2f} m, {} station{}", storey.z + shift.z(), storey.stations.size(),
                                   storey.stations.size() == 1 ? "" : "s"));
     content += fmt::format("<path fill=\"none\" stroke=\"{}\" stroke-width=\"0.7\" d=\"", kInk);
-    for (const auto& line : section.of(scene, storey.z)) {
+    for (const auto& line : linesOf(scene, storey.z, low, scale * kSteps)) {
       const auto x = [&](long step) { return left + static_cast<double>(step) / kSteps; };
       const auto y = [&](long step) { return y0 + drawn - static_cast<double>(step) / kSteps; };
       content += fmt::format("M{:.2f} {:.2f}L{:.2f} {:.2f}", x(line.ax), y(line.ay), x(line.bx), y(line.by));
