@@ -34,6 +34,7 @@ down() {
   rm -rf "$d"
 }
 trap down EXIT
+trap 'exit 143' HUP INT TERM
 die() { echo "FAILED: $*"; tail -n 5 "$d"/set*/slurm/*.log 2>/dev/null || true; exit 1; }
 
 freePort() {  # the first of a row of them
@@ -219,11 +220,12 @@ submit "$set" 4
 begun 3
 node="$(tasks | awk -v task="${scans}_3" '$1 == task { print $4 }')"
 orphan="$(processOf 3)"
-kill -STOP "$orphan"
 for task in $(tasks | awk -v node="$node" '$2 == "RUNNING" && $4 == node { sub(".*_", "", $1); print $1 }'); do
-  begun "$task"
-  kill -9 "$(ps -o ppid= -p "$(processOf "$task")" | tr -d ' ')"  # its slurmstepd
+  step="$(ps -o ppid= -p "$(processOf "$task")" | tr -d ' ')" || continue  # its slurmstepd
+  kill -9 "$step"
+  while kill -0 "$step" 2>/dev/null; do sleep 0.01; done
 done
+kill -STOP "$orphan"  # not before: who stands still when its parent dies is hung up
 kill -9 "$(pidIn "slurmd-$node")"
 for _ in $(seq 600); do
   case "$(sinfo -h -n "$node" -o %T)" in down*) break ;; esac
@@ -246,15 +248,18 @@ same "node died" "$node was down after $lost s; its script and the task that too
 slurmd -f "$SLURM_CONF" -N "$node"
 allIdle
 
+# What it was given less than some seconds ago is not on its disk yet: it would know nothing of it.
 begin controller
-submit "$set" 4
-begun 1
+submit "$set" 8
+touch "$d/submitted"
+for _ in $(seq 300); do [ "$d/state/job_state" -nt "$d/submitted" ] && break; sleep 0.1; done
+running="$(tasks | grep -c RUNNING || true)"
 kill -9 "$(pidIn slurmctld)"
 sleep 3
 slurmctld -f "$SLURM_CONF"
 for _ in $(seq 100); do scontrol ping >/dev/null 2>&1 && break; sleep 0.2; done
 finish
-same "controller killed and started again"
+same "controller killed and started again" "$running tasks were running"
 
 begin cancelled
 submit "$set" 4

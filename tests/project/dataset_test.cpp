@@ -212,8 +212,9 @@ TEST_F(Dataset, HasItsBytesForecastInEachFormat) {
   auto text = recipe();
   text["environments"].erase(1);
   text["splits"] = {{"train", {"house"}}};
-  text["instruments"][0]["set"] = {"resolution=1/16", "quality=4x"};
-  text["field_faults"] = {{{"id", "none"}}, {{"id", "short"}, {"fault", {"until=0.6"}}}};
+  text["stations"][0]["count"] = 1;
+  text["effects"].erase(1);
+  text["instruments"][0]["set"] = {"resolution=1/32", "quality=4x"};
   for (const auto& [format, as, truth] :
        {std::tuple("e57", "", true), std::tuple("e57", "scaled", false), std::tuple("las", "", true),
         std::tuple("ply", "", true), std::tuple("pcd", "", false), std::tuple("pcd", "points", true),

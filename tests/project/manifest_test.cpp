@@ -26,7 +26,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-std::string textOf(const fs::path& file) {
+std::string wholeTextOf(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
@@ -51,9 +51,11 @@ class Manifest : public testing::Test {
         {"date", "2026-01-31"},
         {"environments",
          {{{"id", "house"}, {"project", "house"}, {"license", "CC0-1.0"}}, {{"id", "tower"}, {"project", "tower"}}}},
-        {"stations", {{{"strategy", "grid"}, {"spacing_m", 2}, {"count", 3}}}},
+        {"stations", {{{"strategy", "grid"}, {"spacing_m", 2}, {"count", 2}}}},
         {"instruments",
-         {{{"id", "focus"}, {"instrument", "faro-focus-s350"}, {"set", {"resolution=1/32", "quality=4x"}}}}},
+         {{{"id", "focus"},
+           {"instrument", "faro-focus-s350"},
+           {"set", {"resolution=1/32", "quality=4x", "horizontal_to=90"}}}}},
         {"materials", {{{"id", "assigned"}}, {{"id", "brick"}, {"assign", {"class:IfcWall=brick_red_bare"}}}}},
         {"splits", {{"train", {"house"}}, {"test", {"tower"}}}},
         {"classes", {"s3dis"}}};
@@ -61,7 +63,7 @@ class Manifest : public testing::Test {
         "dataset", {},
         {{"action", "run"}, {"of", folder.write("recipe.json", recipe.dump()).string()}, {"output", set().string()}});
     ASSERT_TRUE(made) << describe(made.error());
-    manifest = json::parse(textOf(set() / "croissant.json"));
+    manifest = json::parse(wholeTextOf(set() / "croissant.json"));
   }
   fs::path set() const { return folder / "set"; }
   // Of "isBasedOn", by how its name begins.
@@ -89,20 +91,20 @@ TEST_F(Manifest, HasTheRecipeVersionsLicencesAndChecksums) {
   for (const auto& file : manifest["distribution"]) {
     if (file["@type"] != "cr:FileObject" || file["@id"] == "folder") continue;
     files.insert(file["@id"]);
-    EXPECT_EQ(file["sha256"], sha256Of(textOf(set() / file["contentUrl"].get<std::string>()))) << file["@id"];
+    EXPECT_EQ(file["sha256"], sha256Of(wholeTextOf(set() / file["contentUrl"].get<std::string>()))) << file["@id"];
   }
   EXPECT_EQ(files,
             (std::set<std::string>{"scans.csv", "recipe.json", "classes/s3dis.json", "environments/house.json",
                                    "environments/house.svg", "environments/tower.json", "environments/tower.svg"}));
-  const auto csv = textOf(set() / "scans.csv");
+  const auto csv = wholeTextOf(set() / "scans.csv");
   for (const auto& entry : fs::recursive_directory_iterator(set())) {
     if (!entry.is_regular_file()) continue;
     const auto in_set = fs::relative(entry.path(), set()).generic_string();
     if (in_set.starts_with("scans/") || in_set.starts_with("labels/")) {
-      EXPECT_THAT(csv, HasSubstr(sha256Of(textOf(entry.path())))) << in_set;
+      EXPECT_THAT(csv, HasSubstr(sha256Of(wholeTextOf(entry.path())))) << in_set;
     }
     if (in_set != "SHA256SUMS") {
-      EXPECT_THAT(textOf(set() / "SHA256SUMS"), HasSubstr(sha256Of(textOf(entry.path())) + "  " + in_set));
+      EXPECT_THAT(wholeTextOf(set() / "SHA256SUMS"), HasSubstr(sha256Of(wholeTextOf(entry.path())) + "  " + in_set));
     }
   }
 }
@@ -147,8 +149,8 @@ TEST_F(Manifest, IsFoundGoodByShaclAndWithoutItsLicenceAddressesOrChecksumsBad) 
 
 TEST_F(Manifest, HasAStacItemOfAnEnvironmentThatIsOnAMap) {
   EXPECT_FALSE(fs::exists(set() / "stac/tower.json")) << "it is nowhere";
-  const auto item = json::parse(textOf(set() / "stac/house.json"));
-  const auto schema_text = json::parse(textOf(SOURCE_DIR "/tests/project/manifest/stac_item.json"));
+  const auto item = json::parse(wholeTextOf(set() / "stac/house.json"));
+  const auto schema_text = json::parse(wholeTextOf(SOURCE_DIR "/tests/project/manifest/stac_item.json"));
   using Adapter = valijson::adapters::NlohmannJsonAdapter;
   valijson::Schema schema;
   valijson::SchemaParser().populateSchema(Adapter(schema_text), schema);
@@ -161,10 +163,10 @@ TEST_F(Manifest, HasAStacItemOfAnEnvironmentThatIsOnAMap) {
     less["properties"].erase(key);
     EXPECT_FALSE(accepts(less)) << key;
   }
-  // 500 km east in zone 32 is its meridian, 9° E; 5600 km north is 50.55° N.
+  // 500 km east in zone 32 is its meridian, 9° E; north by the meridian's arc of GRS 80 over 0.9996, integrated apart.
   const auto& corner = item["geometry"]["coordinates"][0][0];
-  EXPECT_NEAR(corner[0].get<double>(), 9, 1e-4);
-  EXPECT_NEAR(corner[1].get<double>(), 50.5533, 1e-3);
+  EXPECT_NEAR(corner[0].get<double>(), 9, 1e-5);
+  EXPECT_NEAR(corner[1].get<double>(), 50.5519306, 1e-6);
   EXPECT_EQ(item["properties"]["datetime"], "2026-01-31T00:00:00Z");
   EXPECT_EQ(item["properties"]["pc:encoding"], "E57");
   std::uint64_t points = 0;
@@ -172,24 +174,24 @@ TEST_F(Manifest, HasAStacItemOfAnEnvironmentThatIsOnAMap) {
     const auto file = set() / "stac" / asset["href"].get<std::string>();
     ASSERT_TRUE(fs::exists(file)) << name;
     if (name == "plan") continue;
-    EXPECT_EQ(asset["file:checksum"], "1220" + sha256Of(textOf(file)));
-    points += json::parse(textOf(set() / "records" / (name + ".json")))["points"].get<std::uint64_t>();
+    EXPECT_EQ(asset["file:checksum"], "1220" + sha256Of(wholeTextOf(file)));
+    points += json::parse(wholeTextOf(set() / "records" / (name + ".json")))["points"].get<std::uint64_t>();
   }
   EXPECT_EQ(item["properties"]["pc:count"], points);
 }
 
 TEST_F(Manifest, HasACardWhosePicturesAreThere) {
-  const auto html = textOf(set() / "card.html"), markdown = textOf(set() / "README.md");
+  const auto html = wholeTextOf(set() / "card.html"), markdown = wholeTextOf(set() / "README.md");
   for (const char* picture : {"environments/house.svg", "environments/tower.svg", "balance/s3dis.svg"}) {
     EXPECT_THAT(html, HasSubstr("src=\"" + std::string(picture) + "\""));
     EXPECT_THAT(markdown, HasSubstr("](" + std::string(picture) + ")"));
-    const auto svg = textOf(set() / picture);
+    const auto svg = wholeTextOf(set() / picture);
     EXPECT_TRUE(svg.starts_with("<svg xmlns=")) << picture;
     EXPECT_TRUE(svg.ends_with("</svg>\n")) << picture;
   }
-  const auto plan = textOf(set() / "environments/house.svg");
+  const auto plan = wholeTextOf(set() / "environments/house.svg");
   EXPECT_THAT(plan, HasSubstr(">grid-1</text>"));
-  EXPECT_THAT(textOf(set() / "balance/s3dis.svg"), HasSubstr(">sofa</text>"));
+  EXPECT_THAT(wholeTextOf(set() / "balance/s3dis.svg"), HasSubstr(">sofa</text>"));
 }
 
 }  // namespace
