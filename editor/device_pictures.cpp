@@ -113,6 +113,7 @@ void putWalk(Device& device, const std::string& screen, const WalkState& sample)
   if (screen == "booting" || screen == "options") return;
   s.walk = sample;
   s.walk.recording = screen == "walking";
+  if (screen != "processing") s.phase = s.walk.recording ? "recording" : "ready", s.running.reset();
   if (screen != "result" && screen != "walks") return;
   for (auto& setup : s.projects.front().setups) {
     setup.name = "Walk 00" + std::to_string(setup.number);
