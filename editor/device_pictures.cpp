@@ -118,6 +118,7 @@ void putWalk(Device& device, const std::string& screen, const WalkState& sample)
   for (auto& setup : s.projects.front().setups) {
     setup.name = "Walk 00" + std::to_string(setup.number);
     setup.station.clear();
+    setup.link.reset();
     setup.walk = WalkResult{sample.way, sample.recorded_s, lengthOf(sample.way), 1, 0, {}, sample.seen};
   }
   s.walk.way.clear();
