@@ -8,6 +8,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 #include <thread>
+#include <utility>
 
 #include "core/data_folder.h"
 #include "emulated-ui/verbs/rehearse_verb.h"
@@ -328,7 +329,7 @@ py::dict pointFlags() {
 
 void raiseAsPython(std::exception_ptr thrown) {
   try {
-    if (thrown) std::rethrow_exception(thrown);
+    if (thrown) std::rethrow_exception(std::move(thrown));
   } catch (const Refused& refused) {
     const auto& [kind, message, source] = refused.error;
     const py::object raised =
