@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
+#include <numbers>
 
 #include "emulated-ui/host.h"
 #include "emulated-ui/walk_motion.h"

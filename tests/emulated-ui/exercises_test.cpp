@@ -303,9 +303,25 @@ TEST(Mistake, AnUnlevelledScanLeans) {
 
 TEST(Mistake, AWalkDownThePathIsNotRoundTheHouse) {
   const auto way = nlohmann::json::parse(
-      "[[7.5, -6, 0], [7.5, -2, 12], [7.5, 1, 22], [7.5, -2, 32], [7.5, -30, 72], [7.5, -6, 108]]");
-  const auto outcome = rehearse(exercise("E19"), {{Kind::walk, "", "", 0, way}}, {});
-  for (const auto& step : outcome.marks.steps) EXPECT_EQ(step.done, step.id != "length") << step.id;
+      "[[7.5, 3, 0], [7.5, 1, 5], [7.5, -2, 13], [7.5, -6, 23], [7.5, -2, 33], [7.5, 1, 41], [7.5, 3, 46]]");
+  const auto outcome = Mistaken("E19")
+                           .edit([&](RehearsalAction& a) {
+                             if (a.kind == Kind::walk) a.options = way;
+                           })
+                           .outcome({"walk.length"});
+  EXPECT_NEAR(outcome.facts.at("walk.length"), 18, 1e-6) << "as it was walked";
+  for (const auto& step : outcome.marks.steps)
+    if (step.id == "walk" || step.id == "length") {
+      EXPECT_EQ(step.done, step.id == "walk") << step.id;
+    }
+}
+
+// What is held against the truth: the same walk too fast turns red, and one that does not come back closes nothing.
+TEST(Mistake, AHurriedWalkTurnsRed) {
+  const auto hurried = rehearse(exercise("E25"), exercise("E25").mistakes.front().actions, {"walk.speed"});
+  EXPECT_FALSE(held(hurried, "light"));
+  EXPECT_FALSE(hurried.marks.passed);
+  EXPECT_GT(hurried.facts.at("walk.speed"), 1.3);
 }
 
 TEST(Mistake, AStationFarFromTheDoorJoinsNoRooms) {
