@@ -2,10 +2,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/data_folder.h"
 #include "emulated-ui/host.h"
 #include "emulated-ui/walk_motion.h"
 #include "emulated-ui/walk_scan.h"
-#include "project/survey/survey_verbs.h"
+#include "project/verb.h"
 #include "tests/emulated-ui/support.h"
 #include "tests/project/support.h"
 
