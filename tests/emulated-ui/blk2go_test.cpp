@@ -35,7 +35,7 @@ void begin(TestDevice& d) {
 
 TEST(Blk2go, LightsItsRingByWhatItDoes) {
   TestDevice d("leica-blk2go");
-  EXPECT_EQ(d.fact("carried.light"), "");
+  EXPECT_EQ(d.fact("carried.light"), "off");
   ASSERT_TRUE(d.press({"key"}));
   EXPECT_EQ(d.fact("carried.light"), "yellow flashing");
   d->tick(30);
@@ -77,9 +77,9 @@ TEST(Blk2go, WalksStraightAndTurnsOnTheSpot) {
   EXPECT_NEAR(d->state().walk.at->front(), 4, 1e-9);
   d->tick(100);
   const auto& way = d->state().walk.way;
-  ASSERT_EQ(way.size(), 4U) << "beginning, first corner, turned, end";
-  EXPECT_NEAR(way[2][2] - way[1][2], std::numbers::pi / 2 / (kTurn_rad_per_m * 0.5), 1e-9);
-  EXPECT_NEAR(way[3][2] - way[2][2], 4, 1e-9) << "2 m at 0.5 m/s";
+  ASSERT_EQ(way.size(), 5U) << "beginning, set off, first corner, turned, end";
+  EXPECT_NEAR(way[3][2] - way[2][2], std::numbers::pi / 2 / (kTurn_rad_per_m * 0.5), 1e-9);
+  EXPECT_NEAR(way[4][2] - way[3][2], 4, 1e-9) << "2 m at 0.5 m/s";
   EXPECT_EQ(d.fact("carried.walking"), "no");
   EXPECT_NEAR(d->number("carried.length"), 6, 1e-9);
   EXPECT_NEAR(d->number("carried.gap"), std::hypot(4, 2), 1e-9);
@@ -163,7 +163,7 @@ TEST(Blk2go, RecordsAWalkAndGivesItToTheOffice) {
   ASSERT_TRUE(order);
   const auto& scan = std::get<ScanOrder>(*order);
   ASSERT_TRUE(scan.walk);
-  EXPECT_EQ(scan.walk->way.size(), 3U);
+  EXPECT_EQ(scan.walk->way.size(), 4U) << "beginning, set off, arrived, end";
   EXPECT_FALSE(scan.walk->closures);
   EXPECT_TRUE(scan.walk->stations);
   d.finish(scan);
