@@ -54,7 +54,7 @@ TEST_P(Widgets, PressedOnEveryScreen) {
   };
   const auto elsewhere = testedBy(*GetParam(), "widgets");
   const std::set<WidgetKind> kShown = {WidgetKind::status, WidgetKind::readout, WidgetKind::note, WidgetKind::progress,
-                                       WidgetKind::lamp,   WidgetKind::level,   WidgetKind::plan};
+                                       WidgetKind::lamp,   WidgetKind::level,   WidgetKind::plan, WidgetKind::seen};
   for (const auto& key : (*first)->definition.keys)
     if (!kShown.contains(key.kind)) {
       EXPECT_TRUE(pressed((*first)->definition.screens.front().id, key.id, true)) << "key " << key.id;
