@@ -230,10 +230,13 @@ TEST(Plan, ForecastsTheSizeOfTheFile) {
   const auto instrument = *instrumentById("faro-focus-s350");
   const auto settings = *resolveSettings(instrument, {{"resolution", "1/16"}, {"quality", "4x"}});
   const auto assignment = std::make_shared<const MaterialAssignment>();
-  const auto known = planSurvey(
-      *d.job, *RayScene::build(d.environment(), progress), assignment,
-      {.instrument = instrument, .settings = settings, .stations = {0}, .channels = {.time = true, .returns = true, .truth = true}, .wanted = {}},
-      progress);
+  const auto known = planSurvey(*d.job, *RayScene::build(d.environment(), progress), assignment,
+                                {.instrument = instrument,
+                                 .settings = settings,
+                                 .stations = {0},
+                                 .channels = {.time = true, .returns = true, .truth = true},
+                                 .wanted = {}},
+                                progress);
   ASSERT_TRUE(known) << describe(known.error());
   ASSERT_TRUE(run("scan", d,
                   {{"instrument", "faro-focus-s350"},
