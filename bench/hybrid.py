@@ -7,7 +7,7 @@ usage: hybrid.py STANDPOINT OUTDIR [SEEDS]
 
 60 m by 40 m in twelve rooms, one loop through all of them, a station in each. Scanned once with the BLK2GO's data (a
 hundredth of its pulses), for each seed with its trajectory open, closed, closed and held by control points, and closed
-and held by stations, which are scanned with the RTC360's. Figures are distances of points from where they truly are,
+and held by stations, which are scanned with the Focus S350's. Figures are distances of points from where they truly are,
 millimetres.
 """
 import json
@@ -134,7 +134,7 @@ def main():
         x, y = middle(room) + (1.0, 0.5)
         run(standpoint, "station", "p", "--add", f"S{number + 1:02}", "--on", f"{x},{y},0")
     os.makedirs("tripod")
-    run(standpoint, "scan", "p", "--instrument", "leica-rtc360", "-o", "tripod", "--truth", "--set", "resolution=12mm")
+    run(standpoint, "scan", "p", "--instrument", "faro-focus-s350", "-o", "tripod", "--truth", "--set", "resolution=1/16", "quality=4x")
     tripod = []
     for file in sorted(os.listdir("tripod")):
         run(standpoint, "convert", os.path.join("tripod", file), "station.ply")

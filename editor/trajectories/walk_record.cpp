@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 constexpr double kStep_m = 0.02, kJump_m = 1.5;
 constexpr double kStray_m = 0.05;  // of straight legs from what was walked
-constexpr double kStop_s = 1, kSamePlace_m = 0.1;
+constexpr double kStop_s = 1, kSameWaypoint_m = 0.1;
 
 double fromLeg(const Vector3d& p, const Vector3d& from, const Vector3d& to) {
   const Vector3d leg = to - from;
@@ -90,7 +90,7 @@ std::vector<Waypoint> WalkRecord::waypoints() const {
   std::vector<Waypoint> waypoints;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     const double stood_s = samples_[i].until_s - samples_[i].from_s;
-    const bool near = !waypoints.empty() && (samples_[i].feet - waypoints.back().floor_m).norm() < kSamePlace_m;
+    const bool near = !waypoints.empty() && (samples_[i].feet - waypoints.back().floor_m).norm() < kSameWaypoint_m;
     if (!kept[i] || (near && stood_s < kStop_s)) continue;
     if (near) waypoints.pop_back();
     waypoints.push_back({samples_[i].feet, stood_s >= kStop_s ? std::round(10 * stood_s) / 10 : 0, {}});
