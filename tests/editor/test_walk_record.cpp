@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFrame_s = 1.0 / 60;
+constexpr double kBetween_s = 1.0 / 60;
 
 // Along straight legs at 1.2 m/s, with a stop of 3 s where `stop` says, sixty frames a second.
 WalkRecord walked(const std::vector<Vector3d>& corners, std::size_t stop = 0) {
@@ -20,11 +20,11 @@ WalkRecord walked(const std::vector<Vector3d>& corners, std::size_t stop = 0) {
   double now = 100;
   for (std::size_t k = 1; k < corners.size(); ++k) {
     const double length = (corners[k] - corners[k - 1]).norm();
-    for (double at = 0; at < length; at += 1.2 * kFrame_s, now += kFrame_s)
+    for (double at = 0; at < length; at += 1.2 * kBetween_s, now += kBetween_s)
       EXPECT_TRUE(record.follow(now, corners[k - 1] + (corners[k] - corners[k - 1]) * (at / length)));
     EXPECT_TRUE(record.follow(now, corners[k]));
     if (k == stop)
-      for (double stood = 0; stood < 3; stood += kFrame_s) EXPECT_TRUE(record.follow(now += kFrame_s, corners[k]));
+      for (double stood = 0; stood < 3; stood += kBetween_s) EXPECT_TRUE(record.follow(now += kBetween_s, corners[k]));
   }
   return record;
 }
@@ -58,8 +58,10 @@ TEST(WalkRecord, StopsWhereSomebodyStood) {
   const auto waypoints = walked({{0, 0, 0}, {2, 0, 0}, {5, 0, 0}}, 1).waypoints();
   double stopped = 0;
   for (const auto& waypoint : waypoints)
-    if (waypoint.stop_s > 0)
-      stopped += waypoint.stop_s, EXPECT_NEAR((waypoint.floor_m - Vector3d(2, 0, 0)).norm(), 0, 0.03);
+    if (waypoint.stop_s > 0) {
+      stopped += waypoint.stop_s;
+      EXPECT_NEAR((waypoint.floor_m - Vector3d(2, 0, 0)).norm(), 0, 0.03);
+    }
   EXPECT_NEAR(stopped, 3, 0.15);
 }
 
