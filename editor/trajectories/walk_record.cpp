@@ -55,8 +55,9 @@ double WalkRecord::length_m() const {
 }
 
 double WalkRecord::speed_mps() const {
-  double walked_s = 0;
-  for (std::size_t i = 1; i < samples_.size(); ++i) walked_s += samples_[i].from_s - samples_[i - 1].until_s;
+  double walked_s = seconds();
+  for (const Sample& sample : samples_)
+    if (sample.until_s - sample.from_s >= kStop_s) walked_s -= sample.until_s - sample.from_s;
   return walked_s > 0 ? length_m() / walked_s : 0;
 }
 
