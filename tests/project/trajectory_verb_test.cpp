@@ -38,6 +38,7 @@ json thinlyAlong(const std::filesystem::path& output) {
   const auto shipped = std::filesystem::path(SOURCE_DIR) / "scanners/instruments/velodyne-vlp-16.json";
   const auto thin = output.parent_path() / "thin.json";
   json device = json::parse(std::ifstream(shipped));
+  device["id"] = "thin";
   device["moving"]["points_per_s"]["value"] = 15000;
   device["moving"]["firing_us"]["value"] = 20 * 55.296;
   std::ofstream(thin) << device;
