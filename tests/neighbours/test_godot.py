@@ -15,7 +15,7 @@ BODY = {"radius_m": 0.3, "height_m": 1.8, "speed_m_s": 1.4, "most_steps": 200}  
 BESIDE_M, ABOVE_M = 1.2, 0.05
 # Godot 3 makes each convex shape larger by its margin, 4 cm unless it is set.
 GIVEN_MARGIN_M, LEAST_MARGIN_M = 0.04, 0.001
-# The toilet stands where one walk in the bathroom begins and the other ends.
+# The toilet stands where one walk in the bathroom begins and the other would end.
 FURNISHED = "Bathroom door"
 IMPORT_SECONDS = 300
 
