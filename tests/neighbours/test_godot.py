@@ -17,7 +17,7 @@ BESIDE_M, ABOVE_M = 1.2, 0.05
 GIVEN_MARGIN_M, LEAST_MARGIN_M = 0.04, 0.001
 # The toilet stands where one walk in the bathroom begins and the other would end.
 FURNISHED = "Bathroom door"
-IMPORT_SECONDS = 300
+FILE_SECONDS = 120  # half a minute is usual
 
 
 def walks_through(doors: list, model: Glb) -> list:
@@ -31,20 +31,35 @@ def walks_through(doors: list, model: Glb) -> list:
     return walks
 
 
-def import_all(project: Path) -> float:
-    """Godot's editor imports what is in the folder and does not end by itself: it is ended when the sums of all files are there."""
-    wanted = len(list(project.glob("*.glb")))
-    began = time.monotonic()
+def imported(project: Path) -> int:
+    return len(list((project / ".import").glob("*.md5")))
+
+
+def import_once(project: Path, wanted: int) -> bool:
+    """Godot's editor does not end by itself: it is ended when the sums of all files are there, or where no more come."""
     editor = subprocess.Popen(["godot3-server", "--path", project, "-e", "-q"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=quiet_home())
     try:
-        while len(list((project / ".import").glob("*.md5"))) < wanted:
-            if editor.poll() is not None or time.monotonic() - began > IMPORT_SECONDS:
-                raise RuntimeError(f"Godot imported {len(list((project / '.import').glob('*.md5')))} of {wanted} files")
+        found, since = imported(project), time.monotonic()
+        while found < wanted:
+            if editor.poll() is not None or time.monotonic() - since > FILE_SECONDS:
+                print(f"Godot's editor had imported {found} of {wanted} files when it was ended")
+                return False
             time.sleep(0.2)
+            if imported(project) > found:
+                found, since = imported(project), time.monotonic()
+        return True
     finally:
         editor.kill()
         editor.wait()
-    return time.monotonic() - began
+
+
+def import_all(project: Path) -> float:
+    """Seconds. Of some twenty imports one hung without importing anything, so another may follow."""
+    wanted, began = len(list(project.glob("*.glb"))), time.monotonic()
+    for _ in range(3):
+        if import_once(project, wanted):
+            return time.monotonic() - began
+    raise RuntimeError(f"Godot imported {imported(project)} of {wanted} files")
 
 
 def walk_all(project: Path, tasks: list) -> list:
