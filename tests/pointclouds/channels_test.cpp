@@ -286,7 +286,7 @@ TEST(Las, OfPointFormat8HasRoomForNearInfraredAndSaysThatItIsEmpty) {
     const std::string bytes = testing::bytesOf(folder / "a.las");
     EXPECT_EQ(bytes[104], 8);
     const auto at = [&](std::size_t i) { return static_cast<std::uint8_t>(bytes[i]); };
-    const std::size_t length = 38 + 4 * 4 + (colour ? 3 * 4 + 3 * 4 + 1 : 0);  // labels, row, column; true values
+    const std::size_t length = 38 + 4 * 4 + (colour ? 1 + 3 * 4 + 3 * 4 + 1 : 0);  // labels, grid; channel, truth
     EXPECT_EQ(at(105), length);
     const std::size_t record = at(96) | at(97) << 8U;
     const PointBlock points = allPoints(header);

@@ -233,19 +233,19 @@ TEST(TrajectoryVerb, IsHeldByControlPointsWhereItStops) {
   };
   const auto truth = written(json::object()).first;
   ASSERT_GT(truth.size(), 500U);
-  // The mean error of the third stop, where shaking averages out.
+  // The mean error of the third stop, where shaking averages out; our own files have local coordinates.
   const auto offAtStop = [&](const std::vector<Eigen::Vector4d>& solved) {
     Eigen::Vector3d off = Eigen::Vector3d::Zero();
     int count = 0;
     double last = 0;
     for (const auto& t : truth)
-      if ((t.segment<2>(1) - Eigen::Vector2d(500003.5, 5600002)).norm() < 0.02) last = t[0];
+      if ((t.segment<2>(1) - Eigen::Vector2d(3.5, 2)).norm() < 0.05) last = t[0];
     for (std::size_t i = 0; i < truth.size(); ++i)
       if (truth[i][0] > last - 2 && truth[i][0] < last - 0.5) off += solved[i].tail<3>() - truth[i].tail<3>(), ++count;
     return Eigen::Vector3d(off / count);
   };
   double open = 0, held = 0;
-  constexpr int kSeeds = 24;
+  constexpr int kSeeds = 8;
   for (int seed = 1; seed <= kSeeds; ++seed) {
     json options = {
         {"solved-for", "leica-blk2go"}, {"trajectory-error", "handheld"}, {"closures", "off"}, {"error-seed", seed}};
