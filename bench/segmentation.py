@@ -361,11 +361,11 @@ def main():
             if real:
                 row["pump"] = judged_real(standpoint, model, real)
             figures["runs"].append(row)
+            with open("figures.json", "w") as file:  # each time, so that a run that is cut off keeps what it found
+                json.dump(figures, file, indent=1)
             print(f"seed {seed} {k}: mean IoU {row['held_out']['mean_iou']:.3f}, own {row['own']['mean_iou']:.3f} at {time.time() - began:.0f} s", flush=True)
             if seed == 1 and k == "all":
                 picture(held[k][0][0], guesses[0])
-    with open("figures.json", "w") as file:
-        json.dump(figures, file, indent=1)
     with open("tables.md", "w") as file:
         file.write(tables(figures))
     print(tables(figures))
