@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kStep_m = 0.02, kJump_m = 1.5;
+constexpr double kLeastStep_m = 0.02, kJump_m = 1.5;
 constexpr double kStray_m = 0.05;  // of straight legs from what was walked
 constexpr double kStop_s = 1, kSameWaypoint_m = 0.1;
 
@@ -39,7 +39,7 @@ bool WalkRecord::follow(double now_s, const Vector3d& feet) {
     active_ = false;
     return false;
   }
-  if (moved < kStep_m)
+  if (moved < kLeastStep_m)
     last.until_s = now_s;
   else
     samples_.push_back({now_s, now_s, feet});

@@ -288,9 +288,10 @@ double measuredDrift_mm(const WalkResult& result, const Exercise& exercise) {
   const auto count = result.errors.size();
   double worst = 0;
   bool checked = false;
-  for (const auto& [name, place] : exercise.places) {
-    if (!name.starts_with("check")) continue;
+  for (const auto& check : exercise.places) {
+    if (!check.first.starts_with("check")) continue;
     checked = true;
+    const auto& place = check.second;
     const auto is_there = [&](std::size_t i) {
       return i < count && std::hypot(result.errors[i][0] - place[0], result.errors[i][1] - place[1]) <= kSamePlace_m;
     };

@@ -113,7 +113,8 @@ std::vector<std::array<std::uint32_t, 2>> blocksKept(const ScanSurroundings& com
   if (!company.carried) return {{options.first_column, options.end_column}};
   std::vector<std::array<std::uint32_t, 2>> kept;
   const auto at = [&](double time_s) {
-    return static_cast<std::uint32_t>(std::clamp(std::round(blocks * time_s / seconds), 0.0, double{blocks}));
+    return static_cast<std::uint32_t>(
+        std::clamp(std::round(blocks * time_s / seconds), 0.0, static_cast<double>(blocks)));
   };
   for (const auto& [from_s, to_s] : company.carried->recorded) kept.push_back({at(from_s), at(to_s)});
   return kept;
