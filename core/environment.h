@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "core/mesh.h"
+#include "core/property_type.h"
 
 namespace standpoint {
 
@@ -54,6 +55,7 @@ struct Property {
   std::string set;  // property or quantity set; empty for glTF extras
   std::string name;
   std::string value;  // as text, with its unit where the file states one
+  PropertyType type = kNoPropertyType;
 };
 
 // A node of the spatial structure: project, site, building, storey, space; parents come before children.

@@ -63,8 +63,10 @@ Json toExtras(const Product& p) {
   if (!p.groups.empty()) extras["groups"] = p.groups;
   for (const auto& layer : p.layers)
     extras["layers"].push_back({{"name", layer.name}, {"thickness_m", layer.thickness_m}});
-  for (const auto& property : p.properties)
+  for (const auto& property : p.properties) {
     extras["properties"].push_back({{"set", property.set}, {"name", property.name}, {"value", property.value}});
+    if (property.type != kNoPropertyType) extras["properties"].back()["type"] = keywordOf(property.type);
+  }
   return extras;
 }
 
@@ -81,7 +83,8 @@ void restoreProduct(GltfFile& file, const Json& extras, Product& p) {
     if (const auto& thickness = memberOf(layer, "thickness_m"); thickness.is_number())
       p.layers.push_back({file.text(layer, "name"), thickness.get<double>()});
   for (const auto& property : memberOf(extras, "properties"))
-    p.properties.push_back({file.text(property, "set"), file.text(property, "name"), file.text(property, "value")});
+    p.properties.push_back({file.text(property, "set"), file.text(property, "name"), file.text(property, "value"),
+                            propertyTypeOf(file.text(property, "type"))});
 }
 
 }  // namespace standpoint

@@ -26,7 +26,7 @@ void appendProperty(Properties& out, const std::string& set, const Entity& p, co
   const std::string_view kind = p.typeName();
   const bool complex = kind == "IFCCOMPLEXPROPERTY";
   if (!complex && kind != "IFCPHYSICALCOMPLEXQUANTITY") {
-    if (p) out.push_back({set, p[0].text(), propertyText(p, model)});
+    if (p) out.push_back({set, p[0].text(), propertyText(p, model), propertyType(p)});
     return;
   }
   if (depth >= 8) return;  // properties that hold each other

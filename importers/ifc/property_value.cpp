@@ -104,4 +104,9 @@ std::string propertyText(const Entity& p, const Model& model) {
   return {};
 }
 
+PropertyType propertyType(const Entity& p) {
+  const std::string_view kind = p.typeName();
+  return propertyTypeOf(kind == "IFCPROPERTYSINGLEVALUE" ? p[2].typeName() : kind);
+}
+
 }  // namespace standpoint::ifc

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/property_type.h"
 #include "importers/ifc/model/model.h"
 
 namespace standpoint::ifc {
@@ -15,6 +16,8 @@ std::string valueText(const Value& value, const Entity& own_unit, const Model& m
 std::string joinedText(const Value& list, const Entity& own_unit, const Model& model);
 // Of IfcProperty… other than the complex ones, and of IfcPhysicalSimpleQuantity.
 std::string propertyText(const Entity& property, const Model& model);
+// Of a single value and of a simple quantity; of what has several values none.
+PropertyType propertyType(const Entity& property);
 // What a reference names: "IfcMaterial Brick".
 std::string referenceText(const Entity& entity);
 

@@ -266,15 +266,20 @@ json collisionToJson(const CollideResult& c) {
 
 json propertiesToJson(const std::vector<Property>& properties) {
   json rows = json::array();
-  for (const auto& q : properties) rows.push_back({q.set, q.name, q.value});
+  for (const auto& q : properties) {
+    rows.push_back({q.set, q.name, q.value});
+    if (q.type != kNoPropertyType) rows.back().push_back(keywordOf(q.type));
+  }
   return rows;
 }
 
-// A project written before storeys kept theirs has none.
+// A project written before storeys kept theirs has none; one written before values kept their types has no types.
 std::vector<Property> propertiesFrom(const json& owner) {
   std::vector<Property> properties;
   if (owner.contains("properties"))
-    for (const auto& q : owner.at("properties")) properties.push_back({q.at(0), q.at(1), q.at(2)});
+    for (const auto& q : owner.at("properties"))
+      properties.push_back(
+          {q.at(0), q.at(1), q.at(2), q.size() > 3 ? propertyTypeOf(q.at(3).get<std::string>()) : kNoPropertyType});
   return properties;
 }
 
