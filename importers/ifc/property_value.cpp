@@ -1,30 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "importers/ifc/property_value.h"
 
-#include <array>
-#include <utility>
-
 #include "importers/ifc/model/entities.h"
 #include "importers/ifc/model/units.h"
 
 namespace standpoint::ifc {
 namespace {
-
-// IfcPositiveLengthMeasure is counted in LENGTHUNIT: the schema names measures and units alike but for a few.
-std::string unitTypeOf(std::string_view measure) {
-  constexpr std::array<std::pair<std::string_view, const char*>, 4> kOdd{{{"IFCQUANTITYWEIGHT", "MASSUNIT"},
-                                                                          {"IFCMONETARYMEASURE", "MONETARYUNIT"},
-                                                                          {"IFCQUANTITYCOUNT", ""},
-                                                                          {"IFCQUANTITYNUMBER", ""}}};
-  for (const auto& [name, unit] : kOdd)
-    if (measure == name) return unit;
-  if (measure.starts_with("IFCQUANTITY")) return std::string(measure.substr(11)) + "UNIT";
-  if (!measure.starts_with("IFC") || !measure.ends_with("MEASURE")) return {};
-  std::string_view core = measure.substr(3, measure.size() - 10);
-  for (const std::string_view sign : {"POSITIVE", "NONNEGATIVE"})
-    if (core.starts_with(sign)) core.remove_prefix(sign.size());
-  return std::string(core) + "UNIT";
-}
 
 std::string unitText(std::string_view measure, const Entity& own_unit, const Model& model) {
   if (own_unit) return unitSymbol(own_unit);

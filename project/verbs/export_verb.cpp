@@ -15,7 +15,9 @@
 #include "core/visible_colour.h"
 #include "importers/gltf/gltf_writer.h"
 #include "importers/helios/helios_writer.h"
+#include "importers/ifc/writer/ifc_writer.h"
 #include "importers/obj/obj_writer.h"
+#include "project/dataset/program_version.h"
 #include "project/model/optimize_verb.h"
 #include "project/storage/project_json.h"
 #include "project/verbs/file_verbs.h"
@@ -142,6 +144,20 @@ Result<void> exportPhysical(const Document& document, Environment& scene, const 
   return writeEnvironmentObj(scene, *document.georeference, file, progress);
 }
 
+// Rooms are in it, too: their class says that nobody walks into them.
+Result<void> exportIfc(const Document& document, const fs::path& file, Answered<ExportAnswer>& outcome,
+                       Progress& progress) {
+  Environment all = *document.environment();
+  const std::array environments = {&all};
+  const auto physical = physicalSurfaces(document, environments, LooksOfSplit::kept);
+  TRY_ASSIGN(const auto summary,
+             writeIfc(all, physical, *document.georeference, file, fmt::format("Standpoint {}", programVersion()),
+                      outcome.report, progress));
+  outcome.answer.triangles = summary.triangles;
+  outcome.answer.schema = summary.schema;
+  return {};
+}
+
 }  // namespace
 
 std::span<const Choice<CollisionNaming>> choices(CollisionNaming) {
@@ -156,7 +172,7 @@ const Fields<ExportOptions>& exportFields() {
   static const Fields<O> fields = {
       {"output",
        &O::output,
-       "file to write (.glb, .gltf, .obj; .xml for HELIOS++)",
+       "file to write (.ifc, .glb, .gltf, .obj; .xml for HELIOS++)",
        {.required = true, .label = "File"}},
       {"physical",
        &O::physical,
@@ -186,6 +202,7 @@ const AnswerFields<ExportAnswer>& answerFields(const ExportAnswer*) {
   using A = ExportAnswer;
   static const AnswerFields<A> fields = {{"file", &A::file},
                                          {"triangles", &A::triangles},
+                                         {"schema", &A::schema, kLeftOut},
                                          {"levels", &A::levels, kLeftOut},
                                          {"collision_shapes", &A::collision_shapes, kLeftOut}};
   return fields;
@@ -196,14 +213,15 @@ Result<Answered<ExportAnswer>> runExport(const Document& document, const ExportO
   progress.stage("Export " + file.filename().string());
   const auto extension = lowerExtension(file);
   const bool gltf = extension == ".glb" || extension == ".gltf", helios = extension == ".xml";
+  const bool ifc = extension == ".ifc";
   const bool physical = options.physical;
-  if (!gltf && !helios && extension != ".obj")
+  if (!gltf && !helios && !ifc && extension != ".obj")
     return failure(ErrorKind::usage,
-                   fmt::format("unsupported format '{}'; use .glb, .gltf, .obj, or .xml for HELIOS++", extension),
+                   fmt::format("unsupported format '{}'; use .ifc, .glb, .gltf, .obj, or .xml for HELIOS++", extension),
                    "--output");
   if (physical && extension != ".obj")
     return failure(ErrorKind::usage,
-                   "this option applies to .obj only; glTF and HELIOS++ scenes always contain the physical materials",
+                   "this option applies to .obj only; IFC, glTF and HELIOS++ scenes always contain the physical materials",
                    "--physical");
   if (!gltf && (!options.levels.empty() || options.collision))
     return failure(ErrorKind::usage, "levels of detail and collision shapes can be exported to .glb or .gltf only",
@@ -211,11 +229,12 @@ Result<Answered<ExportAnswer>> runExport(const Document& document, const ExportO
   TRY(checkFolderOf(file, "--output"));
   Environment scene = sceneOf(*document.environment());
   dropUnusedMeshes(scene);
-  Answered<ExportAnswer> outcome{document, {file, triangleCount(scene), {}, {}}};
-  TRY(gltf                 ? exportGltf(document, scene, file, options, outcome, progress)
+  Answered<ExportAnswer> outcome{document, {file, triangleCount(scene), {}, {}, {}}};
+  TRY(ifc                  ? exportIfc(document, file, outcome, progress)
+      : gltf               ? exportGltf(document, scene, file, options, outcome, progress)
       : helios || physical ? exportPhysical(document, scene, file, helios, outcome.report, progress)
                            : writeEnvironmentObj(scene, *document.georeference, file, progress));
-  if (const auto left_out = document.environment()->instances.size() - scene.instances.size(); left_out > 0)
+  if (const auto left_out = document.environment()->instances.size() - scene.instances.size(); left_out > 0 && !ifc)
     outcome.report.note(
         "spaces", fmt::format("{} bodies outside the scene (spaces, excluded products) were not exported", left_out));
   outcome.description = "Exported " + file.filename().string();

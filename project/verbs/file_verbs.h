@@ -38,6 +38,7 @@ const AnswerFields<ExportLevel>& answerFields(const ExportLevel*);
 struct ExportAnswer {
   std::filesystem::path file;
   std::uint64_t triangles = 0;
+  std::optional<std::string> schema;            // of an IFC file
   std::vector<ExportLevel> levels;              // that were asked for
   std::optional<std::size_t> collision_shapes;  // likewise
 };

@@ -97,7 +97,7 @@ const std::vector<Verb>& table() {
           "Assess the scans of a project: coverage, overlap, density, incidence, noise, stray points, poses, targets; "
           "each against a limit, with the worst place",
           S::reads, assessFields(), runAssess),
-      verbOf("export", "Write the model as glTF, as OBJ, or as a scene for HELIOS++", S::reads, exportFields(),
+      verbOf("export", "Write the model as IFC, as glTF, as OBJ, or as a scene for HELIOS++", S::reads, exportFields(),
              runExport),
       verbOf("convert", "Convert a point cloud to another format or to a labelled set", S::files, convertFields(),
              runConvert),

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <string_view>
+#include <utility>
 
 namespace standpoint::ifc {
 namespace {
@@ -125,6 +126,34 @@ std::string unitSymbol(const Entity& unit) {
       unit.is("IFCCONTEXTDEPENDENTUNIT"))
     return unit[2].text();
   if (unit.is("IFCMONETARYUNIT")) return unit[0].isText() ? unit[0].text() : std::string(unit[0].symbol());
+  return {};
+}
+
+std::string unitTypeOf(std::string_view measure) {
+  // The schema names measures and units alike but for these.
+  constexpr std::array<std::pair<std::string_view, const char*>, 6> kOdd{
+      {{"IFCQUANTITYWEIGHT", "MASSUNIT"},
+       {"IFCMONETARYMEASURE", "MONETARYUNIT"},
+       {"IFCQUANTITYCOUNT", ""},
+       {"IFCQUANTITYNUMBER", ""},
+       {"IFCTHERMALCONDUCTIVITYMEASURE", "THERMALCONDUCTANCEUNIT"},
+       {"IFCSECTIONALAREAINTEGRALMEASURE", "SECTIONAREAINTEGRALUNIT"}}};
+  for (const auto& [name, unit] : kOdd)
+    if (measure == name) return unit;
+  if (measure.starts_with("IFCQUANTITY")) return std::string(measure.substr(11)) + "UNIT";
+  if (!measure.starts_with("IFC") || !measure.ends_with("MEASURE")) return {};
+  std::string_view core = measure.substr(3, measure.size() - 10);
+  for (const std::string_view sign : {"POSITIVE", "NONNEGATIVE"})
+    if (core.starts_with(sign)) core.remove_prefix(sign.size());
+  return std::string(core) + "UNIT";
+}
+
+std::optional<SiUnitName> siUnitOf(std::string_view symbol) {
+  for (const SiUnit& unit : kSiUnits)
+    if (symbol == unit.symbol) return SiUnitName{{}, unit.name};
+  for (const SiUnit& unit : kSiUnits)
+    for (const Prefix& prefix : kPrefixes)
+      if (symbol == std::string(prefix.symbol) + unit.symbol) return SiUnitName{prefix.name, unit.name};
   return {};
 }
 

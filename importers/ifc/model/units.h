@@ -2,7 +2,9 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/report.h"
 #include "importers/ifc/model/step_file.h"
@@ -22,5 +24,14 @@ Units readUnits(const StepFile& file, double given_m, Report& report);
 // them.
 double siFactor(const Entity& unit);
 std::string unitSymbol(const Entity& unit);
+// "LENGTHUNIT" of "IFCPOSITIVELENGTHMEASURE", "AREAUNIT" of "IFCQUANTITYAREA"; empty for what is not measured.
+std::string unitTypeOf(std::string_view measure);
+
+// An SI unit by its symbol: MILLI and METRE of "mm".
+struct SiUnitName {
+  std::string_view prefix;  // empty: none
+  std::string_view name;
+};
+std::optional<SiUnitName> siUnitOf(std::string_view symbol);
 
 }  // namespace standpoint::ifc

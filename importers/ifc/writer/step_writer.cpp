@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "importers/ifc/writer/step_writer.h"
+
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace standpoint::ifc {
+namespace {
+
+constexpr std::size_t kBlock = std::size_t{1} << 20U;
+constexpr std::uint32_t kReplacement = 0xFFFD;
+
+// The code point that begins at `at`, which is moved behind it; kReplacement where the bytes are not UTF-8.
+std::uint32_t nextCode(std::string_view s, std::size_t& at) {
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(s[i]); };
+  const std::uint8_t lead = byte(at++);
+  if (lead < 0x80) return lead;
+  const int more = lead >= 0xF0 && lead < 0xF5   ? 3
+                   : lead >= 0xE0 && lead < 0xF0 ? 2
+                   : lead >= 0xC2 && lead < 0xE0 ? 1
+                                                 : 0;
+  if (more == 0 || at + static_cast<std::size_t>(more) > s.size()) return kReplacement;
+  std::uint32_t code = lead & (0x3FU >> more);
+  for (int i = 0; i < more; ++i) {
+    if ((byte(at + static_cast<std::size_t>(i)) & 0xC0U) != 0x80) return kReplacement;
+    code = code << 6U | (byte(at + static_cast<std::size_t>(i)) & 0x3FU);
+  }
+  at += static_cast<std::size_t>(more);
+  constexpr std::array<std::uint32_t, 4> kLeast{0, 0x80, 0x800, 0x10000};
+  const bool valid =
+      code >= kLeast[static_cast<std::size_t>(more)] && code <= 0x10FFFF && (code < 0xD800 || code >= 0xE000);
+  return valid ? code : kReplacement;
+}
+
+template <class T>
+std::string realText(T number) {
+  if (!std::isfinite(number)) return "0.";
+  std::array<char, 32> buffer;
+  std::string text(buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), number).ptr);
+  const auto e = text.find('e');
+  if (text.find('.') == std::string::npos) text.insert(e == std::string::npos ? text.size() : e, ".");
+  if (e != std::string::npos) text[text.find('e')] = 'E';
+  return text;
+}
+
+}  // namespace
+
+std::string stepText(std::string_view utf8) {
+  std::string text = "'";
+  int digits = 0;  // of each character of the run that is open
+  for (std::size_t at = 0; at < utf8.size();) {
+    const std::uint32_t code = nextCode(utf8, at);
+    const int needed = code >= 0x20 && code < 0x7F ? 0 : code < 0x10000 ? 4 : 8;
+    if (needed != digits) {
+      if (digits > 0) text += "\\X0\\";
+      if (needed > 0) text += needed == 4 ? "\\X2\\" : "\\X4\\";
+      digits = needed;
+    }
+    if (needed > 0) {
+      text += fmt::format("{:0{}X}", code, needed);
+    } else {
+      text += static_cast<char>(code);
+      if (code == '\'' || code == '\\') text += static_cast<char>(code);
+    }
+  }
+  if (digits > 0) text += "\\X0\\";
+  return text + '\'';
+}
+
+std::string stepReal(double number) { return realText(number); }
+std::string stepReal(float number) { return realText(number); }
+
+StepRecord& StepRecord::next() {
+  if (!first_) text_ += ',';
+  first_ = false;
+  return *this;
+}
+
+StepRecord& StepRecord::none(int count) {
+  for (int i = 0; i < count; ++i) next().text_ += '$';
+  return *this;
+}
+
+StepRecord& StepRecord::text(std::string_view utf8) { return raw(utf8.empty() ? "$" : stepText(utf8)); }
+StepRecord& StepRecord::real(double number) { return raw(stepReal(number)); }
+StepRecord& StepRecord::integer(std::int64_t number) { return raw(std::to_string(number)); }
+
+StepRecord& StepRecord::symbol(std::string_view word) {
+  return raw(word.empty() ? "$" : "." + std::string(word) + ".");
+}
+
+StepRecord& StepRecord::ref(Ref ref) { return raw(ref == 0 ? "$" : "#" + std::to_string(ref)); }
+
+StepRecord& StepRecord::refs(std::span<const Ref> list) {
+  std::string all = "(";
+  for (const Ref r : list) all += (all.size() > 1 ? ",#" : "#") + std::to_string(r);
+  return raw(all + ')');
+}
+
+StepRecord& StepRecord::reals(std::span<const double> list) {
+  std::string all = "(";
+  for (const double x : list) all += (all.size() > 1 ? "," : "") + stepReal(x);
+  return raw(all + ')');
+}
+
+StepRecord& StepRecord::raw(std::string_view argument) {
+  next().text_ += argument;
+  return *this;
+}
+
+std::string StepRecord::take() { return std::exchange(text_, {}) + ')'; }
+
+Result<StepWriter> StepWriter::create(const std::filesystem::path& file) {
+  TRY_ASSIGN(auto part, PartFile::create(file));
+  return StepWriter(std::move(part));
+}
+
+void StepWriter::header(std::string_view description, std::string_view schema, std::string_view program) {
+  const std::string name = stepText(file_.file().filename().string());
+  // No time: the same model is the same bytes.
+  buffer_ += fmt::format(
+      "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(({}),'2;1');\nFILE_NAME({},'1970-01-01T00:00:00',(''),(''),{},{},'');\n"
+      "FILE_SCHEMA(({}));\nENDSEC;\nDATA;\n",
+      stepText(description), name, stepText(program), stepText(program), stepText(schema));
+}
+
+Ref StepWriter::addText(const std::string& record) {
+  buffer_ += '#';
+  buffer_ += std::to_string(++last_);
+  buffer_ += '=';
+  buffer_ += record;
+  buffer_ += ";\n";
+  if (buffer_.size() >= kBlock) flush();
+  return last_;
+}
+
+Ref StepWriter::shared(StepRecord& record) {
+  std::string text = record.take();
+  if (const auto it = known_.find(text); it != known_.end()) return it->second;
+  const Ref ref = addText(text);
+  known_.emplace(std::move(text), ref);
+  return ref;
+}
+
+void StepWriter::flush() {
+  if (!fault_)
+    if (auto written = file_.append(buffer_); !written) fault_ = written.error();
+  buffer_.clear();
+}
+
+Result<void> StepWriter::commit() {
+  buffer_ += "ENDSEC;\nEND-ISO-10303-21;\n";
+  flush();
+  if (fault_) return tl::make_unexpected(*fault_);
+  return file_.commit();
+}
+
+}  // namespace standpoint::ifc
