@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -20,6 +21,21 @@ using Json = nlohmann::ordered_json;
 
 // 1 cm on the ground, so that the last bits of a projection do not show.
 double rounded(double degrees) { return std::round(degrees * 1e7) / 1e7; }
+
+// STAC knows a licence by its SPDX id alone, and "proprietary" for all that has none.
+std::string licenceOfItem(std::string_view licence) {
+  constexpr std::string_view kSpdx = "https://spdx.org/licenses/", kPage = ".html";
+  if (licence.starts_with(kSpdx)) {
+    licence.remove_prefix(kSpdx.size());
+    if (licence.ends_with(kPage)) licence.remove_suffix(kPage.size());
+  }
+  const auto belongs = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("_-.+").find(c) != std::string_view::npos;
+  };
+  const bool is_id = !licence.empty() && std::all_of(licence.begin(), licence.end(), belongs);
+  return is_id ? std::string(licence) : "proprietary";
+}
 
 }  // namespace
 
@@ -58,27 +74,27 @@ Result<std::optional<std::string>> stacItem(const Recipe& recipe, const SetCheck
   assets["plan"] = {{"href", "../" + check.environments[environment].picture.path},
                     {"type", "image/svg+xml"},
                     {"roles", {"overview"}}};
-  std::string encoding = recipe.format;
-  for (char& c : encoding) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  const Json item = {
-      {"stac_version", "1.0.0"},
-      {"stac_extensions",
-       {"https://stac-extensions.github.io/pointcloud/v1.0.0/schema.json",
-        "https://stac-extensions.github.io/file/v2.1.0/schema.json"}},
-      {"type", "Feature"},
-      {"id", recipe.name + "-" + about.id},
-      {"geometry", {{"type", "Polygon"}, {"coordinates", {std::move(ring)}}}},
-      {"bbox", {west, south, east, north}},
-      {"properties",
-       {{"datetime", recipe.date + "T00:00:00Z"},
-        {"title", fmt::format("{}: {}", recipe.name, about.id)},
-        {"description", recipe.description},
-        {"license", recipe.license},
-        {"pc:count", points},
-        {"pc:type", "lidar"},
-        {"pc:encoding", std::move(encoding)}}},
-      {"links", {{{"rel", "describedby"}, {"href", "../croissant.json"}, {"type", "application/ld+json"}}}},
-      {"assets", std::move(assets)}};
+  Json links = Json::array();
+  links.push_back({{"rel", "describedby"}, {"href", "../croissant.json"}, {"type", "application/ld+json"}});
+  if (recipe.license.starts_with("https://") || recipe.license.starts_with("http://"))
+    links.push_back({{"rel", "license"}, {"href", recipe.license}});
+  const Json item = {{"stac_version", "1.0.0"},
+                     {"stac_extensions",
+                      {"https://stac-extensions.github.io/pointcloud/v2.0.0/schema.json",
+                       "https://stac-extensions.github.io/file/v2.1.0/schema.json"}},
+                     {"type", "Feature"},
+                     {"id", recipe.name + "-" + about.id},
+                     {"geometry", {{"type", "Polygon"}, {"coordinates", {std::move(ring)}}}},
+                     {"bbox", {west, south, east, north}},
+                     {"properties",
+                      {{"datetime", recipe.date + "T00:00:00Z"},
+                       {"title", fmt::format("{}: {}", recipe.name, about.id)},
+                       {"description", recipe.description},
+                       {"license", licenceOfItem(recipe.license)},
+                       {"pc:count", points},
+                       {"pc:type", "lidar"}}},
+                     {"links", std::move(links)},
+                     {"assets", std::move(assets)}};
   return std::optional(item.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The manifest of a set, judged by what is not ours: SHACL by npm's jsonld, n3, rdf-ext and shacl-engine in the folder
-// that STANDPOINT_MANIFEST_TOOLS names, and JSON schema.
+// The manifest of a set, judged by what is not ours, in the folder that STANDPOINT_MANIFEST_TOOLS names: SHACL by npm's
+// jsonld, n3, rdf-ext and shacl-engine, the STAC items by its stac-node-validator and the schemas of STAC; and by
+// schemas of our own, without that folder.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <memory>
 #include <sstream>
+#include <tuple>
+#include <utility>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
@@ -16,6 +19,7 @@
 #include <valijson/validator.hpp>
 
 #include "core/sha256.h"
+#include "project/dataset/stac_item.h"
 #include "project/storage/project_files.h"
 #include "tests/project/support.h"
 
@@ -29,6 +33,22 @@ namespace fs = std::filesystem;
 std::string wholeTextOf(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// What a command prints on both streams, and its exit code.
+std::pair<std::string, int> saidBy(const std::string& command) {
+  std::FILE* const pipe = ::popen((command + " 2>&1").c_str(), "r");
+  if (pipe == nullptr) return {"cannot be started", -1};
+  std::string said;
+  std::array<char, 4096> piece;
+  while (const std::size_t n = std::fread(piece.data(), 1, piece.size(), pipe)) said.append(piece.data(), n);
+  return {said, ::pclose(pipe)};
+}
+
+// The folder with the programs of npm, where there is one.
+const char* manifestTools() {
+  const char* const tools = std::getenv("STANDPOINT_MANIFEST_TOOLS");
+  return tools != nullptr && std::system("command -v node > /dev/null 2>&1") == 0 ? tools : nullptr;
 }
 
 // A set of two buildings, one of which is somewhere in the world.
@@ -110,9 +130,8 @@ TEST_F(Manifest, HasTheRecipeVersionsLicencesAndChecksums) {
 }
 
 TEST_F(Manifest, IsFoundGoodByShaclAndWithoutItsLicenceAddressesOrChecksumsBad) {
-  const char* const tools = std::getenv("STANDPOINT_MANIFEST_TOOLS");
-  if (tools == nullptr || std::system("command -v node > /dev/null 2>&1") != 0)
-    GTEST_SKIP() << "STANDPOINT_MANIFEST_TOOLS or node is not here";
+  const char* const tools = manifestTools();
+  if (tools == nullptr) GTEST_SKIP() << "STANDPOINT_MANIFEST_TOOLS or node is not here";
   const auto without = [&](const char* name, const std::function<void(json&)>& spoil) {
     auto spoilt = manifest;
     spoil(spoilt);
@@ -127,11 +146,8 @@ TEST_F(Manifest, IsFoundGoodByShaclAndWithoutItsLicenceAddressesOrChecksumsBad) 
                      without("version.json", [](json& m) { m["isBasedOn"][0].erase("softwareVersion"); }) + " " +
                      without("conforms.json", [](json& m) { m["conformsTo"] = "http://mlcommons.org/croissant/0.8"; });
   const auto command = std::string("node " SOURCE_DIR "/tests/project/manifest/check.mjs ") + tools +
-                       " " SOURCE_DIR "/tests/project/manifest/shapes.ttl " + files + " 2>&1";
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(::popen(command.c_str(), "r"), ::pclose);
-  std::string said;
-  std::array<char, 4096> piece;
-  while (const std::size_t n = std::fread(piece.data(), 1, piece.size(), pipe.get())) said.append(piece.data(), n);
+                       " " SOURCE_DIR "/tests/project/manifest/shapes.ttl " + files;
+  const auto said = saidBy(command).first;
   std::istringstream lines(said);
   std::vector<json> reports;
   for (std::string line; std::getline(lines, line);) reports.push_back(json::parse(line, nullptr, false));
@@ -158,7 +174,7 @@ TEST_F(Manifest, HasAStacItemOfAnEnvironmentThatIsOnAMap) {
     return valijson::Validator().validate(schema, Adapter(document), nullptr);
   };
   EXPECT_TRUE(accepts(item)) << item;
-  for (const char* key : {"datetime", "pc:count", "pc:type", "pc:encoding"}) {
+  for (const char* key : {"datetime", "license", "pc:count", "pc:type"}) {
     auto less = item;
     less["properties"].erase(key);
     EXPECT_FALSE(accepts(less)) << key;
@@ -168,7 +184,19 @@ TEST_F(Manifest, HasAStacItemOfAnEnvironmentThatIsOnAMap) {
   EXPECT_NEAR(corner[0].get<double>(), 9, 1e-5);
   EXPECT_NEAR(corner[1].get<double>(), 50.5519306, 1e-6);
   EXPECT_EQ(item["properties"]["datetime"], "2026-01-31T00:00:00Z");
-  EXPECT_EQ(item["properties"]["pc:encoding"], "E57");
+  EXPECT_EQ(item["properties"]["license"], "CC-BY-4.0");
+  EXPECT_EQ(item["links"].back(), (json{{"rel", "license"}, {"href", manifest["license"]}}));
+  Progress progress;
+  auto recipe = readRecipeOfSet(set()).value();
+  const auto check = checkSet(set(), recipe, progress).value();
+  for (const auto& [license, id, links] :
+       {std::tuple("CC0-1.0", "CC0-1.0", 1U), std::tuple("ask the owner", "proprietary", 1U),
+        std::tuple("https://creativecommons.org/licenses/by/4.0/", "proprietary", 2U)}) {
+    recipe.license = license;
+    const auto other = json::parse(stacItem(recipe, check, 0).value().value());
+    EXPECT_EQ(other["properties"]["license"], id) << license;
+    EXPECT_EQ(other["links"].size(), links) << license;
+  }
   std::uint64_t points = 0;
   for (const auto& [name, asset] : item["assets"].items()) {
     const auto file = set() / "stac" / asset["href"].get<std::string>();
@@ -178,6 +206,46 @@ TEST_F(Manifest, HasAStacItemOfAnEnvironmentThatIsOnAMap) {
     points += json::parse(wholeTextOf(set() / "records" / (name + ".json")))["points"].get<std::uint64_t>();
   }
   EXPECT_EQ(item["properties"]["pc:count"], points);
+}
+
+TEST_F(Manifest, HasAStacItemThatTheSchemasOfStacFindGoodAndWithoutDateLicenceSizeOrCountBad) {
+  const char* const tools = manifestTools();
+  const auto schemas = fs::path(tools == nullptr ? "" : tools) / "schemas";
+  if (tools == nullptr || !fs::exists(schemas))
+    GTEST_SKIP() << "STANDPOINT_MANIFEST_TOOLS, its schemas or node is not here";
+  const auto item = json::parse(wholeTextOf(set() / "stac/house.json"));
+  json map = json::array();
+  for (const auto& extension : item["stac_extensions"]) {
+    const auto url = extension.get<std::string>();
+    map.push_back(url + "=" + (schemas / url.substr(url.find("//") + 2)).string());
+  }
+  for (const char* name : {"Feature", "Geometry"})
+    map.push_back(
+        fmt::format("https://geojson.org/schema/{0}.json={1}/node_modules/geojson-schema/{0}.json", name, tools));
+  const auto judged = [&](const char* name, const std::function<void(json&)>& spoil) {
+    auto spoilt = item;
+    spoil(spoilt);
+    const json config = {{"files", {folder.write(fmt::format("{}.json", name), spoilt.dump()).string()}},
+                         {"schemas", (schemas / "schemas.stacspec.org/v1.0.0").string()},
+                         {"schemaMap", map},
+                         {"verbose", true}};
+    const auto file = folder.write(fmt::format("{}-config.json", name), config.dump());
+    return saidBy(fmt::format("node {}/node_modules/stac-node-validator/bin/cli.js --config {}", tools, file.string()));
+  };
+  const auto [said, status] = judged("good", [](json&) {});
+  EXPECT_EQ(status, 0) << said;
+  EXPECT_THAT(said, HasSubstr("Item: valid"));
+  EXPECT_THAT(said, HasSubstr("pointcloud/v2.0.0/schema.json: valid"));
+  EXPECT_THAT(said, HasSubstr("file/v2.1.0/schema.json: valid"));
+  const auto isBad = [&](const char* name, const char* where, const std::function<void(json&)>& spoil) {
+    const auto [bad_said, bad_status] = judged(name, spoil);
+    EXPECT_NE(bad_status, 0) << name;
+    EXPECT_THAT(bad_said, HasSubstr(fmt::format("{}: invalid", where))) << name;
+  };
+  isBad("date", "Item", [](json& m) { m["properties"].erase("datetime"); });
+  isBad("license", "Item", [&](json& m) { m["properties"]["license"] = manifest["license"]; });
+  isBad("count", "pointcloud/v2.0.0/schema.json", [](json& m) { m["properties"].erase("pc:count"); });
+  isBad("size", "file/v2.1.0/schema.json", [](json& m) { m["assets"].front()["file:size"] = -1; });
 }
 
 TEST_F(Manifest, HasACardWhosePicturesAreThere) {
