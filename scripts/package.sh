@@ -23,7 +23,7 @@ done
 desktop-file-validate "$tree"/usr/share/applications/*.desktop
 appstreamcli validate --no-net "$tree"/usr/share/metainfo/*.xml
 as_user=()
-((EUID != 0)) || as_user=(setpriv --reuid nobody --regid nogroup --clear-groups env HOME=/tmp)  # lintian refuses root
+((EUID != 0)) || as_user=(setpriv --reuid nobody --regid nogroup --clear-groups env HOME="$tree")  # lintian refuses root
 chmod -R go+rX "$tree"
 cp "${debs[@]}" "$tree"
 "${as_user[@]}" lintian --fail-on error,warning --tag-display-limit 0 "$tree"/*.deb

@@ -72,9 +72,9 @@ fi
 
 since=$SECONDS
 in_root apt-get update -qq || exit 5
-cp "$deb" "$root/tmp/standpoint.deb"
-packages=$(in_root apt-get -s install --no-install-recommends /tmp/standpoint.deb | grep -c ^Inst)
-in_root apt-get install -y --no-install-recommends /tmp/standpoint.deb >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 4; }
+cp "$deb" "$root/opt/standpoint.deb"
+packages=$(in_root apt-get -s install --no-install-recommends /opt/standpoint.deb | grep -c ^Inst)
+in_root apt-get install -y --no-install-recommends /opt/standpoint.deb >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 4; }
 in_root apt-get clean
 installed=$SECONDS
 say "install" "$(took), $packages packages, $(sed -n 's/^Need to get \([^/]*\).* of archives.*/\1/p' "$work/log")"
@@ -103,9 +103,9 @@ fi
 python=$(ls "${deb%/*}"/python3-standpoint_*.deb 2>/dev/null) || true
 if [[ -n $python ]]; then
   since=$SECONDS
-  cp "$python" "$root/tmp/python3-standpoint.deb"
+  cp "$python" "$root/opt/python3-standpoint.deb"
   in_root apt-get update -qq || exit 5
-  in_root apt-get install -y --no-install-recommends /tmp/python3-standpoint.deb >"$work/log" 2>&1 ||
+  in_root apt-get install -y --no-install-recommends /opt/python3-standpoint.deb >"$work/log" 2>&1 ||
     { cat "$work/log" >&2; exit 4; }
   in_root apt-get clean
   read_by_python=$(as_user python3 -c 'import standpoint
