@@ -7,8 +7,8 @@
 namespace standpoint {
 
 // What an IFC file calls the type of a property's value, "IFCTHERMALTRANSMITTANCEMEASURE", or of a quantity,
-// "IFCQUANTITYAREA": members of IfcValue of IFC4X3 and the simple quantities. Of what has several values (lists, bounds,
-// tables) and of files that state no types it is kNoPropertyType.
+// "IFCQUANTITYAREA": members of IfcValue of IFC4X3 and the simple quantities. Of what has several values (lists,
+// bounds, tables) and of files that state no types it is kNoPropertyType.
 using PropertyType = std::uint8_t;
 constexpr PropertyType kNoPropertyType = 0;
 

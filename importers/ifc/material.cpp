@@ -133,4 +133,24 @@ std::map<Id, Id> stylesOfMaterials(const StepFile& file) {
   return styles;
 }
 
+std::map<Id, std::string> physicalMaterialsOfStyles(const StepFile& file) {
+  std::map<Id, std::string> of_material;
+  for (const Entity& set : file.all("IFCMATERIALPROPERTIES"))
+    if (set[0].text() == kPhysicalMaterialSet)
+      for (const Entity& property : set.refs(2))
+        if (property.is("IFCPROPERTYSINGLEVALUE") && property[0].text() == "Id")
+          of_material.emplace(set[3].reference(), property[2].inner().text());
+  std::map<Id, std::string> of_style;
+  if (of_material.empty()) return of_style;
+  for (const Entity& definition : file.all("IFCMATERIALDEFINITIONREPRESENTATION")) {
+    const auto known = of_material.find(definition[3].reference());
+    if (known == of_material.end()) continue;
+    for (const Entity& representation : definition.refs(2))
+      for (const Entity& item : representation.refs(3))
+        if (const Id style = item.is("IFCSTYLEDITEM") ? surfaceStyleOf(item) : 0)
+          of_style.emplace(style, known->second);
+  }
+  return of_style;
+}
+
 }  // namespace standpoint::ifc

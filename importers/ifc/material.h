@@ -42,4 +42,9 @@ void appendMaterialProperties(std::vector<Property>& out, const ProductMaterials
 // IfcMaterial → the surface style of its IfcMaterialDefinitionRepresentation.
 std::map<Id, Id> stylesOfMaterials(const StepFile& file);
 
+// The set of properties by which a material says which physical material it is (PhysicalMaterial::id, in "Id"): our own
+// files have it. By the style that such a material is shown with.
+constexpr const char* kPhysicalMaterialSet = "Standpoint_PhysicalMaterial";
+std::map<Id, std::string> physicalMaterialsOfStyles(const StepFile& file);
+
 }  // namespace standpoint::ifc

@@ -67,22 +67,20 @@ SurfacePool::Look SurfacePool::lookOfMaterial(Id material) {
 
 std::uint32_t SurfacePool::keep(Surface s) {
   const auto key = std::make_tuple(s.name, s.colour.r, s.colour.g, s.colour.b, s.colour.a, s.image,
-                                   s.index_of_refraction.value_or(0));
+                                   s.index_of_refraction.value_or(0), s.physical_material);
   const auto [it, is_new] = known_.try_emplace(key, static_cast<std::uint32_t>(environment_.surfaces.size()));
   if (is_new) environment_.surfaces.push_back(std::move(s));
   return it->second;
 }
 
-namespace {
-
-void apply(Surface& surface, const std::optional<Style>& style, std::int32_t image) {
-  if (!style) return;
-  surface.colour = style->colour;
-  surface.index_of_refraction = style->index_of_refraction;
-  surface.image = image;
+void SurfacePool::apply(Surface& surface, const Look& look) const {
+  if (!look.style) return;
+  surface.colour = look.style->colour;
+  surface.index_of_refraction = look.style->index_of_refraction;
+  surface.image = look.image;
+  if (const auto it = physical_of_style_.find(look.style_id); it != physical_of_style_.end())
+    surface.physical_material = it->second;
 }
-
-}  // namespace
 
 std::uint32_t SurfacePool::surface(std::uint32_t tag, std::uint32_t otherwise, const ProductMaterials& materials) {
   std::size_t which = 0;
@@ -101,7 +99,7 @@ std::uint32_t SurfacePool::surface(std::uint32_t tag, std::uint32_t otherwise, c
   }
   if (!look.style && !materials.ids.empty()) look = lookOfMaterial(materials.ids[which]);
   Surface s;
-  apply(s, look.style, look.image);
+  apply(s, look);
   if (look.style) s.name = look.style->name;
   if (!materials.names.empty() && (sure || s.name.empty()))
     s.name = materials.names[which], s.source = "#" + std::to_string(materials.ids[which]);
@@ -114,7 +112,7 @@ std::uint32_t SurfacePool::surfaceOfLayer(std::uint32_t tag, Id material) {
   Look look = lookOf(styleTag(tag, kNoStyle));
   if (!look.style) look = lookOfMaterial(material);
   Surface s;
-  apply(s, look.style, look.image);
+  apply(s, look);
   s.name = model_.file.entity(material)[0].text();
   s.source = "#" + std::to_string(material);
   return keep(std::move(s));

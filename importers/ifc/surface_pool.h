@@ -21,6 +21,7 @@ class SurfacePool {
         report_(report),
         images_(model, std::move(folder), environment, report),
         style_of_material_(stylesOfMaterials(model.file)),
+        physical_of_style_(physicalMaterialsOfStyles(model.file)),
         generators_(model.file, report) {}
 
   // Of faces with this tag (else with that of the part that they are in), of a product of these materials. Of several
@@ -41,6 +42,7 @@ class SurfacePool {
   Look lookOf(std::uint32_t tag, bool has_coordinates = true);
   void placePicture(Look& look, const Entity& texture);
   Look lookOfMaterial(Id material);
+  void apply(Surface& surface, const Look& look) const;
   std::uint32_t keep(Surface surface);
 
   const Model& model_;
@@ -48,9 +50,10 @@ class SurfacePool {
   Report& report_;
   Images images_;
   std::map<Id, Id> style_of_material_;
+  std::map<Id, std::string> physical_of_style_;
   TextureGenerators generators_;
   std::set<Id> told_;
-  std::map<std::tuple<std::string, float, float, float, float, std::int32_t, float>, std::uint32_t> known_;
+  std::map<std::tuple<std::string, float, float, float, float, std::int32_t, float, std::string>, std::uint32_t> known_;
 };
 
 }  // namespace standpoint::ifc

@@ -11,7 +11,7 @@ enum class Schema { ifc4, ifc4x3 };
 
 // Does the schema have a class of products of this name ("IfcWall")?
 bool hasClass(Schema schema, std::string_view name);
-// The one to write for a class of any schema: itself; what took its place ("IfcWall" for "IfcWallStandardCase" in
+// The one to write for a class of any schema: itself; what took its place ("IfcBeam" for "IfcBeamStandardCase" in
 // IFC4X3, "IfcElectricDistributionBoard" for IFC2X3's "IfcElectricDistributionPoint"); else IfcBuildingElementProxy.
 std::string_view classToWrite(Schema schema, std::string_view name);
 // Names of the attributes from the eighth on; "!" after one: an enumeration that must have a value. `name` is one of

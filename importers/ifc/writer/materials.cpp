@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/number_text.h"
+#include "importers/ifc/material.h"
 
 namespace standpoint::ifc {
 namespace {

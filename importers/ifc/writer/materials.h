@@ -11,9 +11,6 @@
 
 namespace standpoint::ifc {
 
-// The set of properties by which a material says which physical material it is, with its figures.
-constexpr const char* kPhysicalMaterialSet = "Standpoint_PhysicalMaterial";
-
 // Materials of products with their layers and properties; looks of surfaces, each with its physical material.
 class MaterialWriter {
  public:

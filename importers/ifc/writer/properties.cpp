@@ -68,12 +68,20 @@ std::pair<std::string, std::string> codeAndTitle(const std::string& text) {
 
 }  // namespace
 
-std::string stepValue(const Property& p) {
+namespace {
+
+bool isText(const Property& p) {
   constexpr std::array<std::string_view, 9> kTexts{"IFCLABEL", "IFCTEXT",         "IFCIDENTIFIER",
                                                    "IFCDATE",  "IFCDATETIME",     "IFCDURATION",
                                                    "IFCTIME",  "IFCURIREFERENCE", "IFCDESCRIPTIVEMEASURE"};
+  return isOneOf(keywordOf(p.type), kTexts);
+}
+
+}  // namespace
+
+std::string stepValue(const Property& p) {
   const std::string_view keyword = keywordOf(p.type);
-  if (isOneOf(keyword, kTexts)) return typed(keyword, stepText(p.value));
+  if (isText(p)) return typed(keyword, stepText(p.value));
   if (keyword == "IFCBOOLEAN" || keyword == "IFCLOGICAL") {
     if (p.value == "true" || p.value == "false") return typed(keyword, p.value == "true" ? ".T." : ".F.");
     return p.value == "unknown" ? "IFCLOGICAL(.U.)" : labelled(p.value);
@@ -108,7 +116,7 @@ Ref PropertyWriter::unit(const Property& p) { return units_.unitOf(p.type, quant
 Ref PropertyWriter::property(const Property& p) {
   StepRecord record("IFCPROPERTYSINGLEVALUE");
   record.raw(stepText(p.name)).none();
-  if (p.value.empty()) return out_.shared(record.none(2));
+  if (p.value.empty() && !isText(p)) return out_.shared(record.none(2));
   const std::string value = stepValue(p);
   const bool number = value.find('\'') == std::string::npos;
   return out_.shared(record.raw(value).ref(number ? unit(p) : 0));
