@@ -182,6 +182,9 @@ for n in 2 4; do
     "$program" dataset run "$d/recipe.json" -o "$set" --shard "$i/$n" >/dev/null 2>&1 || die "shard $i/$n"
   done
   "$program" dataset manifest "$set" >/dev/null 2>&1 || die "manifest of $n shards"
+  for i in $(seq "$n"); do
+    "$program" dataset verify "$set" --shard "$i/$n" >/dev/null 2>&1 || die "verify of shard $i/$n"
+  done
   same "plain run in $n shards"
 done
 

@@ -33,7 +33,8 @@ Result<void> checkAction(const DatasetOptions& options) {
     return failure(ErrorKind::usage, fmt::format("belongs to `dataset {}`", where), option);
   };
   const bool is_run = options.action == A::run, is_slurm = options.action == A::slurm;
-  TRY(refuse(options.shard.has_value() && !is_run, "--shard", "run"));
+  if (options.shard && !is_run && options.action != A::verify)
+    return failure(ErrorKind::usage, "belongs to `dataset run` and `dataset verify`", "--shard");
   TRY(refuse(options.resume && !is_run, "--resume", "run"));
   TRY(refuse(options.shards != 1 && !is_slurm, "--shards", "slurm"));
   if (is_run || is_slurm) return needsOutput(options);
@@ -113,7 +114,7 @@ void noteWork(const fs::path& set, DatasetOutcome& outcome) {
 }
 
 Result<void> describeSet(const fs::path& set, const Recipe& recipe, DatasetOutcome& outcome, Progress& progress) {
-  TRY_ASSIGN(const auto check, checkSet(set, recipe, progress));
+  TRY_ASSIGN(const auto check, checkSet(set, recipe, Shard(), progress));
   takeCheck(check, outcome.answer);
   if (!check.isWhole()) return failure(ErrorKind::unusable, wrongWith(check), set.string());
   TRY_ASSIGN(outcome.answer.written, writeManifest(set, recipe, check, progress));
@@ -144,16 +145,18 @@ Result<void> makeSet(const DatasetOptions& options, DatasetOutcome& outcome, Pro
 
 Result<void> verifySet(const DatasetOptions& options, DatasetOutcome& outcome, Progress& progress) {
   TRY_ASSIGN(const auto recipe, readRecipeOfSet(options.of));
-  TRY_ASSIGN(const auto check, checkSet(options.of, recipe, progress));
+  const auto shard = options.shard.value_or(Shard());
+  TRY_ASSIGN(const auto check, checkSet(options.of, recipe, shard, progress));
   outcome.answer.recipe = recipe.name;
   takeCheck(check, outcome.answer);
   for (const auto& path : check.missing) outcome.report.lose(path, "is missing: resume the run to make it");
   for (const auto& path : check.damaged) outcome.report.lose(path, "is damaged: remove it and resume the run");
   for (const auto& path : check.unknown) outcome.report.warn(path, "belongs to no scan of the recipe");
-  noteWork(options.of, outcome);
+  if (shard.index == 1) noteWork(options.of, outcome);
+  const auto what = options.shard ? fmt::format("{} ({}/{})", recipe.name, shard.index, shard.count) : recipe.name;
   outcome.description = check.isWhole()
-                            ? fmt::format("{} is whole: {} files as they were written", recipe.name, check.files)
-                            : fmt::format("{} is not whole: {} files missing, {} damaged", recipe.name,
+                            ? fmt::format("{} is whole: {} files as they were written", what, check.files)
+                            : fmt::format("{} is not whole: {} files missing, {} damaged", what,
                                           check.missing.size(), check.damaged.size());
   return {};
 }
@@ -206,7 +209,7 @@ const Fields<DatasetOptions>& datasetFields() {
        "the recipe (.json); of verify and manifest, the folder of the set",
        {.positional = true, .required = true, .label = "Recipe or set"}},
       {"output", &O::output, "folder of the set", {.label = "Folder of the set"}},
-      {"shard", &O::shard, "i/n: only the i-th of n shares of the places, for a run on several machines"},
+      {"shard", &O::shard, "i/n: only the i-th of n shares of the places, to run or verify a set on several machines"},
       {"resume", &O::resume, "continue a run that was cancelled or crashed; keep its finished scans"},
       {"threads", &O::threads, "0 = all; the result is the same", {.minimum = 0, .maximum = 1024}},
       {"shards", &O::shards, "number of tasks of the Slurm job", {.minimum = 1, .maximum = 10000}},

@@ -26,23 +26,28 @@ bool isBeside(const std::string& path) {
 
 class SetChecker {
  public:
-  SetChecker(const fs::path& set, const Recipe& recipe) : set_(set), recipe_(recipe) {}
+  SetChecker(const fs::path& set, const Recipe& recipe, const Shard& shard)
+      : set_(set), recipe_(recipe), shard_(shard) {}
 
   Result<SetCheck> check(Progress& progress) {
     progress.stage("Verify " + recipe_.name);
     TRY(readSums());
     TRY(listFiles());
-    TRY(other("recipe.json", progress));
-    for (const auto& map : recipe_.classes) TRY(other("classes/" + map.id + ".json", progress));
+    TRY(shared("recipe.json", progress));
+    for (const auto& map : recipe_.classes) TRY(shared("classes/" + map.id + ".json", progress));
     std::map<std::size_t, std::set<std::string>> none;  // of each environment the places without room
     for (std::size_t e = 0; e < recipe_.environments.size(); ++e) TRY(environment(e, none[e], progress));
     const auto variants = variantsOf(recipe_);
-    const auto places = placesOf(recipe_);
+    const auto places = placesOf(recipe_, shard_);
     for (std::size_t k = 0; k < places.size(); ++k) {
       progress.advance(static_cast<double>(k) / static_cast<double>(places.size()));
       if (none[places[k].environment].contains(places[k].station)) continue;
       for (const auto& variant : variants) TRY(scan(places[k], variant, progress));
     }
+    if (!isFirst()) return std::move(found_);
+    for (const auto& place : placesOf(recipe_))  // of the other shards: they look at them
+      for (const auto& variant : variants)
+        if (!none[place.environment].contains(place.station)) leave(filesOf(recipe_, place, variant));
     for (const auto& [path, sum] : sums_)  // what only the list knows
       if (!seen_.contains(path)) TRY(listed(path, sum, progress));
     for (const auto& path : there_)
@@ -51,6 +56,8 @@ class SetChecker {
   }
 
  private:
+  bool isFirst() const { return shard_.index == 1; }
+
   Result<void> readSums() {
     std::error_code error;
     if (!fs::exists(set_ / kSumsFile, error)) return {};
@@ -112,17 +119,29 @@ class SetChecker {
     return {};
   }
 
+  // What belongs to no place is looked at by the first shard alone.
+  Result<void> shared(const std::string& path, Progress& progress) {
+    return isFirst() ? other(path, progress) : Result<void>();
+  }
+
+  void leave(const SetFiles& files) {
+    seen_.insert(files.record.generic_string());
+    for (const auto& file : expected(files)) seen_.insert(file);
+  }
+
+  // Each shard reads its record, which says where no tripod can stand.
   Result<void> environment(std::size_t index, std::set<std::string>& none, Progress& progress) {
     const auto& environment = recipe_.environments[index];
     const auto path = environmentFile(environment).generic_string();
-    TRY(other(path, progress));
+    TRY(shared(path, progress));
     if (!there_.contains(path)) return {};
     auto record = readEnvironmentRecord(set_, environment);
     if (!record) {
-      damaged(path);
+      if (isFirst()) damaged(path);
       return {};
     }
     none = {record->without_room.begin(), record->without_room.end()};
+    if (!isFirst()) return {};
     TRY(other(record->picture.path, progress));
     if (there_.contains(record->picture.path) && found_.others.back().sha256 != record->picture.sha256)
       damaged(record->picture.path);
@@ -136,8 +155,7 @@ class SetChecker {
     if (!there_.contains(record_path)) {
       ++found_.not_made;
       found_.missing.push_back(record_path);
-      seen_.insert(record_path);
-      for (const auto& file : expected(one.files)) seen_.insert(file);
+      leave(one.files);
       return {};
     }
     TRY(other(record_path, progress));
@@ -147,7 +165,7 @@ class SetChecker {
       for (const auto& file : record->files) names.push_back(file.path);
     if (!record || names != expected(one.files)) {
       damaged(record_path);
-      for (const auto& file : expected(one.files)) seen_.insert(file);
+      leave(one.files);
       return {};
     }
     for (const auto& file : record->files) {
@@ -168,6 +186,7 @@ class SetChecker {
 
   const fs::path& set_;
   const Recipe& recipe_;
+  const Shard shard_;
   std::map<std::string, std::string> sums_;  // of the list, by path
   std::set<std::string> there_, seen_;
   SetCheck found_;
@@ -175,8 +194,8 @@ class SetChecker {
 
 }  // namespace
 
-Result<SetCheck> checkSet(const fs::path& set, const Recipe& recipe, Progress& progress) {
-  return SetChecker(set, recipe).check(progress);
+Result<SetCheck> checkSet(const fs::path& set, const Recipe& recipe, const Shard& shard, Progress& progress) {
+  return SetChecker(set, recipe, shard).check(progress);
 }
 
 }  // namespace standpoint

@@ -28,12 +28,15 @@ struct SetCheck {
   std::uint64_t bytes = 0;
   std::vector<SetScan> scans;   // in the order of the recipe
   std::vector<SetFile> others;  // recipe, classes, environments, their pictures and records, with their sums
-  std::vector<SetEnvironmentRecord> environments;  // in the order of the recipe, where all could be read
+  std::vector<SetEnvironmentRecord> environments;  // in the order of the recipe, where all could be read; of shard 1
   bool isWhole() const { return missing.empty() && damaged.empty() && not_made == 0; }
 };
 
-// Reads every byte of a set and compares it with its records and, where there is one, its list of checksums.
-Result<SetCheck> checkSet(const std::filesystem::path& set, const Recipe& recipe, Progress& progress);
+// Reads every byte of a set, or of the scans of a shard, and compares it with its records and, where there is one, its
+// list of checksums. What is of no scan belongs to the first shard, so that the shards of a set together look at each
+// file once.
+Result<SetCheck> checkSet(const std::filesystem::path& set, const Recipe& recipe, const Shard& shard,
+                          Progress& progress);
 
 inline constexpr const char* kSumsFile = "SHA256SUMS";
 

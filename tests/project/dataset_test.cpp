@@ -61,6 +61,52 @@ class Dataset : public testing::Test {
   TemporaryFolder folder;
 };
 
+TEST_F(Dataset, IsVerifiedInShardsThatLookAtEachFileOnce) {
+  const auto set = folder / "set";
+  ASSERT_TRUE(dataset("run", write(recipe()), {{"output", set.string()}}));
+  const std::string label = "labels/house/grid-1/focus_clear_assigned_none_1_noisy.s3dis.npy",
+                    cloud = "scans/tower/grid-2/focus_clear_assigned_none_1_ideal.e57", card = "card.html";
+  {
+    std::fstream change(set / label, std::ios::in | std::ios::out | std::ios::binary);
+    change.seekp(200);
+    change.put('\x7F');
+  }
+  fs::remove(set / cloud);
+  fs::remove(set / card);
+  std::ofstream(set / "notes.txt") << "mine";
+  const auto whole = dataset("verify", set);
+  ASSERT_TRUE(whole) << describe(whole.error());
+  for (const unsigned count : {1U, 2U, 3U, 7U}) {
+    std::size_t files = 0, scans = 0;
+    std::multiset<std::string> missing, damaged, unknown;
+    for (unsigned i = 1; i <= count; ++i) {
+      const auto part = dataset("verify", set, {{"shard", std::to_string(i) + "/" + std::to_string(count)}});
+      ASSERT_TRUE(part) << describe(part.error());
+      files += part->answer["files"].get<std::size_t>();
+      scans += part->answer["scans"].get<std::size_t>();
+      for (const auto& [name, found] :
+           {std::pair("missing", &missing), std::pair("damaged", &damaged), std::pair("unknown", &unknown)})
+        if (part->answer.contains(name))
+          for (const auto& path : part->answer[name]) found->insert(path.get<std::string>());
+    }
+    EXPECT_EQ(files, whole->answer["files"]) << count;
+    EXPECT_EQ(scans, whole->answer["scans"]) << count;
+    EXPECT_EQ(missing, (std::multiset<std::string>{card, cloud})) << count;
+    EXPECT_EQ(damaged, std::multiset<std::string>{label}) << count;
+    EXPECT_EQ(unknown, std::multiset<std::string>{"notes.txt"}) << count;
+  }
+  const auto last = dataset("verify", set, {{"shard", "4/4"}});
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->answer["missing"], json({cloud})) << "of its own scans alone";
+  EXPECT_THAT(last->description, HasSubstr("demo (4/4) is not whole: 1 files missing, 0 damaged"));
+  const auto refused = dataset("verify", set, {{"shard", "5/4"}});
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().source, HasSubstr("shard"));
+  const auto elsewhere = dataset("manifest", set, {{"shard", "1/4"}});
+  ASSERT_FALSE(elsewhere);
+  EXPECT_THAT(describe(elsewhere.error()), HasSubstr("--shard: belongs to `dataset run` and `dataset verify`"));
+}
+
 TEST_F(Dataset, HasTheSameBytesInOneShardAndInThree) {
   const auto file = write(recipe());
   const auto whole = dataset("run", file, {{"output", (folder / "whole").string()}});
