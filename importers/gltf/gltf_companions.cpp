@@ -157,7 +157,7 @@ class CollisionWriter {
     const auto product = shape.product;
     const auto& name = model_.products[product].name;
     if (collision_.naming == CollisionNaming::unreal) {
-      if (!rename(product)) return;
+      if (!convex || !rename(product)) return;
       return place(shape, fmt::format("UCX_{}_{:02}", render_name_[product], ++count_[product]), true);
     }
     if (collision_.naming == CollisionNaming::godot)

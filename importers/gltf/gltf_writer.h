@@ -29,7 +29,7 @@ struct GltfLevel {
   std::vector<double> max_deviation_m, mean_deviation_m;  // one for each product
 };
 enum class CollisionNaming {
-  unreal,   // UCX_<name of the mesh>_01 beside it
+  unreal,   // UCX_<name of the mesh>_01 beside it; only what is convex, for Unreal makes hulls of these
   godot,    // <name>-convcolonly, -colonly
   physics,  // nodes with KHR_physics_rigid_bodies colliders, whose meshes nobody draws
 };

@@ -95,6 +95,33 @@ GltfCollision collisionOf(const CollideResult& collision, const Environment& sha
   return result;
 }
 
+// Unreal makes a hull of each shape, which would fill what is hollow, so a shape that is not convex stays out: its mesh
+// is to collide with its own triangles there. Returns how many do.
+std::size_t noteWithoutHull(const CollideResult& collision, const Environment& model, Report& report) {
+  constexpr std::size_t kNamed = 10;
+  std::size_t shapes = 0;
+  std::vector<std::uint32_t> products;  // shapes are sorted by them
+  for (const auto& shape : collision.shapes) {
+    if (shape.kind != CollisionShapeKind::mesh) continue;
+    ++shapes;
+    if (products.empty() || products.back() != shape.product) products.push_back(shape.product);
+  }
+  if (shapes == 0) return 0;
+  std::string names;
+  for (std::size_t k = 0; k < std::min(products.size(), kNamed); ++k) {
+    const auto& product = model.products[products[k]];
+    names += (k == 0 ? "" : ", ") + (product.name.empty() ? product.id : product.name);
+  }
+  if (products.size() > kNamed) names += ", …";
+  report.warn(
+      "--collision",
+      fmt::format("collision shapes that are not convex, which Unreal would fill to a hull, were not exported: "
+                  "{} of {} products ({}); in Unreal, set the Collision Complexity of these meshes to Use Complex "
+                  "Collision As Simple",
+                  shapes, products.size(), names));
+  return shapes;
+}
+
 // One for each surface; empty where the project has no materials.
 std::vector<const PhysicalMaterial*> physicalSurfaces(const Document& document,
                                                       std::span<Environment* const> environments, LooksOfSplit looks) {
@@ -123,6 +150,8 @@ Result<void> exportGltf(const Document& document, Environment& scene, const fs::
     shapes = collisionEnvironment(*document.collision);
     companions.collision = collisionOf(*document.collision, shapes, *options.collision);
     outcome.answer.collision_shapes = shapes.instances.size();
+    if (*options.collision == CollisionNaming::unreal)
+      *outcome.answer.collision_shapes -= noteWithoutHull(*document.collision, scene, outcome.report);
   }
   return exportEnvironmentGltf(scene, *document.georeference, file, progress, companions);
 }

@@ -123,6 +123,15 @@ TEST_F(GltfCompanion, UnrealFindsShapesByTheNameOfTheMesh) {
   EXPECT_EQ(gltf.at("meshes")[0].at("name"), "Roof_0");
 }
 
+TEST_F(GltfCompanion, UnrealGetsNoShapeThatIsNotConvexForItWouldMakeAHullOfIt) {
+  auto collision = boxes(CollisionNaming::unreal);
+  collision.convex = {false, true, true};
+  const json gltf = exported({{}, collision});
+  EXPECT_FALSE(has(gltf, "UCX_Roof_0_01"));
+  EXPECT_TRUE(has(gltf, "Roof")) << "keeps its name: nothing looks for it";
+  EXPECT_TRUE(has(gltf, "UCX_Wall_1_01"));
+}
+
 TEST_F(GltfCompanion, GodotReadsConvexShapesAndMeshesByTheirSuffix) {
   const json gltf = exported({{}, boxes(CollisionNaming::godot)});
   EXPECT_TRUE(has(gltf, "Roof-convcolonly"));
