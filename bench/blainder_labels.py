@@ -5,7 +5,7 @@
     blender -b --factory-startup --python-exit-code 1 --python bench/blainder_labels.py -- BLAINDER model.glb X,Y,Z OUTDIR
 
 BLAINDER is a checkout of github.com/ln-12/blainder-range-scanner; OUTDIR gets its CSV. BLAINDER labels a point by its object's property categoryID, else
-by the object's name, and by partID, else by the material's name; here categoryID is the IFC class, which the import keeps as a property.
+by the object's name, and by partID, else by the material's name; our glTF has the IFC class as categoryID, which the import keeps as a property.
 """
 import collections
 import csv
@@ -28,9 +28,6 @@ import range_scanner  # noqa: E402
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 bpy.ops.import_scene.gltf(filepath=model)
-for thing in bpy.data.objects:
-    if "ifc_class" in thing:
-        thing["categoryID"] = thing["ifc_class"]
 camera = bpy.data.objects.new("scanner", bpy.data.cameras.new("scanner"))
 camera.location = [float(word) for word in place.split(",")]
 camera.rotation_euler = (math.radians(90), 0, 0)

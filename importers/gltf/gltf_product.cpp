@@ -47,8 +47,10 @@ void addGltfProperties(GltfFile& file, const Json& extras, const Json& extension
   addXmp(file, extensions, "KHR_xmp", properties);
 }
 
+Json partExtras(const Product& p) { return p.ifc_class.empty() ? Json::object() : Json{{"categoryID", p.ifc_class}}; }
+
 Json toExtras(const Product& p) {
-  Json extras = Json::object();
+  Json extras = partExtras(p);
   const auto add = [&](const char* key, const std::string& value) {
     if (!value.empty()) extras[key] = value;
   };

@@ -14,6 +14,9 @@ void addGltfProperties(GltfFile& file, const T& object, std::vector<Property>& p
   addGltfProperties(file, gltfExtras(object), gltfExtensions(object), properties);
 }
 
+// What each object of a product says, for programs that know no products: BLAINDER takes the property categoryID of the
+// object that a beam meets for the point's class. An import of ours takes no notice of it.
+nlohmann::json partExtras(const Product& product);
 // A product as `extras` of a node that we export, in words that other programs show, and back.
 nlohmann::json toExtras(const Product& product);
 void restoreProduct(GltfFile& file, const nlohmann::json& extras, Product& product);

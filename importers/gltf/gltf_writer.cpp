@@ -351,10 +351,11 @@ class GltfWriter {
     const auto& product = environment_.products[index];
     Json extras = toExtras(product);
     extras["standpoint"] = {{"product", index}};
+    const auto of_part = last - first > 1 ? partExtras(product) : Json::object();
     std::vector<int> parts;
     for (std::size_t i = first; i < last; ++i) {
       parts.push_back(addInstance(environment_.instances[i], gltf_mesh_of_[environment_.instances[i].mesh]));
-      model_.nodes.back().extras = {};
+      model_.nodes.back().extras = of_part.empty() ? tinygltf::Value() : gltfValue(of_part);
     }
     if (parts.size() > 1) {
       tinygltf::Node node;
@@ -418,7 +419,10 @@ class GltfWriter {
     tinygltf::Node inner;
     inner.name = node.name;
     inner.rotation = rotation(v.transpose());
-    inner.extras = gltfValue({{"standpoint", {{"product", instance.product}}}});
+    if (const auto extras = reader_ == For::others ? partExtras(environment_.products[instance.product])
+                                                   : Json{{"standpoint", {{"product", instance.product}}}};
+        !extras.empty())
+      inner.extras = gltfValue(extras);  // of others, the node above is the product's
     inner.mesh = mesh;
     node.children = {added(model_.nodes, std::move(inner))};
   }

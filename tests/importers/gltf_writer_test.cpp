@@ -240,6 +240,32 @@ TEST(GltfExport, ComesBackByImportWithProductsPropertiesAndImages) {
   }
 }
 
+// BLAINDER takes the property categoryID of an object for the class of its points.
+TEST(GltfExport, NodesHaveTheirClassAsCategoryIdWhichComesBackOnce) {
+  auto e = everything();
+  e.products[0].ifc_class = "IfcWall";
+  const auto classOf = [](const std::filesystem::path& file) {
+    const auto gltf = nlohmann::json::parse(readBytes(file));
+    for (const auto& node : gltf.at("nodes"))
+      if (node.contains("extras") && node.at("extras").contains("categoryID"))
+        return node.at("extras").at("categoryID").get<std::string>();
+    return std::string();
+  };
+  Progress progress;
+  const auto first = scratch() / "first.gltf", second = scratch() / "second.gltf";
+  ASSERT_TRUE(exportEnvironmentGltf(e, {}, first, progress));
+  EXPECT_EQ(classOf(first), "IfcWall");
+  const auto back = import(first);
+  ASSERT_TRUE(back) << describe(back.error());
+  EXPECT_EQ(back->environment.products.at(0).ifc_class, "IfcWall");
+  EXPECT_EQ(back->environment.products.at(0).properties.size(), e.products[0].properties.size());
+  ASSERT_TRUE(exportEnvironmentGltf(back->environment, {}, second, progress));
+  EXPECT_EQ(classOf(second), "IfcWall");
+  e.products[0].ifc_class.clear();
+  ASSERT_TRUE(exportEnvironmentGltf(e, {}, first, progress));
+  EXPECT_EQ(classOf(first), "") << "BLAINDER falls back on the object's name";
+}
+
 TEST(GltfWriter, ProgressCancelStopsTheWriting) {
   Progress progress;
   progress.cancel();

@@ -61,6 +61,15 @@ class Blender(InFolder):
         print(f"{len(found)} products, bounds at most {1000 * worst:.4f} mm off")
         self.assertLess(worst, PLACE_M)
 
+    def test_what_a_beam_can_meet_has_its_class_for_blainder(self):
+        classes = {thing["name"]: thing["properties"].get("ifc_class") for thing in self.gltf["objects"]}
+        pieces = 0
+        for thing in self.gltf["objects"]:
+            if thing["type"] == "MESH":
+                pieces += thing["properties"].get("ifc_class") is None
+                self.assertEqual(thing["properties"].get("categoryID"), classes[thing["name"]] or classes[thing["parent"]], thing["name"])
+        print(f"{pieces} of the objects with a mesh are pieces of a product")
+
     def test_materials_keep_their_names(self):
         self.assertEqual(sorted(map(without_number, self.gltf["materials"])), sorted(m["name"] for m in self.glb.json["materials"]))
 
