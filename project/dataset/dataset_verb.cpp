@@ -154,10 +154,9 @@ Result<void> verifySet(const DatasetOptions& options, DatasetOutcome& outcome, P
   for (const auto& path : check.unknown) outcome.report.warn(path, "belongs to no scan of the recipe");
   if (shard.index == 1) noteWork(options.of, outcome);
   const auto what = options.shard ? fmt::format("{} ({}/{})", recipe.name, shard.index, shard.count) : recipe.name;
-  outcome.description = check.isWhole()
-                            ? fmt::format("{} is whole: {} files as they were written", what, check.files)
-                            : fmt::format("{} is not whole: {} files missing, {} damaged", what,
-                                          check.missing.size(), check.damaged.size());
+  outcome.description = check.isWhole() ? fmt::format("{} is whole: {} files as they were written", what, check.files)
+                                        : fmt::format("{} is not whole: {} files missing, {} damaged", what,
+                                                      check.missing.size(), check.damaged.size());
   return {};
 }
 
