@@ -6,6 +6,7 @@
 
 #include <stb/stb_image_write.h>
 
+#include "core/base64.h"
 #include "emulated-ui/preview.h"
 
 namespace standpoint {
@@ -16,20 +17,6 @@ void append(void* context, void* bytes, int count) {
   auto& out = *static_cast<std::vector<std::uint8_t>*>(context);
   const auto* from = static_cast<const std::uint8_t*>(bytes);
   out.insert(out.end(), from, from + count);
-}
-
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::uint32_t b = (i + 1 < bytes.size() ? bytes[i + 1] : 0U), c = (i + 2 < bytes.size() ? bytes[i + 2] : 0U);
-    const std::uint32_t three = static_cast<std::uint32_t>(bytes[i]) << 16U | b << 8U | c;
-    out += kDigits[three >> 18U];
-    out += kDigits[three >> 12U & 63U];
-    out += i + 1 < bytes.size() ? kDigits[three >> 6U & 63U] : '=';
-    out += i + 2 < bytes.size() ? kDigits[three & 63U] : '=';
-  }
-  return out;
 }
 
 }  // namespace
@@ -51,7 +38,7 @@ std::string setupPicture(const StoredSetup& setup) {
   if (stbi_write_png_to_func(append, &png, static_cast<int>(columns), static_cast<int>(rows), 1, turned.data(),
                              static_cast<int>(columns)) == 0)
     return {};
-  return base64(png);
+  return base64Of(png);
 }
 
 }  // namespace standpoint

@@ -55,6 +55,14 @@ std::optional<UnknownLabel> ClassTally::add(std::span<const std::uint32_t> truth
   return std::nullopt;
 }
 
+std::uint64_t ClassTally::wrong() const {
+  const std::size_t n = scored_.size();
+  std::uint64_t wrong = 0;
+  for (std::size_t row = 0; row < n; ++row)
+    for (std::size_t column = 0; column <= n; ++column) wrong += row == column ? 0 : counts_[row * (n + 1) + column];
+  return wrong;
+}
+
 ClassScores ClassTally::scores() const {
   ClassScores scores;
   scores.ignored = ignored_;

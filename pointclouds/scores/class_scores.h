@@ -47,6 +47,7 @@ class ClassTally {
   [[nodiscard]] std::optional<UnknownLabel> add(std::span<const std::uint32_t> truth,
                                                 std::span<const std::uint32_t> predicted);
   ClassScores scores() const;
+  std::uint64_t wrong() const;  // points that count and are not right, so far
 
  private:
   static constexpr std::size_t kIgnored = ~std::size_t{0}, kUnknown = kIgnored - 1;

@@ -76,15 +76,15 @@ void InstanceTally::add(const Labels& truth, const Labels& predicted,
   for (const auto& [key, points] : true_points) {
     if (points < kLeastPoints) continue;
     true_index[key] = scenes[key.first].truth.size();
-    scenes[key.first].truth.push_back(points);
+    scenes[key.first].truth.push_back({key.second, points});
   }
   for (const auto& [key, points] : predicted_points) {
     if (points < kLeastPoints) continue;
     const auto sure = confidence.find(key.second);
     const auto nothing = on_nothing.find(key);
     predicted_index[key] = scenes[key.first].predictions.size();
-    scenes[key.first].predictions.push_back(
-        {points, nothing == on_nothing.end() ? 0 : nothing->second, sure == confidence.end() ? 1 : sure->second});
+    scenes[key.first].predictions.push_back({key.second, points, nothing == on_nothing.end() ? 0 : nothing->second,
+                                             sure == confidence.end() ? 1 : sure->second});
   }
   for (const auto& [keys, points] : both) {
     const auto prediction = predicted_index.find(keys.second);
@@ -108,7 +108,7 @@ std::optional<double> InstanceTally::averagePrecision(const std::vector<Scene>& 
     std::vector<bool> matches(scene.predictions.size()), taken(scene.predictions.size());
     for (const auto& overlap : scene.overlaps) {  // by truth, then by prediction
       const auto& prediction = scene.predictions[overlap.prediction];
-      const auto joint = scene.truth[overlap.truth] + prediction.points - overlap.points;
+      const auto joint = scene.truth[overlap.truth].points + prediction.points - overlap.points;
       if (!(static_cast<double>(overlap.points) / static_cast<double>(joint) > least_iou)) continue;
       matches[overlap.prediction] = true;
       if (taken[overlap.prediction]) continue;
@@ -161,6 +161,31 @@ InstanceScores InstanceTally::scores() const {
     const auto count = static_cast<double>(all.counted);
     all.ap = ap / count, all.ap_50 = ap_50 / count, all.ap_25 = ap_25 / count;
   }
+  return all;
+}
+
+std::vector<MissedInstance> InstanceTally::missed(std::size_t most,
+                                                  const std::function<bool(std::size_t scene)>& of) const {
+  constexpr double kFound = 0.5;
+  std::vector<MissedInstance> all;
+  for (std::size_t k = 0; k < scored_.size(); ++k)
+    for (std::size_t s = 0; s < scenes_[k].size(); ++s) {
+      if (!of(s)) continue;
+      const auto& scene = scenes_[k][s];
+      const auto first = all.size();
+      for (const auto& one : scene.truth) all.push_back({s, scored_[k].id, one.instance, one.points, 0, 0});
+      for (const auto& overlap : scene.overlaps) {
+        const auto& prediction = scene.predictions[overlap.prediction];
+        auto& one = all[first + overlap.truth];
+        const auto joint = one.points + prediction.points - overlap.points;
+        const double iou = static_cast<double>(overlap.points) / static_cast<double>(joint);
+        if (iou > one.iou) one.iou = iou, one.prediction = prediction.instance;
+      }
+    }
+  std::erase_if(all, [](const MissedInstance& one) { return one.iou > kFound; });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const MissedInstance& a, const MissedInstance& b) { return a.points > b.points; });
+  if (all.size() > most) all.resize(most);
   return all;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -25,6 +26,16 @@ struct InstanceScores {
   std::optional<double> ap, ap_50, ap_25;
 };
 
+// A true instance that no prediction of its class matches with an IoU of more than 0.5.
+struct MissedInstance {
+  std::size_t scene = 0;       // in the order of add()
+  std::uint32_t id = 0;        // of its class
+  std::uint32_t instance = 0;  // its number in the scene
+  std::uint64_t points = 0;
+  double iou = 0;                // with the prediction of its class that matches it best; 0 where there is none
+  std::uint32_t prediction = 0;  // the number of that one
+};
+
 // Instances in each scene by themselves, as ScanNet's benchmark counts them (Dai et al. 2017 and its
 // evaluate_semantic_instance): an instance is the points with the same class and number. Of two predictions of one true
 // instance the one of higher confidence is right. Instances under 100 points are no truth and no prediction, and a
@@ -42,9 +53,16 @@ class InstanceTally {
   // one that is not in it has 1.
   void add(const Labels& truth, const Labels& predicted, const std::map<std::uint32_t, double>& confidence);
   InstanceScores scores() const;
+  // At most so many: those with the most points, of equal ones the first. Scenes that `of` refuses are left out.
+  std::vector<MissedInstance> missed(std::size_t most, const std::function<bool(std::size_t scene)>& of) const;
 
  private:
+  struct Truth {
+    std::uint32_t instance = 0;
+    std::uint64_t points = 0;
+  };
   struct Prediction {
+    std::uint32_t instance = 0;
     std::uint64_t points = 0, left_out = 0;  // of these on nothing that counts
     double confidence = 1;
   };
@@ -52,8 +70,8 @@ class InstanceTally {
     std::size_t truth = 0, prediction = 0;
     std::uint64_t points = 0;
   };
-  struct Scene {                       // of one class
-    std::vector<std::uint64_t> truth;  // points of each instance
+  struct Scene {  // of one class
+    std::vector<Truth> truth;
     std::vector<Prediction> predictions;
     std::vector<Overlap> overlaps;
   };

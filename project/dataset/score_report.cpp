@@ -11,7 +11,8 @@ namespace standpoint {
 
 namespace {
 
-constexpr const char* kMatrixStyle = R"(table.m{font-size:7pt}table.m td,table.m th{padding:2px 3px}
+constexpr const char* kScoreStyle = R"(table.m{font-size:7pt}table.m td,table.m th{padding:2px 3px}
+svg.e{max-height:none;border:none}
 )";
 
 std::string percentHtml(const std::optional<double>& share) {
@@ -89,9 +90,9 @@ std::string matrixHtml(const ScoreAnswer& answer) {
          "</small></p>\n";
 }
 
-std::string scorePage(const ScoreAnswer& answer) {
+std::string scorePage(const ScoreAnswer& answer, const std::string& pictures) {
   std::string text =
-      reportBeginning(htmlText(printedf("Scores of {}", answer.predicted.filename().string())), kMatrixStyle);
+      reportBeginning(htmlText(printedf("Scores of {}", answer.predicted.filename().string())), kScoreStyle);
   const auto percent = [](const std::optional<double>& share) {
     return share ? fmt::format("{:.2f} %", 100 * *share) : std::string("–");
   };
@@ -104,7 +105,7 @@ std::string scorePage(const ScoreAnswer& answer) {
                             answer.truth.string(), answer.map, groupedDigits(answer.points), answer.files,
                             groupedDigits(answer.ignored), groupedDigits(answer.given_up))) +
           "</p>\n";
-  return text + classesHtml(answer) + instancesHtml(answer) + matrixHtml(answer) + "</body></html>\n";
+  return text + classesHtml(answer) + instancesHtml(answer) + matrixHtml(answer) + pictures + "</body></html>\n";
 }
 
 // The matrix goes on to the right of the figures.
@@ -125,9 +126,10 @@ std::string scoreTable(const ScoreAnswer& answer) {
 
 }  // namespace
 
-Result<void> writeScoreReport(const ScoreAnswer& answer, const std::filesystem::path& file) {
+Result<void> writeScoreReport(const ScoreAnswer& answer, const std::string& pictures,
+                              const std::filesystem::path& file) {
   const auto ending = file.extension();
-  return writeWholeText(file, ending == ".html"  ? scorePage(answer)
+  return writeWholeText(file, ending == ".html"  ? scorePage(answer, pictures)
                               : ending == ".csv" ? scoreTable(answer)
                                                  : AnswerValue<ScoreAnswer>::write(answer).dump(2) + "\n");
 }

@@ -10,10 +10,10 @@
 
 #include "core/json_file.h"
 #include "core/output_place.h"
-#include "pointclouds/datasets/label_array.h"
 #include "pointclouds/scores/class_scores.h"
 #include "pointclouds/scores/instance_scores.h"
-#include "pointclouds/scores/true_classes.h"
+#include "project/dataset/score_pictures.h"
+#include "project/dataset/scored_labels.h"
 #include "project/dataset/set_scans.h"
 
 namespace standpoint {
@@ -22,10 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct ScoredPair {
-  fs::path truth, predicted;
-  fs::path instances;  // of the truth, where they have a file of their own
-};
 struct ScorePlan {
   ClassMap map;
   std::vector<ScoredPair> pairs;
@@ -103,8 +99,8 @@ Result<ScorePlan> planOfSet(const ScoreOptions& options, Report& report) {
         continue;
       }
       TRY_ASSIGN(auto predicted, predictionOf(options.predicted, files.scan, classes.id));
-      plan.pairs.push_back(
-          {options.truth / files.labels[of_map], std::move(predicted), options.truth / files.instances});
+      plan.pairs.push_back({options.truth / files.labels[of_map], std::move(predicted), options.truth / files.instances,
+                            options.truth / files.cloud, recipe.environments[place.environment].id});
     }
   }
   if (plan.pairs.empty())
@@ -124,16 +120,9 @@ Result<ScorePlan> planOfFile(const ScoreOptions& options) {
     return failure(ErrorKind::usage, "specify the classes that the labels are of, a name or a file (.json)",
                    "--classes");
   TRY_ASSIGN(auto map, classMapNamed(options.classes));
-  return ScorePlan{std::move(map), {{options.truth, options.predicted, {}}}};
-}
-
-// As readPointLabels; an error tells the folder, too: the files of a set have the same names in each.
-Result<PointLabels> labelsIn(const fs::path& file, Progress& progress) {
-  auto labels = readPointLabels(file, progress);
-  if (labels) return labels;
-  auto error = std::move(labels).error();
-  if (error.source.starts_with(file.filename().string())) error.source = (file.parent_path() / error.source).string();
-  return failure(std::move(error));
+  return ScorePlan{
+      std::move(map),
+      {{options.truth, options.predicted, {}, isLabelFile(options.truth) ? fs::path() : options.truth, {}}}};
 }
 
 tl::unexpected<Error> noneOfTheClasses(const ScoredPair& pair, const UnknownLabel& label, const ClassMap& map) {
@@ -186,30 +175,20 @@ Result<std::map<std::uint32_t, double>> confidencesOf(fs::path predicted) {
 struct Tallies {
   ClassTally classes;
   InstanceTally instances;
-  bool with_instances = false;  // somebody predicted one
+  bool with_instances = false;       // somebody predicted one
+  std::vector<std::uint64_t> wrong;  // points of each pair
+  PairLabels last;                   // that were read
 };
 
 Result<void> addPair(const ScoredPair& pair, const ClassMap& map, Tallies& tallies, Progress& progress) {
-  TRY_ASSIGN(auto predicted, labelsIn(pair.predicted, progress));
-  TRY_ASSIGN(auto truth,
-             isLabelFile(pair.truth) ? labelsIn(pair.truth, progress) : trueClasses(pair.truth, map, progress));
-  if (truth.ids.size() != predicted.ids.size())
-    return failure(ErrorKind::unusable,
-                   fmt::format("has labels of {} points, and the truth {} has {} points", predicted.ids.size(),
-                               pair.truth.string(), truth.ids.size()),
-                   pair.predicted.string());
+  tallies.last = {};
+  TRY_ASSIGN(tallies.last, readPair(pair, map, progress));
+  const auto &truth = tallies.last.truth, &predicted = tallies.last.predicted;
+  const auto wrong = tallies.classes.wrong();
   if (const auto unknown = tallies.classes.add(truth.ids, predicted.ids)) return noneOfTheClasses(pair, *unknown, map);
+  tallies.wrong.push_back(tallies.classes.wrong() - wrong);
   const auto isOne = [](std::uint32_t instance) { return instance != 0; };
   tallies.with_instances |= std::any_of(predicted.instances.begin(), predicted.instances.end(), isOne);
-  if (!pair.instances.empty() && !predicted.instances.empty()) {
-    TRY_ASSIGN(auto instances, labelsIn(pair.instances, progress));
-    if (instances.ids.size() != truth.ids.size())
-      return failure(ErrorKind::unusable, "has another number of points than the labels beside it; verify the set",
-                     pair.instances.string());
-    truth.instances = std::move(instances.ids);
-  }
-  truth.instances.resize(truth.ids.size());
-  predicted.instances.resize(truth.ids.size());
   TRY_ASSIGN(const auto confidences, confidencesOf(pair.predicted));
   tallies.instances.add({truth.ids, truth.instances}, {predicted.ids, predicted.instances}, confidences);
   return {};
@@ -333,7 +312,7 @@ Result<Answered<ScoreAnswer>> runScore(const Document& document, const ScoreOpti
   TRY_ASSIGN(const auto plan,
              fs::is_directory(options.truth, error) ? planOfSet(options, outcome.report) : planOfFile(options));
   TRY(checkScoredClasses(plan.map));
-  Tallies tallies{ClassTally(plan.map), InstanceTally(plan.map)};
+  Tallies tallies{ClassTally(plan.map), InstanceTally(plan.map), false, {}, {}};
   for (std::size_t k = 0; k < plan.pairs.size(); ++k) {
     progress.advance(static_cast<double>(k) / static_cast<double>(plan.pairs.size()));
     TRY(addPair(plan.pairs[k], plan.map, tallies, progress));
@@ -343,7 +322,14 @@ Result<Answered<ScoreAnswer>> runScore(const Document& document, const ScoreOpti
   const auto& answer = outcome.answer;
   if (answer.points == 0)
     return failure(ErrorKind::unusable, "no point has a class that is scored", options.truth.string());
-  if (!options.output.empty()) TRY(writeScoreReport(answer, options.output));
+  std::string pictures;
+  if (options.output.extension() == ".html") {
+    TRY_ASSIGN(pictures, picturesOfErrors(answer,
+                                          {plan.map, plan.pairs, std::move(tallies.wrong), std::move(tallies.last),
+                                           tallies.with_instances ? &tallies.instances : nullptr},
+                                          outcome.report, progress));
+  }
+  if (!options.output.empty()) TRY(writeScoreReport(answer, pictures, options.output));
   outcome.description = fmt::format("Scored {} points: mean IoU {} of {} classes, accuracy {}", answer.points,
                                     shareText(answer.mean_iou), answer.classes_in_mean, shareText(answer.accuracy));
   outcome.text = scoreText(answer);

@@ -55,7 +55,9 @@ struct ScoreAnswer {
 const AnswerFields<ScoreAnswer>& answerFields(const ScoreAnswer*);
 Result<Answered<ScoreAnswer>> runScore(const Document& document, const ScoreOptions& options, Progress& progress);
 
-// .html (one page without anything from elsewhere), .json (the answer) or .csv (a class a line).
-Result<void> writeScoreReport(const ScoreAnswer& answer, const std::filesystem::path& file);
+// .html (one page without anything from elsewhere, at its end `pictures`, a part of it), .json (the answer) or .csv (a
+// class a line).
+Result<void> writeScoreReport(const ScoreAnswer& answer, const std::string& pictures,
+                              const std::filesystem::path& file);
 
 }  // namespace standpoint

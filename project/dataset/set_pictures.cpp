@@ -9,18 +9,17 @@
 
 #include <fmt/format.h>
 
-#include "core/html_text.h"
 #include "core/number_text.h"
 #include "project/dataset/manifest.h"
+#include "project/dataset/svg_parts.h"
 
 namespace standpoint {
 
 namespace {
 
-constexpr const char* kFont = "sans-serif";
 // Okabe and Ito's colours, which people with any colour vision tell apart.
 constexpr std::array kColours = {"#0072B2", "#E69F00", "#009E73"};
-constexpr const char *kStarved = "#D55E00", *kInk = "#333333";
+constexpr const char* kStarved = "#D55E00";
 
 // Stations that one plan shows: those of one floor.
 struct Storey {
@@ -92,23 +91,6 @@ std::set<Line> linesOf(const Environment& scene, double z, const Eigen::Vector2d
   return lines;
 }
 
-// 1, 2 or 5 times a power of ten, of which four or more fit.
-double scaleBar(double width_m) {
-  double bar = 1e-3;
-  for (const double factor : {1.0, 2.0, 5.0})
-    for (double power = 1e-3; power < 1e6; power *= 10)
-      if (factor * power <= width_m / 4) bar = std::max(bar, factor * power);
-  return bar;
-}
-
-std::string textAt(double x, double y, double size, const char* anchor, const std::string& text,
-                   const char* colour = kInk) {
-  return fmt::format(
-      "<text x=\"{:.1f}\" y=\"{:.1f}\" font-family=\"{}\" font-size=\"{:.0f}\" text-anchor=\"{}\" "
-      "fill=\"{}\">{}</text>\n",
-      x, y, kFont, size, anchor, colour, htmlText(text));
-}
-
 std::string svgOf(double width, double height, const std::string& content) {
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
@@ -143,7 +125,7 @@ std::string plansOf(const Document& document) {
     content += textAt(kMargin / 2, top + kTitle, 13, "start",
                       fmt::format("Section at {:.2f} m, {} station{}", storey.z + shift.z(), storey.stations.size(),
                                   storey.stations.size() == 1 ? "" : "s"));
-    content += fmt::format("<path fill=\"none\" stroke=\"{}\" stroke-width=\"0.7\" d=\"", kInk);
+    content += fmt::format("<path fill=\"none\" stroke=\"{}\" stroke-width=\"0.7\" d=\"", kSvgInk);
     for (const auto& line : linesOf(scene, storey.z, low, scale * kSteps)) {
       const auto x = [&](long step) { return left + static_cast<double>(step) / kSteps; };
       const auto y = [&](long step) { return y0 + drawn - static_cast<double>(step) / kSteps; };
@@ -157,9 +139,7 @@ std::string plansOf(const Document& document) {
       content += textAt(x, y - 7, 11, "middle", station->name, kStarved);
     }
     const double bar = scaleBar(size.x()), below = y0 + drawn + 16;
-    content += fmt::format("<path stroke=\"{}\" stroke-width=\"2\" d=\"M{:.1f} {:.1f}h{:.1f}\"/>\n", kInk, left, below,
-                           bar * scale);
-    content += textAt(left + bar * scale + 6, below + 4, 11, "start", fmt::format("{:g} m", bar));
+    content += scaleBarAt(left, below, bar, scale);
     top = below + kMargin / 2;
   }
   return svgOf(kWidth, top + kMargin / 2, content);
@@ -197,7 +177,7 @@ std::string balanceChart(const Recipe& recipe, const SetCheck& check, std::size_
       content += textAt(
           kNames + width + 6, y + kBar - 2, 10, "start",
           fmt::format("{:.2f} %  ({}){}", 100 * share, groupedDigits(balance[s].points[k]), starved ? "  starved" : ""),
-          starved ? kStarved : kInk);
+          starved ? kStarved : kSvgInk);
     }
     y += kGap;
   }

@@ -3,12 +3,15 @@
 #include <cstdio>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <random>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <stb/stb_image.h>
 
 #include "pointclouds/datasets/label_array.h"
+#include "pointclouds/scores/error_places.h"
 #include "project/storage/project_files.h"
 #include "tests/project/support.h"
 
@@ -235,6 +238,140 @@ TEST_F(Score, IsOfAllPointsOfASetOrOfOneSplit) {
   EXPECT_THAT(said(part->report), HasSubstr("not in the set and were not scored: 1"));
 }
 
+// A picture of a page, and where its pixels are that are neither white nor grey: fractions of its width (from the left)
+// and its height (from below).
+struct PagePicture {
+  int width = 0, height = 0;
+  double left = 1, right = 0, low = 1, high = 0;
+  std::size_t coloured = 0;
+};
+std::vector<PagePicture> picturesIn(const std::string& page) {
+  constexpr std::string_view kBegin = "href=\"data:image/png;base64,";
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<PagePicture> pictures;
+  for (auto at = page.find(kBegin); at != std::string::npos; at = page.find(kBegin, at)) {
+    std::vector<stbi_uc> png;
+    std::uint32_t bits = 0;
+    int have = 0;
+    for (at += kBegin.size(); kDigits.find(page[at]) != std::string_view::npos; ++at) {
+      bits = bits << 6U | static_cast<std::uint32_t>(kDigits.find(page[at]));
+      have += 6;
+      if (have >= 8) png.push_back(static_cast<stbi_uc>(bits >> static_cast<unsigned>(have -= 8)));
+    }
+    PagePicture one;
+    int channels = 0;
+    const std::unique_ptr<stbi_uc, void (*)(void*)> rgb(
+        stbi_load_from_memory(png.data(), static_cast<int>(png.size()), &one.width, &one.height, &channels, 3),
+        stbi_image_free);
+    EXPECT_TRUE(rgb);
+    if (!rgb) return pictures;
+    for (int y = 0; y < one.height; ++y)
+      for (int x = 0; x < one.width; ++x) {
+        const auto* p = rgb.get() + static_cast<std::ptrdiff_t>(3) * (y * one.width + x);
+        if (p[0] == p[1] && p[1] == p[2]) continue;
+        ++one.coloured;
+        one.left = std::min(one.left, static_cast<double>(x) / one.width);
+        one.right = std::max(one.right, static_cast<double>(x + 1) / one.width);
+        one.low = std::min(one.low, 1 - static_cast<double>(y + 1) / one.height);
+        one.high = std::max(one.high, 1 - static_cast<double>(y) / one.height);
+      }
+    pictures.push_back(one);
+  }
+  return pictures;
+}
+
+// A piece of a wall is taken for clutter.
+TEST_F(Score, ShowsWhereABlockOfWrongPointsIs) {
+  const auto set = smallSet({"s3dis"});
+  const auto cloud = set / "scans/house" / (kScan + ".e57");
+  auto ids = idsIn(set / "labels/house" / (kScan + ".s3dis.npy"));
+  const auto truth = ids;
+  Bounds all, block;
+  std::uint64_t wrong = 0;
+  Progress progress;
+  constexpr std::uint16_t kWall = 2;
+  std::optional<Eigen::Vector3d> middle;
+  ASSERT_TRUE(forEachPlace(
+      cloud,
+      [&](const ScanHeader&, const Eigen::Vector3d& at, std::uint64_t k) {
+        if (ids[k] == kWall && !middle) middle = at;
+      },
+      progress));
+  ASSERT_TRUE(middle);
+  ASSERT_TRUE(forEachPlace(
+      cloud,
+      [&](const ScanHeader&, const Eigen::Vector3d& at, std::uint64_t k) {
+        all.extend(at);
+        if (ids[k] != kWall || (at - *middle).cwiseAbs().maxCoeff() > 0.6) return;
+        ids[k] = 12;  // clutter
+        ++wrong;
+        block.extend(at);
+      },
+      progress));
+  ASSERT_GT(wrong, 100U);
+  const auto predicted = folder.write("predicted.npy", arrayOf(ids)), page = folder / "o.html";
+  const auto scored = score(cloud, predicted, {{"classes", "s3dis"}, {"output", page.string()}});
+  ASSERT_TRUE(scored) << describe(scored.error());
+  EXPECT_EQ(scored->answer["confusion"][2][12], wrong);
+  const auto text = textIn(page);
+  const auto pictures = picturesIn(text);
+  ASSERT_EQ(pictures.size(), 6U) << "a plan, two elevations and the same of the one confusion";
+  constexpr double kRim_m = 0.05;  // of the pictures around the cloud
+  const auto fraction = [&](const Eigen::Vector3d& at, int axis) {
+    return (at[axis] - all.min[axis] + kRim_m) / (all.max[axis] - all.min[axis] + 2 * kRim_m);
+  };
+  const std::array<std::array<int, 2>, 3> axes = {{{0, 1}, {0, 2}, {1, 2}}};
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    const auto& one = pictures[k];
+    EXPECT_GT(one.coloured, 20U) << k;
+    EXPECT_NEAR(one.left, fraction(block.min, axes[k][0]), 0.03) << k;
+    EXPECT_NEAR(one.right, fraction(block.max, axes[k][0]), 0.03) << k;
+    EXPECT_NEAR(one.low, fraction(block.min, axes[k][1]), 0.03) << k;
+    EXPECT_NEAR(one.high, fraction(block.max, axes[k][1]), 0.03) << k;
+  }
+  EXPECT_THAT(text, HasSubstr("taken for clutter"));
+  const auto place = text.find("<small>50000");  // of the densest of them, as it can be looked up
+  ASSERT_NE(place, std::string::npos);
+  double x = 0, y = 0, z = 0;
+  ASSERT_EQ(std::sscanf(text.c_str() + place, "<small>%lf &nbsp; %lf &nbsp; %lf", &x, &y, &z), 3);
+  for (const auto& [value, axis] : {std::pair(x, 0), std::pair(y, 1), std::pair(z, 2)}) {
+    EXPECT_GE(value, block.min[axis] - 0.01);
+    EXPECT_LE(value, block.max[axis] + 0.01);
+  }
+  ASSERT_TRUE(score(cloud, predicted, {{"classes", "s3dis"}, {"output", (folder / "again.html").string()}}));
+  EXPECT_EQ(textIn(folder / "again.html"), text) << "the same bytes";
+  ASSERT_TRUE(score(cloud, folder.write("right.npy", arrayOf(truth)),
+                    {{"classes", "s3dis"}, {"output", (folder / "right.html").string()}}));
+  EXPECT_THAT(textIn(folder / "right.html"), testing::Not(HasSubstr("Where the errors are")));
+  EXPECT_THAT(textIn(folder / "right.html"), testing::Not(HasSubstr("<svg")));
+}
+
+TEST_F(Score, ShowsTheErrorsOfEachEnvironmentOfASetAndSaysWhatHasNoPlaces) {
+  const auto set = smallSet({"s3dis"});
+  const auto mine = folder / "mine";
+  for (const char* environment : {"house", "tower"}) {
+    fs::create_directories(mine / environment / "grid-1");
+    auto ids = idsIn(set / "labels" / environment / (kScan + ".s3dis.npy"));
+    if (environment == std::string("tower")) std::replace(ids.begin(), ids.end(), 2, 1);  // its walls are floors
+    if (environment == std::string("house")) std::replace(ids.begin() + 100, ids.begin() + 200, 2, 1);
+    std::ofstream(mine / environment / (kScan + ".npy"), std::ios::binary) << arrayOf(ids);
+  }
+  const auto page = folder / "o.html";
+  ASSERT_TRUE(score(set, mine, {{"classes", ""}, {"output", page.string()}}));
+  auto text = textIn(page);
+  EXPECT_LT(text.find("<h3>tower</h3>"), text.find("<h3>house</h3>")) << "the worst first";
+  EXPECT_EQ(picturesIn(text).size(), 9U);
+  fs::remove(set / "scans/tower" / (kScan + ".e57"));
+  const auto without = score(set, mine, {{"classes", ""}, {"output", page.string()}});
+  ASSERT_TRUE(without) << describe(without.error());
+  EXPECT_THAT(said(without->report), HasSubstr("clouds that are no longer there, without pictures of their errors: 1"));
+  text = textIn(page);
+  EXPECT_THAT(text, testing::Not(HasSubstr("<h3>tower</h3>")));
+  const auto truth = folder.write("truth.npy", arrayOf({1, 1, 2})), predicted = folder.write("p.txt", "1\n2\n2\n");
+  ASSERT_TRUE(score(truth, predicted, {{"output", page.string()}}));
+  EXPECT_THAT(textIn(page), HasSubstr("the labels do not say where their points are"));
+}
+
 TEST_F(Score, AsksWhichOfTheClassesOfASet) {
   const auto set = smallSet({"s3dis", "ifc"});
   const auto unsaid = score(set, set / "labels", {{"classes", ""}});
@@ -338,6 +475,40 @@ TEST_F(Score, OfInstancesIsThatOfAHandComputedExample) {
   const auto without = score(folder.write("t2.npy", arrayOf({1, 2})), folder.write("p2.npy", arrayOf({1, 2})));
   ASSERT_TRUE(without);
   EXPECT_FALSE(without->answer.contains("instances")) << "nobody predicted one";
+}
+
+// One wall is no instance of the prediction.
+TEST_F(Score, NamesAndShowsTheLargestMissedInstances) {
+  const auto set = smallSet({"s3dis"});
+  const auto cloud = set / "scans/house" / (kScan + ".e57");
+  const auto ids = idsIn(set / "labels/house" / (kScan + ".s3dis.npy"));
+  std::vector<std::array<std::uint16_t, 2>> predicted(ids.size());
+  std::uint64_t missing = 0;
+  Progress progress;
+  const auto instances = readPointLabels(set / "labels/house" / (kScan + ".instances.npy"), progress);
+  ASSERT_TRUE(instances) << describe(instances.error());
+  ASSERT_TRUE(forEachPlace(
+      cloud,
+      [&](const ScanHeader& scan, const Eigen::Vector3d&, std::uint64_t k) {
+        predicted[k] = {ids[k], static_cast<std::uint16_t>(instances->ids[k])};
+        if (instances->ids[k] == 0 || scan.products[instances->ids[k] - 1].name != "south0") return;
+        predicted[k][1] = 0;
+        ++missing;
+      },
+      progress));
+  ASSERT_GT(missing, 100U);
+  const auto page = folder / "o.html";
+  const auto scored = score(cloud, folder.write("predicted.npy", pairsOf(predicted)),
+                            {{"classes", "s3dis"}, {"output", page.string()}});
+  ASSERT_TRUE(scored) << describe(scored.error());
+  EXPECT_EQ(scored->answer["accuracy"], 1) << "no class is wrong";
+  const auto text = textIn(page);
+  EXPECT_THAT(text, HasSubstr("Largest missed instances"));
+  EXPECT_THAT(text, HasSubstr("<td>A<td>IfcWall south0<td>wall<td class=\"n\">"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("<td>B<td>")));
+  const auto pictures = picturesIn(text);
+  ASSERT_EQ(pictures.size(), 3U) << "of the wall: no class is wrong anywhere";
+  EXPECT_GT(pictures[0].coloured, 20U);
 }
 
 // Written from the definition with masks of points, another way than ours.
