@@ -3,7 +3,8 @@
 # slurm.sh [-q] [PROGRAM [MODEL]]: runs the array of `dataset slurm` on a Slurm of its own (one controller, three nodes
 # on this machine's loopback) and compares its sets byte for byte with plain runs: whole, in shards, with a task that is
 # requeued, a node that is drained, a node that dies while its script lives on, a controller that is killed, an array
-# that is cancelled and one that fails. -q: without the last five. Exit code 77: no Slurm here, or not root.
+# that is cancelled and one that fails. -q: two of eight stations, so no more than two shards or tasks; without the
+# last five. Exit code 77: no Slurm here, or not root.
 # Needs Debian's slurm-wlm and munge.
 set -euo pipefail
 quick=; [ "${1:-}" = -q ] && { quick=1; shift; }
@@ -113,12 +114,16 @@ stateOf() {
   scontrol show job "$1" 2>/dev/null | sed -n 's/.*JobState=\([A-Z_]*\).*/\1/p' | head -n 1 || true
 }
 tasks() { squeue -h -r -j "$scans" -o '%i %T %r %N' 2>/dev/null || true; }
-# A requeued task waits for two minutes; these do not.
+# A requeued task waits for two minutes; these wait for two seconds. Sooner its node refuses it ("credential revoked"):
+# it takes it for the start that it ended, for it counts whole seconds.
 hurry() {
-  local id state reason rest
+  local id state reason rest waiting=()
   while read -r id state reason rest; do
-    [ "$state" = PENDING ] && [ "$reason" = BeginTime ] && scontrol update jobid="$id" StartTime=now 2>/dev/null || true
+    [ "$state" = PENDING ] && [ "$reason" = BeginTime ] && waiting+=("$id") || true
   done < <(tasks)
+  ((${#waiting[@]} > 0)) || return 0
+  sleep 2
+  for id in "${waiting[@]}"; do scontrol update jobid="$id" StartTime=now 2>/dev/null || true; done
 }
 submit() {  # SET SHARDS; sets `scans` and `manifest`
   "$program" dataset slurm "$d/recipe.json" -o "$1" --shards "$2" --threads 1 >/dev/null
@@ -141,6 +146,12 @@ processOf() {  # TASK
   local work
   work="$(ls -d "$set"/.work/"${scans}_$1".*)"
   echo "${work##*.}"
+}
+endStepOf() {  # PROCESS: kills its slurmstepd; one that nobody has waited for yet has no children any more either
+  local step
+  step="$(ps -o ppid= -p "$1" | tr -d ' ')"
+  kill -9 "$step"
+  while ps -o stat= -p "$step" | grep -qv Z; do sleep 0.01; done
 }
 finish() {  # waits for the last job
   local state
@@ -165,10 +176,12 @@ same() {  # what the set is, beside the plain run
 }
 begin() { set="$d/set-$1"; started="$(date +%s)"; }
 
+stations=8 shards=(2 4) sizes=(1 2 4)
+[ -z "$quick" ] || stations=2 shards=(2) sizes=(1 2)
 cat >"$d/recipe.json" <<JSON
 {"format": "standpoint-dataset", "recipe_version": 1, "name": "array", "license": "CC0-1.0", "creator": "a test",
  "date": "2026-01-31", "environments": [{"id": "house", "model": "$model"}],
- "stations": [{"strategy": "grid", "spacing_m": 1, "count": 8}],
+ "stations": [{"strategy": "grid", "spacing_m": 1, "count": $stations}],
  "instruments": [{"id": "focus", "instrument": "faro-focus-s350", "set": ["resolution=1/32", "quality=4x"]}],
  "effects": [{"id": "noisy"}, {"id": "ideal", "ideal": true}],
  "splits": {"train": ["house"]}, "classes": ["s3dis"]}
@@ -176,7 +189,7 @@ JSON
 set="$d/plain" started="$(date +%s)"
 "$program" dataset run "$d/recipe.json" -o "$set" --json >"$d/run.json" 2>/dev/null || die "$(cat "$d/run.json")"
 same "plain run"
-for n in 2 4; do
+for n in "${shards[@]}"; do
   begin "shards-$n"
   for i in $(seq "$n" -1 1); do
     "$program" dataset run "$d/recipe.json" -o "$set" --shard "$i/$n" >/dev/null 2>&1 || die "shard $i/$n"
@@ -191,7 +204,7 @@ done
 started="$(date +%s)"
 up
 echo "a controller and $nodes nodes are up: $(sinfo --version), $(($(date +%s) - started)) s"
-for n in 1 2 4; do
+for n in "${sizes[@]}"; do
   begin "array-$n"
   submit "$set" "$n"
   finish
@@ -199,11 +212,11 @@ for n in 1 2 4; do
 done
 
 begin requeued
-submit "$set" 4
-begun 2
-scontrol requeue "${scans}_2"
+submit "$set" $((stations / 2))  # four scans a task
+begun 1
+scontrol requeue "${scans}_1"
 finish
-same "task 2 requeued" "$(sed -n 's/.*cancelled.*/its first start ended by TERM/p' "$set"/slurm/*-2.log | head -n 1)"
+same "task 1 requeued" "$(sed -n 's/.*cancelled.*/its first start ended by TERM/p' "$set"/slurm/*-1.log | head -n 1)"
 [ -n "$quick" ] && exit 0
 
 begin drained
@@ -219,16 +232,15 @@ allIdle
 
 # The scripts of a node that dies live on. This one is stopped until its twin is at work, so that both write at once.
 begin died
-submit "$set" 4
-begun 3
-node="$(tasks | awk -v task="${scans}_3" '$1 == task { print $4 }')"
-orphan="$(processOf 3)"
-for task in $(tasks | awk -v node="$node" '$2 == "RUNNING" && $4 == node { sub(".*_", "", $1); print $1 }'); do
-  step="$(ps -o ppid= -p "$(processOf "$task")" | tr -d ' ')" || continue  # its slurmstepd
-  kill -9 "$step"
-  while kill -0 "$step" 2>/dev/null; do sleep 0.01; done
-done
+submit "$set" 2
+begun 2
+node="$(tasks | awk -v task="${scans}_2" '$1 == task { print $4 }')"
+orphan="$(processOf 2)"
+endStepOf "$orphan"
 kill -STOP "$orphan"  # not before: who stands still when its parent dies is hung up
+if [ "$(tasks | awk -v task="${scans}_1" '$1 == task { print $4 }')" = "$node" ]; then
+  endStepOf "$(processOf 1 2>/dev/null)" 2>/dev/null || true  # it may have ended
+fi
 kill -9 "$(pidIn "slurmd-$node")"
 for _ in $(seq 600); do
   case "$(sinfo -h -n "$node" -o %T)" in down*) break ;; esac
@@ -237,10 +249,10 @@ done
 lost=$(($(date +%s) - started))
 for _ in $(seq 600); do
   hurry
-  ls -d "$set"/.work/"${scans}_3".1.* >/dev/null 2>&1 && break
+  ls -d "$set"/.work/"${scans}_2".1.* >/dev/null 2>&1 && break
   sleep 0.2
 done
-ls -d "$set"/.work/"${scans}_3".1.* >/dev/null 2>&1 || die "the task of the dead node does not start again"
+ls -d "$set"/.work/"${scans}_2".1.* >/dev/null 2>&1 || die "the task of the dead node does not start again"
 kill -0 "$orphan" || die "the dead node's script has ended"
 kill -CONT "$orphan"
 finish
@@ -257,17 +269,21 @@ submit "$set" 8
 touch "$d/submitted"
 for _ in $(seq 300); do [ "$d/state/job_state" -nt "$d/submitted" ] && break; sleep 0.1; done
 running="$(tasks | grep -c RUNNING || true)"
+# Stopped for that time: of one that ends meanwhile Slurm 22.05 may go on to say that it runs, for minutes at least.
+at_work=()
+for work in "$set"/.work/*; do at_work+=("${work##*.}"); done
+kill -STOP "${at_work[@]}" 2>/dev/null || true
 kill -9 "$(pidIn slurmctld)"
-sleep 3
+sleep 1
 slurmctld -f "$SLURM_CONF"
 for _ in $(seq 100); do scontrol ping >/dev/null 2>&1 && break; sleep 0.2; done
+kill -CONT "${at_work[@]}" 2>/dev/null || true
 finish
 same "controller killed and started again" "$running tasks were running"
 
 begin cancelled
 submit "$set" 4
-begun 2
-sleep 1
+for _ in $(seq 600); do [ -z "$(find "$set/records" -name '*.json' 2>/dev/null)" ] || break; sleep 0.1; done
 scancel "$scans"
 for _ in $(seq 100); do [ -z "$(tasks)" ] && break; sleep 0.2; done
 made="$(find "$set/records" -name '*.json' 2>/dev/null | wc -l)"
@@ -275,7 +291,7 @@ made="$(find "$set/records" -name '*.json' 2>/dev/null | wc -l)"
 if "$program" dataset verify "$set" >/dev/null 2>&1; then die "half a set is whole"; fi
 resubmit "$set"
 finish
-same "array cancelled and submitted again" "$made of 16 scans were kept"
+same "array cancelled and submitted again" "$made of $((2 * stations)) scans were kept"
 
 begin failed
 "$program" dataset slurm "$d/recipe.json" -o "$set" --shards 4 --threads 1 >/dev/null

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The job array of `dataset slurm` on a real Slurm, by scripts/slurm.sh: plain runs against arrays of one, two and four
-// tasks and one with a task that is requeued. STANDPOINT_SLURM=1 tries a node that is drained, one that dies, a
-// controller that is killed, an array that is cancelled and one that fails, too: some minutes more.
+// The job array of `dataset slurm` on a real Slurm, by scripts/slurm.sh: plain runs against arrays of one and two
+// tasks and one with a task that is requeued. STANDPOINT_SLURM=1 tries four tasks, a node that is drained, one that
+// dies, a controller that is killed, an array that is cancelled and one that fails, too: some minutes more.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
