@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "importers/ifc/model/epsg.h"
+#include "importers/files/epsg.h"
 #include "importers/ifc/model/map_conversion.h"
 #include "importers/ifc/model/units.h"
 #include "importers/ifc/properties.h"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "importers/ifc/model/epsg.h"
+#include "importers/files/epsg.h"
 #include "importers/ifc/model/units.h"
 
 namespace standpoint::ifc {

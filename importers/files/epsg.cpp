@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "importers/ifc/model/epsg.h"
+#include "importers/files/epsg.h"
 
 #include <algorithm>
 #include <cctype>
@@ -8,7 +8,7 @@
 
 #include <proj.h>
 
-namespace standpoint::ifc {
+namespace standpoint {
 namespace {
 
 struct Database {
@@ -70,4 +70,4 @@ std::string epsgDigits(const std::string& name) {
   return digits < upper.size() && (bare || named) ? upper.substr(digits) : std::string();
 }
 
-}  // namespace standpoint::ifc
+}  // namespace standpoint

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-namespace standpoint::ifc {
+namespace standpoint {
 
 // What the EPSG dataset (through PROJ's database) says of a code. Where the database is not installed nothing is said.
 struct EpsgCrs {
@@ -22,4 +22,4 @@ bool isEpsgReference(const std::string& digits, bool vertical);
 // "25832" of "EPSG:25832", "epsg: 25832", "25832" and "urn:ogc:def:crs:EPSG::25832"; empty where it is no EPSG code.
 std::string epsgDigits(const std::string& name);
 
-}  // namespace standpoint::ifc
+}  // namespace standpoint
