@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "importers/cityjson/cityjson.h"
 #include "importers/gltf/gltf.h"
 #include "importers/obj/obj.h"
 #include "importers/plausibility.h"
@@ -28,13 +29,16 @@ struct Magic {
 };
 // The first bytes after a byte-order mark and white space.
 constexpr std::array kMagics{Magic{"ISO-10303-21", "ifc"}, Magic{"PK\x03\x04", "ifc"}, Magic{"\x1F\x8B", "ifc"},
-                             Magic{"glTF", "gltf"},        Magic{"{", "gltf"},         Magic{"ply\n", "ply"},
-                             Magic{"ply\r", "ply"},        Magic{"solid ", "stl"},     Magic{"solid\n", "stl"},
-                             Magic{"solid\r", "stl"},      Magic{"mtllib ", "obj"},    Magic{"v ", "obj"}};
+                             Magic{"glTF", "gltf"},        Magic{"ply\n", "ply"},      Magic{"ply\r", "ply"},
+                             Magic{"solid ", "stl"},       Magic{"solid\n", "stl"},    Magic{"solid\r", "stl"},
+                             Magic{"mtllib ", "obj"},      Magic{"v ", "obj"}};
+// JSON is told by a word: these stand near the beginning unless somebody has sorted the members.
+constexpr std::array kWordsOfJson{Magic{"\"CityObjects\"", "cityjson"}, Magic{"\"CityJSON", "cityjson"},
+                                  Magic{"\"asset\"", "gltf"}};
 
 std::string firstBytes(const std::filesystem::path& file) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"), &std::fclose);
-  std::string head(256, '\0');
+  std::string head(std::size_t{64} << 10U, '\0');
   head.resize(in ? std::fread(head.data(), 1, head.size(), in.get()) : 0);
   if (head.starts_with("\xEF\xBB\xBF")) head.erase(0, 3);
   head.erase(0, std::min(head.find_first_not_of(" \t\r\n"), head.size()));
@@ -50,6 +54,8 @@ const Importer* named(std::string_view name) {
 const Importer* byContent(const std::string& head) {
   for (const Magic& magic : kMagics)
     if (head.starts_with(magic.bytes)) return named(magic.importer);
+  for (const Magic& word : kWordsOfJson)
+    if (head.starts_with('{') && head.find(word.bytes) != std::string::npos) return named(word.importer);
   return nullptr;
 }
 
@@ -72,7 +78,7 @@ const Importer* byExtension(const std::filesystem::path& file) {
 
 std::span<const Importer> importers() {
   static const std::array kImporters{
-      kIfcImporter, kGltfImporter, kObjImporter, kPlyImporter, kStlImporter,
+      kIfcImporter, kGltfImporter, kCityJsonImporter, kObjImporter, kPlyImporter, kStlImporter,
   };
   return kImporters;
 }
@@ -81,11 +87,13 @@ Result<ImportedModel> importFile(const std::filesystem::path& file, const Import
   std::error_code code;
   if (!std::filesystem::is_regular_file(file, code))
     return failure(ErrorKind::file_system, code ? code.message() : "cannot read the file", file.string());
-  const Importer* importer = byContent(firstBytes(file));
+  const std::string head = firstBytes(file);
+  const Importer* importer = byContent(head);
   if (!importer) importer = byExtension(file);
+  if (!importer && head.starts_with('{')) importer = named("gltf");
   if (!importer && hasSizeOfStl(file)) importer = &kStlImporter;
   if (!importer)
-    return failure(ErrorKind::unusable, "unsupported format; use IFC, glTF, OBJ, PLY or STL", file.string());
+    return failure(ErrorKind::unusable, "unsupported format; use IFC, glTF, CityJSON, OBJ, PLY or STL", file.string());
   auto model = importer->read(file, options, progress);
   if (!model) return model;
   const double stated = model->metres_per_unit > 0 ? model->metres_per_unit : 1;

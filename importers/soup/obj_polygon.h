@@ -20,4 +20,8 @@ struct PolygonTriangles {
 // takes those that touch themselves, as a hole does that a bridge joins to the outline.
 PolygonTriangles triangulatePolygon(std::span<const Eigen::Vector3d> corners);
 
+// The same with holes: ring after ring, the outer one first; `ring_ends` are past the last corner of each. Where the
+// holes cannot be cut out, the outer ring stands without them and is not clean.
+PolygonTriangles triangulateRings(std::span<const Eigen::Vector3d> corners, std::span<const std::size_t> ring_ends);
+
 }  // namespace standpoint
