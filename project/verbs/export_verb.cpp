@@ -179,9 +179,8 @@ Result<void> exportIfc(const Document& document, const fs::path& file, Answered<
   Environment all = *document.environment();
   const std::array environments = {&all};
   const auto physical = physicalSurfaces(document, environments, LooksOfSplit::kept);
-  TRY_ASSIGN(const auto summary,
-             writeIfc(all, physical, *document.georeference, file, fmt::format("Standpoint {}", programVersion()),
-                      outcome.report, progress));
+  TRY_ASSIGN(const auto summary, writeIfc(all, physical, *document.georeference, file,
+                                          fmt::format("Standpoint {}", programVersion()), outcome.report, progress));
   outcome.answer.triangles = summary.triangles;
   outcome.answer.schema = summary.schema;
   return {};
@@ -249,9 +248,10 @@ Result<Answered<ExportAnswer>> runExport(const Document& document, const ExportO
                    fmt::format("unsupported format '{}'; use .ifc, .glb, .gltf, .obj, or .xml for HELIOS++", extension),
                    "--output");
   if (physical && extension != ".obj")
-    return failure(ErrorKind::usage,
-                   "this option applies to .obj only; IFC, glTF and HELIOS++ scenes always contain the physical materials",
-                   "--physical");
+    return failure(
+        ErrorKind::usage,
+        "this option applies to .obj only; IFC, glTF and HELIOS++ scenes always contain the physical materials",
+        "--physical");
   if (!gltf && (!options.levels.empty() || options.collision))
     return failure(ErrorKind::usage, "levels of detail and collision shapes can be exported to .glb or .gltf only",
                    "--output");

@@ -188,7 +188,7 @@ TEST_F(Manifest, HasAStacItemOfAnEnvironmentThatIsOnAMap) {
   EXPECT_EQ(item["links"].back(), (json{{"rel", "license"}, {"href", manifest["license"]}}));
   Progress progress;
   auto recipe = readRecipeOfSet(set()).value();
-  const auto check = checkSet(set(), recipe, progress).value();
+  const auto check = checkSet(set(), recipe, Shard(), progress).value();
   for (const auto& [license, id, links] :
        {std::tuple("CC0-1.0", "CC0-1.0", 1U), std::tuple("ask the owner", "proprietary", 1U),
         std::tuple("https://creativecommons.org/licenses/by/4.0/", "proprietary", 2U)}) {

@@ -280,8 +280,7 @@ void Writer::writeNode(std::size_t index) {
   const Node* parent = has_parent ? &nodes_[static_cast<std::size_t>(node.parent)] : nullptr;
   if (parent != nullptr) self.local_from_node = parent->local_from_node;
   const bool storey = node.ifc_class == "IfcBuildingStorey" && structure_.made.empty();  // else its height is unknown
-  if (storey)
-    self.local_from_node.translation().z() = node.elevation_m - georeference_.shift_m.z();
+  if (storey) self.local_from_node.translation().z() = node.elevation_m - georeference_.shift_m.z();
   // What stands in no other place stands in the file's frame: there the shift is undone.
   Eigen::Isometry3d in_parent = self.local_from_node;
   if (parent != nullptr)
