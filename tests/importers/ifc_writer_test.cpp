@@ -52,7 +52,7 @@ std::vector<std::string> told(const Report& report) {
   return all;
 }
 
-const Product& named(const ImportedModel& model, const std::string& name) {
+const Product& comeBack(const ImportedModel& model, const std::string& name) {
   for (const Product& p : model.environment.products)
     if (p.name == name) return p;
   ADD_FAILURE() << "there is no product " << name;
@@ -193,7 +193,7 @@ std::string fullText() {
 TEST(IfcWriter, GivesAProductBackWithAllThatItHad) {
   const ImportedModel source = importText(ifcText(fullText()));
   const Written w = written(source.environment, source.georeference);
-  const Product &before = productOf(source, "#100"), &after = named(w.again, "Product 100");
+  const Product &before = productOf(source, "#100"), &after = comeBack(w.again, "Product 100");
   EXPECT_EQ(after.global_id, "2O2Fr$t4X7Zf8NOew3FLOH");
   EXPECT_EQ(after.ifc_class, before.ifc_class);
   EXPECT_EQ(after.predefined_type, "PARAPET");
@@ -224,10 +224,10 @@ TEST(IfcWriter, KeepsPlacesPartsAndRoomsAndTellsWhatItLeavesOut) {
     EXPECT_EQ(w.again.environment.spatial[i].ifc_class, source.environment.spatial[i].ifc_class);
     EXPECT_DOUBLE_EQ(w.again.environment.spatial[i].elevation_m, source.environment.spatial[i].elevation_m);
   }
-  const Product& part = named(w.again, "Product 110");
+  const Product& part = comeBack(w.again, "Product 110");
   ASSERT_GE(part.whole, 0);
   EXPECT_EQ(w.again.environment.products[static_cast<std::size_t>(part.whole)].name, "Product 100");
-  const Product& room = named(w.again, "101");
+  const Product& room = comeBack(w.again, "101");
   EXPECT_FALSE(room.tangible);
   EXPECT_THAT(propertyTexts(room.properties), ::testing::Contains("Attributes | LongName | Kitchen | "));
   EXPECT_THAT(told(w.report),
@@ -241,7 +241,7 @@ TEST(IfcWriter, LeavesOutWhatTheAuthorExcluded) {
   const Written w = written(source.environment, source.georeference);
   EXPECT_EQ(w.summary.products, 2U);
   // The part of what is not there stands in the storey itself.
-  const Product& part = named(w.again, "Product 110");
+  const Product& part = comeBack(w.again, "Product 110");
   EXPECT_EQ(part.whole, -1);
   EXPECT_EQ(part.storey, "Ground");
 }
@@ -251,10 +251,10 @@ TEST(IfcWriter, MakesStoreysOfTheNamesThatProductsOfOtherFormatsHave) {
   e.products[0].storey = "Ground";
   e.products[1].storey = "Upper";
   const Written w = written(e);
-  EXPECT_EQ(named(w.again, "Wedge 0").storey, "Ground");
-  EXPECT_EQ(named(w.again, "Wedge 1").storey, "Upper");
-  EXPECT_EQ(named(w.again, "Wedge 1").ifc_class, "IfcBuildingElementProxy");
-  EXPECT_TRUE(ifc::isGlobalId(named(w.again, "Wedge 0").global_id));
+  EXPECT_EQ(comeBack(w.again, "Wedge 0").storey, "Ground");
+  EXPECT_EQ(comeBack(w.again, "Wedge 1").storey, "Upper");
+  EXPECT_EQ(comeBack(w.again, "Wedge 1").ifc_class, "IfcBuildingElementProxy");
+  EXPECT_TRUE(ifc::isGlobalId(comeBack(w.again, "Wedge 0").global_id));
 }
 
 TEST(IfcWriter, WritesASharedMeshOnceAndAMirroredOneOnceMore) {
@@ -273,7 +273,7 @@ TEST(IfcWriter, WritesASharedMeshOnceAndAMirroredOneOnceMore) {
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_LT((before[i].min - after[i].min - w.again.georeference.shift_m).norm(), 1e-6) << i;
     EXPECT_LT((before[i].max - after[i].max - w.again.georeference.shift_m).norm(), 1e-6) << i;
-    EXPECT_NEAR(volumeOf(w.again, named(w.again, "Wedge " + std::to_string(i)).id), 1, 1e-6) << i;
+    EXPECT_NEAR(volumeOf(w.again, comeBack(w.again, "Wedge " + std::to_string(i)).id), 1, 1e-6) << i;
   }
 }
 
@@ -346,8 +346,8 @@ TEST(IfcWriter, TellsOfGlobalIdsThatItCouldNotKeepAndOfImages) {
   const Written w = written(e);
   EXPECT_THAT(told(w.report), ::testing::Contains(HasSubstr("GlobalId: 1 are not valid or occur more than once")));
   EXPECT_THAT(told(w.report), ::testing::Contains(HasSubstr("1 surfaces are written without their images")));
-  EXPECT_EQ(named(w.again, "Wedge 0").global_id, "2O2Fr$t4X7Zf8NOew3FLOH");
-  EXPECT_NE(named(w.again, "Wedge 1").global_id, "2O2Fr$t4X7Zf8NOew3FLOH");
+  EXPECT_EQ(comeBack(w.again, "Wedge 0").global_id, "2O2Fr$t4X7Zf8NOew3FLOH");
+  EXPECT_NE(comeBack(w.again, "Wedge 1").global_id, "2O2Fr$t4X7Zf8NOew3FLOH");
 }
 
 TEST(IfcWriter, WritesTheSameBytesEachTime) {
