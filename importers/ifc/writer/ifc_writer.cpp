@@ -429,21 +429,18 @@ void Writer::relate() {
 
 void Writer::tell() const {
   for (const auto& [what, count] : left_out_)
-    report_.note(what.empty() ? "products" : what,
-                 fmt::format("{} left out; the file holds what stands in the scene, and spaces", count));
+    report_.note(what.empty() ? "products" : what, fmt::format("{} not exported: not part of the scene", count));
   for (const auto& [what, count] : replaced_)
     report_.note(what.substr(0, what.find(' ')),
-                 fmt::format("{} written as {}; the schema of the file does not have the class", count,
+                 fmt::format("{} written as {}: the class does not exist in the schema of the file", count,
                              what.substr(what.rfind(' ') + 1)));
   if (ids_.replaced() > 0)
-    report_.warn("GlobalId",
-                 fmt::format("{} are not valid or occur more than once; new ones were written", ids_.replaced()));
+    report_.warn("GlobalId", fmt::format("{} invalid or duplicate GlobalIds were replaced", ids_.replaced()));
   std::size_t pictured = 0, coloured = 0;
   for (const Surface& surface : environment_.surfaces) pictured += surface.image >= 0 ? 1 : 0;
   for (const auto& mesh : environment_.meshes) coloured += mesh->colours.empty() ? 0 : 1;
-  if (pictured > 0) report_.warn("images", fmt::format("{} surfaces are written without their images", pictured));
-  if (coloured > 0)
-    report_.warn("colours", fmt::format("{} meshes are written without the colours of their vertices", coloured));
+  if (pictured > 0) report_.warn("images", fmt::format("images of {} surfaces were not exported", pictured));
+  if (coloured > 0) report_.warn("colours", fmt::format("vertex colours of {} meshes were not exported", coloured));
 }
 
 Result<IfcSummary> Writer::write(Progress& progress) {
