@@ -17,17 +17,16 @@ import json
 import math
 import os
 import shutil
-import subprocess
 import sys
 
 import numpy as np
+
+from own_points import read_ply, run
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 INSTRUMENTS = os.path.join(HERE, "..", "scanners", "instruments")
 QUIET = "range-noise,angle-noise,bias,striping,variation,amplitude-noise,quantisation,incidence-noise,range-offset," \
         "levelling,near-range,atmosphere,halo,saturation,multipath,textures"   # what is left: beam, detection, receiver
-NUMBERS = {"double": "<f8", "float": "<f4", "uchar": "u1", "ushort": "<u2", "uint": "<u4", "int": "<i4", "short": "<i2",
-           "char": "i1"}
 
 
 class Bench:
@@ -35,10 +34,7 @@ class Bench:
         self.standpoint, self.helios, self.folder, self.house = standpoint, helios, folder, house
 
     def run(self, *words, folder=None):
-        done = subprocess.run(words, cwd=folder or self.folder, capture_output=True, text=True)
-        if done.returncode != 0:
-            sys.exit(f"{' '.join(words)}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
-        return done.stdout
+        return run(*words, folder=folder or self.folder)
 
     # ------------------------------------------------------------------------------------------ ours
 
@@ -143,23 +139,6 @@ def read_points(file):
     if os.path.getsize(file) == 0:
         return np.empty((0, 8))
     return np.loadtxt(file, usecols=(0, 1, 2, 3, 5, 6, 7, 10), ndmin=2)
-
-
-def read_ply(file):
-    with open(file, "rb") as data:
-        types, pose = [], None
-        while True:
-            line = data.readline()
-            words = line.decode().split()
-            if words[:3] == ["comment", "standpoint", "pose"]:
-                pose = np.array(words[3:10], float)
-            elif words[:2] == ["element", "vertex"]:
-                count = int(words[2])
-            elif words[:1] == ["property"] and words[1] != "list":
-                types.append((words[2].replace("scalar_", ""), NUMBERS[words[1]]))
-            elif words == ["end_header"]:
-                break
-        return np.fromfile(data, np.dtype(types), count), pose
 
 
 def places(points, true=False):

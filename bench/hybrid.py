@@ -14,16 +14,16 @@ import json
 import math
 import os
 import shutil
-import subprocess
 import sys
 
 import numpy as np
+
+from own_points import read_ply, run
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 MODEL = os.path.join(HERE, "..", "scanners", "instruments", "leica-blk2go.json")
 ROOM = (15.0, 40 / 3)
 CYCLE = [(0, 0), (1, 0), (2, 0), (3, 0), (3, 1), (3, 2), (2, 2), (2, 1), (1, 1), (1, 2), (0, 2), (0, 1)]
-NUMBERS = {"double": "<f8", "float": "<f4", "uchar": "u1", "int": "<i4"}
 
 
 def building():
@@ -89,26 +89,11 @@ def slower(name):
         json.dump(data, file)
 
 
-def run(*words):
-    done = subprocess.run(words, capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(words)}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
-    return done.stdout + done.stderr
-
-
 def errors_of(file):
     """Of each point of a binary PLY of ours: where it is less where it truly is, mm."""
-    with open(file, "rb") as f:
-        kinds, count = [], 0
-        for line in iter(f.readline, b"end_header\n"):
-            words = line.decode().split()
-            if words[:2] == ["element", "vertex"]:
-                count = int(words[2])
-            elif words[0] == "property":
-                kinds.append((words[2], NUMBERS[words[1]]))
-        points = np.frombuffer(f.read(), dtype=kinds, count=count)
-    whole = points["scalar_Flags"] == 0  # without mixed pixels and the like
-    return 1000 * np.column_stack([points[a] - points["scalar_True" + a.upper()] for a in "xyz"])[whole]
+    points, _ = read_ply(file)
+    whole = points["Flags"] == 0  # without mixed pixels and the like
+    return 1000 * np.column_stack([points[a] - points["True" + a.upper()] for a in "xyz"])[whole]
 
 
 def rms(errors):

@@ -14,7 +14,6 @@ scan. The real scan is also simulated: its own surfaces, scanned from the same p
 import json
 import os
 import shutil
-import subprocess
 import sys
 import time
 
@@ -28,6 +27,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 from sklearn.ensemble import HistGradientBoostingClassifier
 from sklearn.metrics import confusion_matrix, jaccard_score
+
+from own_points import read_ply, run
 
 TRAIN = {"duplex": "goedertier__Duplex_A_20110907_georeferenced.ifc", "fzk": "webifc__AC20-FZK-Haus.ifc", "niedriha": "bimserver__AC90R1-niedriha-V2-2x3.ifc"}
 TEST = {"sample": "yousheng__Ifc4_SampleHouse.ifc", "xbim": "xbimess__House.ifc"}
@@ -46,7 +47,6 @@ PER_CLASS = 3000     # points to learn from, of each class in each building
 TESTED = 40000       # points of a cloud that are labelled
 MIXED = 1            # bit of a point's flags
 HERE = os.path.dirname(os.path.realpath(__file__))
-NUMBERS = {"double": "<f8", "float": "<f4", "uchar": "u1", "int": "<i4", "ushort": "<u2", "uint": "<u4", "short": "<i2", "char": "i1"}
 CLASSES = {
     "name": "Segmentation", "source": "bench/segmentation.py", "unknown": "object", "noise": "unlabelled", "ignore": ["unlabelled"],
     "classes": {"unlabelled": 0, "ceiling": 1, "floor": 2, "wall": 3, "beam": 4, "window": 5, "door": 6, "object": 7},
@@ -56,28 +56,6 @@ CLASSES = {
 }
 NAMES = {number: name for name, number in CLASSES["classes"].items()}
 COLOURS = np.array([[.8, .8, .8], [.62, .79, .88], [.65, .55, .40], [.93, .87, .70], [.55, .34, .65], [.20, .45, .80], [.85, .45, .15], [.30, .62, .30]])
-
-
-def run(*words, losing=False):
-    done = subprocess.run(words, capture_output=True, text=True)
-    if done.returncode != 0 and not (losing and done.returncode == 3):
-        sys.exit(f"{' '.join(words)}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
-    return done.stdout
-
-
-def read_ply(file):
-    """Points of one of our binary PLYs, and where their scanner stood."""
-    with open(file, "rb") as data:
-        kinds, at = [], np.zeros(3)
-        for line in iter(data.readline, b"end_header\n"):
-            words = line.decode().split()
-            if words[:3] == ["comment", "standpoint", "pose"]:
-                at = np.array(words[3:6], float)
-            elif words[:2] == ["element", "vertex"]:
-                count = int(words[2])
-            elif words[0] == "property":
-                kinds.append((words[2].replace("scalar_", ""), NUMBERS[words[1]]))
-        return np.fromfile(data, np.dtype(kinds), count), at
 
 
 def cells_of(xyz, size):
@@ -112,10 +90,10 @@ def cloud_of(folder, environment, effects, seed):
     parts = []
     for station in sorted(os.listdir(os.path.join(folder, "scans", environment))):
         name = f"focus_clear_assigned_none_{seed}_{effects}"
-        points, at = read_ply(os.path.join(folder, "scans", environment, station, name + ".ply"))
+        points, pose = read_ply(os.path.join(folder, "scans", environment, station, name + ".ply"))
         labels = np.load(os.path.join(folder, "labels", environment, station, name + ".segmentation.npy"))
         xyz = np.stack([points[k] for k in "xyz"], axis=1).astype(float)
-        parts.append((xyz, np.tile(at, (len(xyz), 1)), labels.astype(np.int64), (points["Flags"] & MIXED) > 0))
+        parts.append((xyz, np.tile(pose[:3], (len(xyz), 1)), labels.astype(np.int64), (points["Flags"] & MIXED) > 0))
     xyz, at, labels, mixed = (np.concatenate(columns) for columns in zip(*parts))
     order = np.random.default_rng(seed).permutation(len(xyz))
     keep = thinned(xyz, CELL_M, order[~mixed[order]] if effects in WITHOUT_MIXED else order)
@@ -223,8 +201,8 @@ def by_rules(xyz, seed):
 
 
 def places_of(file):
-    points, at = read_ply(file)
-    return np.stack([points[k] for k in "xyz"], axis=1) - at
+    points, pose = read_ply(file)
+    return np.stack([points[k] for k in "xyz"], axis=1) - pose[:3]
 
 
 def real_scans(standpoint, file):

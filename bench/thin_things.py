@@ -5,7 +5,6 @@
 usage: thin_things.py STANDPOINT OUTDIR      (writes the scene, scans it and leaves fence.png, rail.png and fog.png)
 """
 import os
-import subprocess
 import sys
 
 import numpy as np
@@ -13,6 +12,8 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+
+from own_points import read_ply, run  # noqa: E402
 
 FENCE_M, WALL_M, RAIL_M = 8.0, 12.0, 5.0  # from the station
 
@@ -53,33 +54,15 @@ def write_scene(folder):
             file.write(f"newmtl {name}\nKd {grey} {grey} {grey}\n")
 
 
-def run(standpoint, folder, *words):
-    done = subprocess.run([standpoint, *words], cwd=folder, capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(words)}\n{done.stderr}")
-    return done.stdout
-
-
 def scan(standpoint, folder, name, instrument, settings, *more):
     """Points of a scan from (0, 0, 1.6), with their flags, as columns of numbers."""
     file = os.path.join(folder, name)
     for old in (file + ".e57", file + ".ply"):
         if os.path.exists(old):
             os.remove(old)
-    run(standpoint, folder, "scan", "p", "--instrument", instrument, "--set", *settings, "--truth", "-o", name + ".e57", *more)
-    run(standpoint, folder, "convert", name + ".e57", name + ".ply")
-    with open(file + ".ply", "rb") as data:
-        head, types = b"", []
-        while not head.endswith(b"end_header\n"):
-            line = data.readline()
-            head += line
-            words = line.decode().split()
-            if words[:2] == ["element", "vertex"]:
-                count = int(words[2])
-            elif words[:1] == ["property"] and words[1] != "list":
-                types.append((words[2], {"double": "<f8", "float": "<f4", "uchar": "u1", "ushort": "<u2", "uint": "<u4",
-                                         "int": "<i4", "short": "<i2", "char": "i1"}[words[1]]))
-        return np.fromfile(data, np.dtype(types), count)
+    run(standpoint, "scan", "p", "--instrument", instrument, "--set", *settings, "--truth", "-o", name + ".e57", *more, folder=folder)
+    run(standpoint, "convert", name + ".e57", name + ".ply", folder=folder)
+    return read_ply(file + ".ply")[0]
 
 
 def draw_fence(standpoint, folder):
@@ -130,7 +113,7 @@ def draw_fog(standpoint, folder):
     for axis, fog in zip(axes, (None, 150, 70)):
         more = [] if fog is None else ["--weather", f"fog={fog}"]
         points = scan(standpoint, folder, f"fog-{fog}", "leica-rtc360", window, *more)
-        weather = (points["scalar_Flags"] & 8) != 0
+        weather = (points["Flags"] & 8) != 0
         axis.scatter(points["x"][~weather], points["z"][~weather], s=0.3, c="0.4", label="surfaces")
         axis.scatter(points["x"][weather], points["z"][weather], s=0.6, c="tab:blue", label="fog")
         farthest = points["x"][~weather].max() if np.any(~weather) else 0
@@ -148,9 +131,9 @@ def main():
     os.makedirs(folder, exist_ok=True)
     write_scene(folder)
     if not os.path.exists(os.path.join(folder, "p")):
-        run(standpoint, folder, "import", "thin.obj", "-o", "p", "--up", "z", "--allow-loss")
-        run(standpoint, folder, "station", "p", "--add", "S1", "--at", "0,0,1.6")
-        run(standpoint, folder, "materials", "p")
+        run(standpoint, "import", "thin.obj", "-o", "p", "--up", "z", "--allow-loss", folder=folder)
+        run(standpoint, "station", "p", "--add", "S1", "--at", "0,0,1.6", folder=folder)
+        run(standpoint, "materials", "p", folder=folder)
     draw_fence(standpoint, folder)
     draw_rail(standpoint, folder)
     draw_fog(standpoint, folder)

@@ -14,16 +14,16 @@ import json
 import math
 import os
 import shutil
-import subprocess
 import sys
 
 import numpy as np
+
+from own_points import read_ply, run
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 MODEL = os.path.join(HERE, "..", "scanners", "instruments", "leica-blk2go.json")
 RATE, HUB, TIP, CHORD, THICK, TWIST = 1.2, np.array([0, 0, 120.0]), 60.0, 2.0, 0.08, math.radians(4)
 METERS, RADII, SECONDS = np.array([-180.0, 0, 2]), (20, 30, 40, 50), 20.0
-NUMBERS = {"double": "<f8", "float": "<f4", "uchar": "u1", "int": "<i4"}
 
 
 def turned(points, angle):
@@ -89,26 +89,6 @@ def meter(name, rotation_hz, khz):
         json.dump(data, file, indent=1)
 
 
-def run(*words):
-    done = subprocess.run(words, capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(words)}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
-    return done.stdout
-
-
-def points_of(file):
-    """Columns of a binary PLY of ours."""
-    with open(file, "rb") as f:
-        kinds, count = [], 0
-        for line in iter(f.readline, b"end_header\n"):
-            words = line.decode().split()
-            if words[:2] == ["element", "vertex"]:
-                count = int(words[2])
-            elif words[0] == "property":
-                kinds.append((words[2], NUMBERS[words[1]]))
-        return np.frombuffer(f.read(), dtype=kinds, count=count)
-
-
 def scan(standpoint, name, instrument, axis, angle, seconds, *more):
     """From where the meters stand, turned about x or y, for the time of a measurement."""
     x, y = (math.sin(angle / 2) if axis == which else 0.0 for which in "xy")
@@ -117,12 +97,12 @@ def scan(standpoint, name, instrument, axis, angle, seconds, *more):
             file.write(f"{second} {METERS[0]} {METERS[1]} {METERS[2]} {x:.15f} {y:.15f} 0 {math.cos(angle / 2):.15f}\n")
     run(standpoint, "scan", "p", "--trajectory", name + ".tum", "--trajectory-error", "none", "--instrument", instrument,
         "-o", name + ".ply", "--truth", *more)
-    return points_of(name + ".ply")
+    return read_ply(name + ".ply")[0]
 
 
 def passes(points):
     """Each passage of a blade: its points in the blade's own frame, x depth, y chord, z radius."""
-    time = points["scalar_Time"]
+    time = points["Time"]
     order = np.argsort(time, kind="stable")
     for part in np.split(order, np.nonzero(np.diff(time[order]) > 0.2)[0] + 1):
         place = np.column_stack([points[axis][part] for axis in "xyz"]) - HUB
@@ -179,10 +159,10 @@ def main():
 
     print("2D: profiles of a mirror of 100 Hz")
     profiles = scan(standpoint, "mirror", "mirror.json", "x", math.pi / 2, 6.0, "--ideal")
-    turn = np.floor(profiles["scalar_Time"] * 100)
+    turn = np.floor(profiles["Time"] * 100)
     for radius in RADII:
-        at = (np.abs(profiles["z"] - HUB[2] - radius) < 0.3) & (np.abs(profiles["x"]) < 1) & (profiles["scalar_Time"] > 0.5)
-        count = len(np.unique(turn[at])) / max(1, len(np.unique(np.round(profiles["scalar_Time"][at] * RATE / (2 * math.pi / 3)))))
+        at = (np.abs(profiles["z"] - HUB[2] - radius) < 0.3) & (np.abs(profiles["x"]) < 1) & (profiles["Time"] > 0.5)
+        count = len(np.unique(turn[at])) / max(1, len(np.unique(np.round(profiles["Time"][at] * RATE / (2 * math.pi / 3)))))
         print(f"{radius:8} m: {count:.2f} lines on a blade, chord / (omega r / f) {CHORD / (RATE * radius / 100):.2f}")
     picture(found)
 

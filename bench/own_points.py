@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What scripts of this folder share: running the program, and the points that it writes."""
+import subprocess
+import sys
+
+import numpy as np
+
+NUMBERS = {"double": "<f8", "float": "<f4", "uchar": "u1", "ushort": "<u2", "uint": "<u4", "int": "<i4", "short": "<i2", "char": "i1"}
+
+
+def run(*words, losing=False, folder=None):
+    """What it prints; ends the script where it fails. `losing`: it may lose data."""
+    done = subprocess.run(words, cwd=folder, capture_output=True, text=True)
+    if done.returncode != 0 and not (losing and done.returncode == 3):
+        sys.exit(f"{' '.join(words)}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
+    return done.stdout
+
+
+def read_ply(file):
+    """Columns of one of our binary PLYs, without their "scalar_", and the scanner's pose: x y z, quaternion w x y z."""
+    with open(file, "rb") as data:
+        kinds, pose = [], np.array([0, 0, 0, 1, 0, 0, 0], float)
+        for line in iter(data.readline, b"end_header\n"):
+            words = line.decode().split()
+            if words[:3] == ["comment", "standpoint", "pose"]:
+                pose = np.array(words[3:10], float)
+            elif words[:2] == ["element", "vertex"]:
+                count = int(words[2])
+            elif words[0] == "property" and words[1] != "list":
+                kinds.append((words[2].replace("scalar_", ""), NUMBERS[words[1]]))
+        return np.fromfile(data, np.dtype(kinds), count), pose
