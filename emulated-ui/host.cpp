@@ -243,6 +243,11 @@ Result<void> DeviceHost::wayIsFree(const std::string& walk_to) const {
   return {};
 }
 
+Result<void> DeviceHost::hand(const std::string& id, const std::string& value) {
+  if (id == "walk_to") TRY(wayIsFree(value));
+  return device_.hand(id, value);
+}
+
 void DeviceHost::startWalk(const ScanOrder& order, const Document& document) {
   const WalkScanOptions options{file_, seed, truth};
   startTask(fmt::format("{}: {}", device_.type().definition.title, order.name),
@@ -353,8 +358,7 @@ void DeviceHost::start(const Order& order, const Document& document, const fs::p
   }
 }
 
-void DeviceHost::takeWalk(const ScanOrder& order, const CarriedTrajectory& trajectory, const WalkResult& result) {
-  const Scan& scan = trajectory.scans.back();
+StoredSetup DeviceHost::setupOf(const ScanOrder& order, const Scan& scan) const {
   StoredSetup s;
   s.project = order.project;
   s.number = order.number;
@@ -365,6 +369,12 @@ void DeviceHost::takeWalk(const ScanOrder& order, const CarriedTrajectory& traje
   s.bytes = static_cast<double>(s.points) * device_.type().definition.body.bytes_per_point;
   s.instrument_seconds = scan.instrument_seconds;
   s.notes = notes_;
+  return s;
+}
+
+void DeviceHost::takeWalk(const ScanOrder& order, const CarriedTrajectory& trajectory, const WalkResult& result) {
+  const Scan& scan = trajectory.scans.back();
+  StoredSetup s = setupOf(order, scan);
   s.walk = result;
   station_.clear();
   walked_ = trajectory;
@@ -373,17 +383,8 @@ void DeviceHost::takeWalk(const ScanOrder& order, const CarriedTrajectory& traje
 }
 
 void DeviceHost::takeScan(const ScanOrder& order, const Scan& scan, const Document& document) {
-  StoredSetup s;
-  s.project = order.project;
-  s.number = order.number;
-  s.name = order.name;
+  StoredSetup s = setupOf(order, scan);
   s.station = order.station;
-  s.settings = order.settings;
-  s.file = file_.string();
-  s.points = scan.points;
-  s.bytes = static_cast<double>(s.points) * device_.type().definition.body.bytes_per_point;
-  s.instrument_seconds = scan.instrument_seconds;
-  s.notes = notes_;
   if (const auto* station = stationOf(document, order.station)) {
     putOnPlan(s, station->true_pose);
     if (order.orientation && !order.orientation->local) s.placed = errorOf(order.orientation->pose, station->true_pose);

@@ -54,8 +54,8 @@ class DeviceHost {
   std::optional<Outcome> update(const Document& document, const std::filesystem::path& scans_folder, double seconds,
                                 bool may_store = true);
 
-  // Whether whoever carries the scanner can go there from where the way ends so far: "4.5,3,0.8".
-  Result<void> wayIsFree(const std::string& walk_to) const;
+  // As Device::hand; nobody who carries a scanner walks through a wall.
+  Result<void> hand(const std::string& id, const std::string& value = {});
 
   // What a task has computed, on its way to the device: called in the thread that owns the host.
   using Delivery = std::function<void(DeviceHost&, const Document&)>;
@@ -74,6 +74,8 @@ class DeviceHost {
   void start(const Order& order, const Document& document, const std::filesystem::path& scans_folder);
   void startScan(const ScanOrder& order, const Document& document, const std::filesystem::path& scans_folder);
   void startWalk(const ScanOrder& order, const Document& document);
+  Result<void> wayIsFree(const std::string& walk_to) const;  // from where the way ends so far, to "4.5,3,0.8"
+  StoredSetup setupOf(const ScanOrder& order, const Scan& scan) const;
   Document leaning(Document document, const std::string& station) const;
   Result<Pose> believedBy(const StationOrientation& orientation, const Station& station, bool compensator,
                           const Document& document) const;

@@ -107,7 +107,7 @@ void act(InstrumentDesk& desk, const RehearsalAction& action) {
   else if (action.kind == Kind::press)
     done = desk.shown()->act(action.name, action.value, action.by);
   else if (action.kind == Kind::hand)
-    done = desk.shown()->hand(action.name, action.value);
+    done = desk.host->hand(action.name, action.value);
   else if (action.kind == Kind::wait)
     desk.shown()->tick(action.seconds);
   desk.said = done ? desk.shown()->state().moved_along : trSentence(done.error().message);

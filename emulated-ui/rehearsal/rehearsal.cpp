@@ -206,8 +206,7 @@ Result<void> Rehearsal::apply(const RehearsalAction& action, Progress& progress)
             ErrorKind::usage,
             fmt::format("unknown station '{}'; {}", action.value, knownInstead(action.value, stationNames(document_))),
             action.name);
-      if (action.name == "walk_to") TRY(host_->wayIsFree(action.value));
-      return device().hand(action.name, action.value);
+      return host_->hand(action.name, action.value);
     case Kind::wait: return passVirtually(action.seconds, progress);
     case Kind::finish: return finish(progress);
     case Kind::verb: return runFieldVerb(action, progress);
@@ -250,8 +249,7 @@ Result<void> Rehearsal::goAlong(const WalkedWay& way) {
     const auto pace = i == 0 ? std::string() : fmt::format(",{:.3f}", length / (way[i][2] - way[i - 1][2]));
     if (i > 0 && length < 1e-6) continue;
     const auto value = fmt::format("{},{}{}", exactText(way[i][0]), exactText(way[i][1]), pace);
-    TRY(host_->wayIsFree(value));
-    TRY(device().hand("walk_to", value));
+    TRY(host_->hand("walk_to", value));
   }
   return {};
 }
