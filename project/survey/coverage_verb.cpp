@@ -70,6 +70,7 @@ struct Path {
   CarriedMotion carried;
   Instrument instrument;
   ScanSettings settings;
+  MotionSolving solving;  // how it will be known
   Sights sights;
 };
 
@@ -146,16 +147,8 @@ CoverageTrajectory rowOf(const Path& path, const SurfaceSamples& samples) {
 
 // How well it will be known, all seeds together.
 Result<void> expectError(CoverageTrajectory& row, const Path& path, const RayScene& scene, const Document& document,
-                         const CoverageOptions& options, Progress& progress) {
-  TRY_ASSIGN(auto control, controlOf(options.control, *document.georeference));
-  TRY_ASSIGN(const auto expected,
-             expectedMotion(path.carried, scene, document.job->stations,
-                            {.profile = errorProfile(options.trajectory_error, path.instrument.moving->mount),
-                             .closures = options.closures == Switch::on,
-                             .anchors = options.anchors == Switch::on,
-                             .control = std::move(control),
-                             .max_range_m = path.settings.max_range_m},
-                            progress));
+                         Progress& progress) {
+  TRY_ASSIGN(const auto expected, expectedMotion(path.carried, scene, document.job->stations, path.solving, progress));
   std::vector<double> times;
   for (const auto& sample : pathSamples(path.carried, 2000))
     times.push_back(path.carried.path->first_s() + sample.after_s);
@@ -373,8 +366,12 @@ Result<Answered<CoverageAnswer>> runCoverage(const Document& document, const Cov
   const CoveredWhen wanted{options.density_per_m2, options.max_incidence_deg * kRadPerDeg, options.pass_gap_s};
   TRY_ASSIGN(const auto trajectories, trajectoriesFrom(*document.job, options.trajectories));
   std::vector<Path> paths;
+  TRY_ASSIGN(const auto solving, motionSolving(options, nullptr, *document.georeference, 0));
   for (const auto* trajectory : trajectories) {
     TRY_ASSIGN(auto path, pathOf(document, *trajectory, options, report, progress));
+    path.solving = solving;
+    path.solving.profile = errorProfile(options.trajectory_error, path.instrument.moving->mount);
+    path.solving.max_range_m = path.settings.max_range_m;
     paths.push_back(std::move(path));
   }
   noteDefaultRules(document, report);
@@ -404,7 +401,7 @@ Result<Answered<CoverageAnswer>> runCoverage(const Document& document, const Cov
       TRY_ASSIGN(path.sights, measuredSights(document, *scene, path, samples, wanted, report, progress));
     }
     answer.trajectories.push_back(rowOf(path, samples));
-    TRY(expectError(answer.trajectories.back(), path, *scene, document, options, progress));
+    TRY(expectError(answer.trajectories.back(), path, *scene, document, progress));
   }
   std::vector<const Sights*> each;
   for (const auto& path : paths) each.push_back(&path.sights);

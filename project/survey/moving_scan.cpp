@@ -129,6 +129,14 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
   TRY_ASSIGN(const auto trajectory, trajectoryNamed(*document.job, options.trajectory));
   TRY_ASSIGN(const auto mounting, mountingFrom(options.mounting, "--mounting"));
   TRY_ASSIGN(const auto believed, mountingFrom(options.mounting_error, "--mounting-error"));
+  const ErrorProfile* const profile =
+      request.options.effects == Effects::none() && options.trajectory_error == TrajectoryError::of_instrument
+          ? nullptr
+          : errorProfile(options.trajectory_error, request.instrument.moving->mount);
+  TRY_ASSIGN(auto solving, motionSolving(options, profile, *document.georeference, request.settings.max_range_m));
+  solving.seed = request.options.seed;
+  if (company.carried)
+    solving.control.insert(solving.control.end(), company.carried->control.begin(), company.carried->control.end());
   Answered<ScanAnswer> outcome{document};
   Report& report = outcome.report;
   noteDefaultRules(document, report);
@@ -145,21 +153,9 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
   }
   const RayScene& scene = *at_hand.preparation->scene;
   findObstacles(carried, scene, *document.georeference, trajectory.name, report);
-  const ErrorProfile* const profile =
-      request.options.effects == Effects::none() && options.trajectory_error == TrajectoryError::of_instrument
-          ? nullptr
-          : errorProfile(options.trajectory_error, request.instrument.moving->mount);
   progress.stage("Solve " + trajectory.name, 0.1, 0.15);
-  TRY_ASSIGN(auto control, controlOf(options.control, *document.georeference));
-  if (company.carried) control.insert(control.end(), company.carried->control.begin(), company.carried->control.end());
-  TRY_ASSIGN(const auto solved, solveMotion(carried, scene, document.job->stations, trajectory.name,
-                                            {.profile = profile,
-                                             .closures = options.closures == Switch::on,
-                                             .anchors = options.anchors == Switch::on,
-                                             .control = std::move(control),
-                                             .seed = request.options.seed,
-                                             .max_range_m = request.settings.max_range_m},
-                                            progress));
+  TRY_ASSIGN(const auto solved,
+             solveMotion(carried, scene, document.job->stations, trajectory.name, solving, progress));
   if (company.carried && company.carried->solved) company.carried->solved(carried, solved);
   const PoseFunction& known = solved.pose ? *solved.pose : *carried.truth;
   request.notes.push_back(motionText(trajectory, carried, solved, profile));

@@ -114,16 +114,11 @@ Result<SolvedMotion> solvedFor(const Document& document, const CarriedTrajectory
   if (!instrument.moving)
     return failure(ErrorKind::usage, "this instrument stands on a tripod, and has no trajectory", "--solved-for");
   TRY_ASSIGN(const auto settings, resolveMovingSettings(instrument, {}));
-  TRY_ASSIGN(auto control, controlOf(options.control, *document.georeference));
+  const auto* const profile = errorProfile(options.trajectory_error, instrument.moving->mount);
+  TRY_ASSIGN(auto solving, motionSolving(options, profile, *document.georeference, settings.max_range_m));
+  solving.seed = options.error_seed;
   TRY_ASSIGN(const auto scene, RayScene::build(document.environment(), progress));
-  TRY_ASSIGN(auto solved, solveMotion(carried, *scene, document.job->stations, trajectory.name,
-                                      {.profile = errorProfile(options.trajectory_error, instrument.moving->mount),
-                                       .closures = options.closures == Switch::on,
-                                       .anchors = options.anchors == Switch::on,
-                                       .control = std::move(control),
-                                       .seed = options.error_seed,
-                                       .max_range_m = settings.max_range_m},
-                                      progress));
+  TRY_ASSIGN(auto solved, solveMotion(carried, *scene, document.job->stations, trajectory.name, solving, progress));
   if (solved.pose) reportSolved(solved, trajectory.name, report);
   return solved;
 }
