@@ -205,9 +205,10 @@ void dropWaypoint(Model& model) {
 
 namespace {
 
-// As the next scan along a trajectory would find it.
+// As the next scan along a trajectory would find it; exactly where nobody looks at errors, which take rays.
 WayKnowledge knowledgeOf(const Model& model) {
   WayKnowledge known;
+  if (!model.trajectory_ways.expectsErrors()) return known;
   const CarriedScan& scan = model.carried_scan;
   const Instrument* const instrument = model.instrument(scan.choice.instrument);
   if (instrument == nullptr || !instrument->moving) return known;

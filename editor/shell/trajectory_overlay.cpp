@@ -264,6 +264,7 @@ void drawTrajectories(Editor& editor, const ViewState& state, ImVec2 origin, Lab
   const ViewPen pen(editor, origin);
   const auto dragged = draggedTrajectory(editor);
   const RibbonColour colours = editor.panels.of<RibbonChoice>().by;
+  editor.trajectory_ways.expectErrors(colours == RibbonColour::error);
   for (std::size_t i = 0; i < job->trajectories.size(); ++i) {
     const bool chosen = editor.survey.trajectory == static_cast<int>(i);
     if (chosen && dragged) {

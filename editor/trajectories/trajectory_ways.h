@@ -55,6 +55,9 @@ class TrajectoryWays {
 
   // Once a frame. `scene` is that of the document's model; null: it is being built, and the ways wait for it.
   void follow(const Document& document, const std::shared_ptr<const RayScene>& scene, const WayKnowledge& knowledge);
+  // Whether errors are shown: without, no way has them. From the next follow() on.
+  void expectErrors(bool shown) { expects_errors_ = shown; }
+  bool expectsErrors() const { return expects_errors_; }
   // By the index into the job; null while it is worked out.
   const TrajectoryWay* of(std::size_t trajectory) const;
 
@@ -77,6 +80,7 @@ class TrajectoryWays {
   std::shared_ptr<const Georeference> georeference_;
   std::shared_ptr<const RayScene> scene_;
   WayKnowledge knowledge_;
+  bool expects_errors_ = false;
   std::chrono::steady_clock::time_point looked_;  // at the files
   std::vector<WayWish> wishes_;
   Known known_;
