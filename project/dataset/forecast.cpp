@@ -78,7 +78,8 @@ class SetForecaster {
                      SetEnvironmentForecast& row, Progress& progress) {
     TRY_ASSIGN(const auto instrument, instrumentNamed(setting.instrument));
     TRY_ASSIGN(const auto settings, resolveSettings(instrument, setting.settings));
-    const auto assignment = std::make_shared<const MaterialAssignment>(document.materials->result.assignment);
+    const std::shared_ptr<const MaterialAssignment> assignment(document.materials,
+                                                               &document.materials->result.assignment);
     const Expectation expectation(opened.scene, assignment, ReturnLaw(instrument, settings));
     const auto arrays = static_cast<double>(recipe_.classes.size());
     const double label = kBytesOfId * arrays + kBytesOfInstance, head = kBytesOfArrayHead * (arrays + 1);
