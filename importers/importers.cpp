@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "importers/citygml/citygml.h"
 #include "importers/cityjson/cityjson.h"
 #include "importers/gltf/gltf.h"
 #include "importers/obj/obj.h"
@@ -56,6 +57,8 @@ const Importer* byContent(const std::string& head) {
     if (head.starts_with(magic.bytes)) return named(magic.importer);
   for (const Magic& word : kWordsOfJson)
     if (head.starts_with('{') && head.find(word.bytes) != std::string::npos) return named(word.importer);
+  // XML is told by the namespace of its objects.
+  if (head.starts_with('<') && head.find("citygml") != std::string::npos) return named("citygml");
   return nullptr;
 }
 
@@ -78,7 +81,7 @@ const Importer* byExtension(const std::filesystem::path& file) {
 
 std::span<const Importer> importers() {
   static const std::array kImporters{
-      kIfcImporter, kGltfImporter, kCityJsonImporter, kObjImporter, kPlyImporter, kStlImporter,
+      kIfcImporter, kGltfImporter, kCityJsonImporter, kCityGmlImporter, kObjImporter, kPlyImporter, kStlImporter,
   };
   return kImporters;
 }
@@ -93,7 +96,8 @@ Result<ImportedModel> importFile(const std::filesystem::path& file, const Import
   if (!importer && head.starts_with('{')) importer = named("gltf");
   if (!importer && hasSizeOfStl(file)) importer = &kStlImporter;
   if (!importer)
-    return failure(ErrorKind::unusable, "unsupported format; use IFC, glTF, CityJSON, OBJ, PLY or STL", file.string());
+    return failure(ErrorKind::unusable, "unsupported format; use IFC, glTF, CityJSON, CityGML, OBJ, PLY or STL",
+                   file.string());
   auto model = importer->read(file, options, progress);
   if (!model) return model;
   const double stated = model->metres_per_unit > 0 ? model->metres_per_unit : 1;

@@ -78,7 +78,8 @@ void drawBegin(Editor& editor) {
   startButton(editor, "first-steps", ICON_FLAG, "First steps (3 minutes)", false);
   startButton(editor, "workspace-instrument", ICON_TABLET, "Rehearse on a device", false);
   ui::gap(editor, 6);
-  ui::dimWrapped("Or drop a file here: IFC, glTF, CityJSON, OBJ, PLY, STL, a point cloud, or a project folder.");
+  ui::dimWrapped(
+      "Or drop a file here: IFC, glTF, CityJSON, CityGML, OBJ, PLY, STL, a point cloud, or a project folder.");
 }
 
 void drawRecent(Editor& editor) {

@@ -53,8 +53,14 @@ std::uint32_t CityModel::withImage(std::uint32_t plain, std::int32_t image) {
   return known->second = surface(std::move(painted));
 }
 
-void CityModel::beginPolygon(Levelled of, std::uint32_t surface) {
+std::size_t CityModel::beginPolygon(Levelled of, std::uint32_t surface) {
   polygons_.push_back({ring_begins_.size(), of.thing, surface, of.level});
+  return polygons_.size() - 1;
+}
+
+void CityModel::give(std::size_t polygon, std::uint32_t thing, std::uint32_t surface) {
+  polygons_[polygon].thing = thing;
+  polygons_[polygon].surface = surface;
 }
 
 void CityModel::texture(const Eigen::Vector2f& upper_left) {
@@ -262,6 +268,16 @@ FaceSoup CityModel::soupOf(const std::vector<bool>& chosen, const Tree& tree, st
   return soup;
 }
 
+// What has neither surfaces nor parts that have some is in no list of products.
+void CityModel::tellEmpty(const Tree& tree, Report& report) const {
+  std::size_t empty = 0, first = 0;
+  for (std::size_t i = 0; i < things_.size(); ++i) {
+    const bool kept = tree.product_of[i] != kNone || cityClassOf(things_[i].type).place;
+    if (!kept && !things_[i].thematic && things_[i].type != "CityObjectGroup" && empty++ == 0) first = i;
+  }
+  if (empty > 0) report.note(things_[first].id, "city objects without surfaces left out: " + std::to_string(empty));
+}
+
 Result<ImportedModel> CityModel::finish(const ImportOptions& options, Report&& report, Progress& progress) && {
   constexpr std::size_t kMostCorners = 0xFFFFFFFFU;
   if (corners_.size() >= kMostCorners || positions.size() >= kMostCorners)
@@ -269,6 +285,7 @@ Result<ImportedModel> CityModel::finish(const ImportOptions& options, Report&& r
   cutCircles(report);
   const auto chosen = chosenPolygons(report);
   auto tree = treeOf(chosen);
+  tellEmpty(tree, report);
   std::vector<std::uint32_t> thing_of_face;
   FaceSoup soup = soupOf(chosen, tree, thing_of_face, report);
   Bounds box;

@@ -28,7 +28,7 @@ struct CityThing {
   std::vector<std::string> groups;
 };
 
-// What CityJSON comes down to: things in a tree, and their polygons with holes in one or more levels of
+// What CityJSON and CityGML come down to: things in a tree, and their polygons with holes in one or more levels of
 // detail.
 class CityModel {
  public:
@@ -48,7 +48,9 @@ class CityModel {
     std::uint32_t thing = 0;
     std::int16_t level = 0;  // ten times the level of detail: 22 for LoD 2.2
   };
-  void beginPolygon(Levelled of, std::uint32_t surface);
+  std::size_t beginPolygon(Levelled of, std::uint32_t surface);  // answers its number
+  std::uint32_t thingOf(std::size_t polygon) const { return polygons_[polygon].thing; }
+  void give(std::size_t polygon, std::uint32_t thing, std::uint32_t surface);
   void beginRing() { ring_begins_.push_back(corners_.size()); }
   void corner(std::uint32_t position) { corners_.push_back(position); }
   void texture(const Eigen::Vector2f& upper_left);  // of the corner before; all or none of a polygon
@@ -77,6 +79,7 @@ class CityModel {
   FaceSoup soupOf(const std::vector<bool>& chosen, const Tree& tree, std::vector<std::uint32_t>& thing_of_face,
                   Report& report) const;
   Tree treeOf(const std::vector<bool>& chosen) const;
+  void tellEmpty(const Tree& tree, Report& report) const;
 
   std::string file_;  // for errors
   std::string name_;  // of the site
