@@ -78,7 +78,7 @@ class CityJsonImport {
     if (geometry_.error()) return failure(*geometry_.error());
     first_document_ = false;
     TRY(readCityObjects(text, file_, line,
-                        [&](std::string id, const Json& object) { return cityObject(std::move(id), object); }));
+                        [&](const std::string& id, const Json& object) { return cityObject(id, object); }));
     linkObjects();
     return {};
   }
@@ -130,7 +130,7 @@ class CityJsonImport {
     model_.frame = {crsOfCityName(system), "/metadata/referenceSystem"};
   }
 
-  Result<void> cityObject(std::string id, const Json& object) {
+  Result<void> cityObject(const std::string& id, const Json& object) {
     TRY(progress_.check());
     const std::string place = (JsonPlace{"", "/CityObjects"} / id).pointer;
     CityThing thing;
