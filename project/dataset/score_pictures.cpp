@@ -23,7 +23,7 @@ namespace standpoint {
 namespace {
 
 constexpr std::size_t kScenes = 4, kConfusions = 6, kInstances = 4;  // that are shown at most
-constexpr double kWidth = 720;                                       // of the pictures, in their own units
+constexpr double kPictureWidth = 720;                                // of the pictures, in their own units
 constexpr std::array kViews = {ViewFrom::above, ViewFrom::south, ViewFrom::east};
 
 // Okabe and Ito's colours, which people with any colour vision tell apart, without the yellow, which paper hides. The
@@ -117,7 +117,7 @@ std::string viewTitle(ViewFrom from) {
 }
 
 std::string drawing(double height, const std::string& content) {
-  return fmt::format("<svg class=\"e\" viewBox=\"0 0 {:.0f} {:.0f}\">\n{}</svg>\n", kWidth, height, content);
+  return fmt::format("<svg class=\"e\" viewBox=\"0 0 {:.0f} {:.0f}\">\n{}</svg>\n", kPictureWidth, height, content);
 }
 
 // A mark of a place that is shown closer, readable on any colour.
@@ -135,7 +135,7 @@ std::string legendOf(const std::vector<std::pair<Rgb, std::string>>& entries) {
   std::string content;
   double x = 0, y = 4;
   for (const auto& [colour, name] : entries) {
-    if (x + kEntry > kWidth) x = 0, y += kLine;
+    if (x + kEntry > kPictureWidth) x = 0, y += kLine;
     content += fmt::format("<rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"12\" height=\"12\" fill=\"{}\"/>\n", x + 4, y,
                            hexOf(colour));
     content += textAt(x + 22, y + 10, 12, "start", name);
@@ -448,7 +448,7 @@ class ErrorPictures {
     constexpr double kLeft = 60, kTop = 22, kBelow = 44, kTallest = 640;
     const Eigen::Vector3d size = views.front().box().max - views.front().box().min;
     const double units_per_m =
-        std::min((kWidth - kLeft - 10) / std::max(size.x(), size.y()), kTallest / std::max(size.y(), size.z()));
+        std::min((kPictureWidth - kLeft - 10) / std::max(size.x(), size.y()), kTallest / std::max(size.y(), size.z()));
     std::string text = scenes_[scene].name.empty() ? "" : "<h3>" + htmlText(scenes_[scene].name) + "</h3>\n";
     const double bar = scaleBar(size.maxCoeff());
     for (const auto& view : views) {
