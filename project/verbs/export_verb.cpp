@@ -174,9 +174,8 @@ Result<void> exportPhysical(const Document& document, Environment& scene, const 
 }
 
 // Rooms are in it, too: their class says that nobody walks into them.
-Result<void> exportIfc(const Document& document, const fs::path& file, Answered<ExportAnswer>& outcome,
-                       Progress& progress) {
-  Environment all = *document.environment();
+Result<void> exportIfc(const Document& document, Environment& all, const fs::path& file,
+                       Answered<ExportAnswer>& outcome, Progress& progress) {
   const std::array environments = {&all};
   const auto physical = physicalSurfaces(document, environments, LooksOfSplit::kept);
   TRY_ASSIGN(const auto summary, writeIfc(all, physical, *document.georeference, file,
@@ -256,14 +255,14 @@ Result<Answered<ExportAnswer>> runExport(const Document& document, const ExportO
     return failure(ErrorKind::usage, "levels of detail and collision shapes can be exported to .glb or .gltf only",
                    "--output");
   TRY(checkFolderOf(file, "--output"));
-  Environment scene = sceneOf(*document.environment());
+  Environment scene = ifc ? *document.environment() : sceneOf(*document.environment());
   dropUnusedMeshes(scene);
   Answered<ExportAnswer> outcome{document, {file, triangleCount(scene), {}, {}, {}}};
-  TRY(ifc                  ? exportIfc(document, file, outcome, progress)
+  TRY(ifc                  ? exportIfc(document, scene, file, outcome, progress)
       : gltf               ? exportGltf(document, scene, file, options, outcome, progress)
       : helios || physical ? exportPhysical(document, scene, file, helios, outcome.report, progress)
                            : writeEnvironmentObj(scene, *document.georeference, file, progress));
-  if (const auto left_out = document.environment()->instances.size() - scene.instances.size(); left_out > 0 && !ifc)
+  if (const auto left_out = document.environment()->instances.size() - scene.instances.size(); left_out > 0)
     outcome.report.note(
         "spaces", fmt::format("{} bodies outside the scene (spaces, excluded products) were not exported", left_out));
   outcome.description = "Exported " + file.filename().string();

@@ -26,14 +26,6 @@ std::string labelled(const std::string& value) {
   return typed(value.size() <= kLongestLabel ? "IFCLABEL" : "IFCTEXT", stepText(value));
 }
 
-// A number with the decimal point that a real has to have.
-std::string realText(std::string number) {
-  const auto e = number.find_first_of("eE");
-  if (number.find('.') == std::string::npos) number.insert(e == std::string::npos ? number.size() : e, ".");
-  if (const auto at = number.find('e'); at != std::string::npos) number[at] = 'E';
-  return number;
-}
-
 bool isWhole(const std::string& number) { return number.find_first_of(".eE") == std::string::npos; }
 
 // "(12,30,0)" of "12, 30, 0"; empty where one is no number.
@@ -43,7 +35,7 @@ std::string listText(std::string_view value, bool whole) {
     const auto end = value.find(", ");
     const std::string number = quantityOf(value.substr(0, end)).number;
     if (number.empty()) return {};
-    list += (list.size() > 1 ? "," : "") + (whole ? number : realText(number));
+    list += (list.size() > 1 ? "," : "") + (whole ? number : stepReal(number));
     value = end == std::string_view::npos ? std::string_view() : value.substr(end + 2);
   }
   return list + ')';
@@ -53,8 +45,8 @@ std::string numberText(std::string_view keyword, const std::string& number) {
   constexpr std::array<std::string_view, 3> kWhole{"IFCINTEGER", "IFCPOSITIVEINTEGER", "IFCTIMESTAMP"};
   constexpr std::array<std::string_view, 4> kAny{"IFCCOUNTMEASURE", "IFCNUMERICMEASURE", "IFCQUANTITYCOUNT",
                                                  "IFCQUANTITYNUMBER"};
-  if (isOneOf(keyword, kWhole)) return isWhole(number) ? typed(keyword, number) : typed("IFCREAL", realText(number));
-  return typed(keyword, isOneOf(keyword, kAny) && isWhole(number) ? number : realText(number));
+  if (isOneOf(keyword, kWhole)) return isWhole(number) ? typed(keyword, number) : typed("IFCREAL", stepReal(number));
+  return typed(keyword, isOneOf(keyword, kAny) && isWhole(number) ? number : stepReal(number));
 }
 
 bool isQuantity(const Property& p) { return keywordOf(p.type).starts_with("IFCQUANTITY") && !p.value.empty(); }

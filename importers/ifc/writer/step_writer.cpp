@@ -40,10 +40,7 @@ std::string realText(T number) {
   if (!std::isfinite(number)) return "0.";
   std::array<char, 32> buffer;
   std::string text(buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), number).ptr);
-  const auto e = text.find('e');
-  if (text.find('.') == std::string::npos) text.insert(e == std::string::npos ? text.size() : e, ".");
-  if (e != std::string::npos) text[text.find('e')] = 'E';
-  return text;
+  return stepReal(std::move(text));
 }
 
 }  // namespace
@@ -68,6 +65,13 @@ std::string stepText(std::string_view utf8) {
   }
   if (digits > 0) text += "\\X0\\";
   return text + '\'';
+}
+
+std::string stepReal(std::string number) {
+  const auto e = number.find_first_of("eE");
+  if (number.find('.') == std::string::npos) number.insert(e == std::string::npos ? number.size() : e, ".");
+  if (const auto at = number.find('e'); at != std::string::npos) number[at] = 'E';
+  return number;
 }
 
 std::string stepReal(double number) { return realText(number); }

@@ -29,6 +29,7 @@ std::string stepText(std::string_view utf8);
 // number is not finite.
 std::string stepReal(double number);
 std::string stepReal(float number);
+std::string stepReal(std::string number);  // that is written already, "2" or "1e-5"
 
 // One record: its keyword and arguments, in their order.
 class StepRecord {
