@@ -2,7 +2,6 @@
 #include "project/survey/coverage_verb.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
@@ -17,6 +16,7 @@
 #include "project/survey/error_profile.h"
 #include "project/survey/scan_request.h"
 #include "survey/instruments.h"
+#include "survey/movers/moving_world.h"
 #include "survey/scanning/scan_world.h"
 #include "survey/stations/surface_holes.h"
 #include "survey/trajectories/carried_motion.h"
@@ -29,18 +29,15 @@ namespace {
 namespace fs = std::filesystem;
 using Sights = std::vector<SampleSight>;
 
-constexpr std::size_t kMostProducts = 30, kMostPatches = 60;
+constexpr std::size_t kMostProducts = 30;
 constexpr double kDisc_m = 0.08;  // on which points of a scan are counted
-constexpr std::array kReasons = {"covered",      "sparse",   "grazing",    "out of view",
-                                 "out of range", "occluded", "unreachable"};
-
-const char* nameOf(Blindness blind) { return kReasons[static_cast<std::size_t>(blind)]; }
 
 void add(CoverageShare& share, const SampleSight& sight, double each_m2) {
   share.exposed_m2 += each_m2;
   if (sight.passes > 1) share.twice_m2 += each_m2;
   switch (sight.blind) {
     case Blindness::covered: share.covered_m2 += each_m2; break;
+    case Blindness::passed_by: share.passed_by_m2 += each_m2; break;
     case Blindness::sparse: share.sparse_m2 += each_m2; break;
     case Blindness::grazing: share.grazing_m2 += each_m2; break;
     case Blindness::out_of_view: share.out_of_view_m2 += each_m2; break;
@@ -202,14 +199,15 @@ void addParts(CoverageAnswer& answer, const Sights& sights, const SurfaceSamples
 // Each reason's own, as what is blind for one reason is often beside what is blind for another.
 void addPatches(CoverageAnswer& answer, const Sights& sights, const SurfaceSamples& samples,
                 const Environment& environment, const Eigen::Vector3d& shift_m) {
-  for (auto reason = static_cast<int>(Blindness::sparse); reason <= static_cast<int>(Blindness::unreachable);
-       ++reason) {
+  for (std::size_t reason = 1; reason < kBlindnesses; ++reason) {
     std::vector<double> spacing(sights.size(), 1);
     for (std::size_t k = 0; k < sights.size(); ++k)
-      if (sights[k].blind == static_cast<Blindness>(reason)) spacing[k] = 0;
-    for (const auto& hole : surfaceHoles(samples, spacing, kMostPatches))
-      answer.blind.push_back({identityOf(environment.products[hole.product]), nameOf(static_cast<Blindness>(reason)),
-                              hole.area_m2, hole.at + shift_m});
+      if (static_cast<std::size_t>(sights[k].blind) == reason) spacing[k] = 0;
+    for (PlanPatch& patch : patchesOf(surfaceHoles(samples, spacing, kMostPatches), environment, shift_m)) {
+      patch.spacing_m.reset();
+      patch.reason = nameOf(static_cast<Blindness>(reason));
+      answer.blind.push_back(std::move(patch));
+    }
   }
   std::stable_sort(answer.blind.begin(), answer.blind.end(),
                    [](const auto& a, const auto& b) { return a.area_m2 > b.area_m2; });
@@ -218,15 +216,16 @@ void addPatches(CoverageAnswer& answer, const Sights& sights, const SurfaceSampl
 
 std::string line(const std::string& name, const CoverageShare& s) {
   const auto of = [&](double part) { return s.exposed_m2 > 0 ? 100 * part / s.exposed_m2 : 0; };
-  return fmt::format("{:24} {:8.1f} {:7.1f} {:7.1f} {:7.1f} {:8.1f} {:8.1f} {:8.1f} {:9.1f} {:11.1f}\n", name,
-                     s.exposed_m2, of(s.covered_m2), of(s.twice_m2), of(s.sparse_m2), of(s.grazing_m2),
-                     of(s.out_of_view_m2), of(s.out_of_range_m2), of(s.occluded_m2), of(s.unreachable_m2));
+  return fmt::format("{:24} {:8.1f} {:7.1f} {:7.1f} {:7.1f} {:7.1f} {:8.1f} {:8.1f} {:8.1f} {:9.1f} {:11.1f}\n", name,
+                     s.exposed_m2, of(s.covered_m2), of(s.twice_m2), of(s.passed_by_m2), of(s.sparse_m2),
+                     of(s.grazing_m2), of(s.out_of_view_m2), of(s.out_of_range_m2), of(s.occluded_m2),
+                     of(s.unreachable_m2));
 }
 
 std::string textOf(const CoverageAnswer& answer) {
-  std::string text = fmt::format("{:24} {:>8} {:>7} {:>7} {:>7} {:>8} {:>8} {:>8} {:>9} {:>11}\n",
+  std::string text = fmt::format("{:24} {:>8} {:>7} {:>7} {:>7} {:>7} {:>8} {:>8} {:>8} {:>9} {:>11}\n",
                                  answer.measured ? "measured, % of m2" : "predicted, % of m2", "m2", "covered", "twice",
-                                 "sparse", "grazing", "no view", "range", "occluded", "unreachable");
+                                 "mover", "sparse", "grazing", "no view", "range", "occluded", "unreachable");
   for (const auto& row : answer.trajectories) text += line(row.trajectory, row);
   if (answer.trajectories.size() > 1) text += line("together", answer);
   for (const auto& row : answer.storeys) text += line("storey " + (row.storey.empty() ? "(none)" : row.storey), row);
@@ -240,10 +239,19 @@ std::string textOf(const CoverageAnswer& answer) {
         row.closures, 1e3 * row.expected_rms_m, 1e3 * row.expected_most_m, row.alone_m2, row.alone_m2_per_minute);
   for (std::size_t k = 0; k < std::min<std::size_t>(10, answer.blind.size()); ++k) {
     const auto& patch = answer.blind[k];
-    text += fmt::format("blind, {}: {:.2f} m2 of {} {} {} at {:.2f},{:.2f},{:.2f}\n", patch.reason, patch.area_m2,
+    text += fmt::format("blind, {}: {:.2f} m2 of {} {} {} at {:.2f},{:.2f},{:.2f}\n", *patch.reason, patch.area_m2,
                         patch.ifc_class, patch.id, patch.name, patch.at.x(), patch.at.y(), patch.at.z());
   }
   return text;
+}
+
+// What moves meanwhile; null where nothing does.
+Result<std::unique_ptr<const PassingBodies>> passingOf(const Document& document, const CoverageOptions& options,
+                                                       ScanWorld world, Progress& progress) {
+  if (options.movers == Switch::off || document.job->movers.empty()) return nullptr;
+  TRY(addMovers(document.job->movers, world));
+  TRY_ASSIGN(auto scene, RayScene::build(world.environment, progress, world.balls, {}, world.bodies));
+  return std::make_unique<const PassingBodies>(std::move(scene), options.movers_from_s);
 }
 
 double eyeHeight_m(const CarriedTrajectory& trajectory) {
@@ -268,6 +276,11 @@ const Fields<CoverageOptions>& coverageFields() {
       {"closures", &O::closures, "off: places that the trajectory comes back to are not recognised"},
       {"anchors", &O::anchors, "on: scanned stations within 3 m of the trajectory hold it"},
       {"control", &O::control, "text file of control points that hold it where it stops: name X Y Z [sigma in mm]"},
+      {"movers", &O::movers, "off: nothing moves, and nobody stands in the way"},
+      {"movers-from",
+       &O::movers_from_s,
+       "time of the movers' clock when the trajectory begins",
+       {.unit = "s", .minimum = -1e9, .maximum = 1e9}},
       {"measured", &O::measured, "of the last scan along each trajectory, instead of a prediction"},
       {"density",
        &O::density_per_m2,
@@ -293,6 +306,7 @@ const AnswerFields<CoverageShare>& answerFields(const CoverageShare*) {
                                          {"twice_m2", &A::twice_m2},
                                          {"coverage", &A::coverage},
                                          {"twice", &A::twice},
+                                         {"passed_by_m2", &A::passed_by_m2},
                                          {"sparse_m2", &A::sparse_m2},
                                          {"grazing_m2", &A::grazing_m2},
                                          {"out_of_view_m2", &A::out_of_view_m2},
@@ -338,13 +352,6 @@ const AnswerFields<CoverageProduct>& answerFields(const CoverageProduct* row) {
   return fields;
 }
 
-const AnswerFields<BlindPatch>& answerFields(const BlindPatch* patch) {
-  using A = BlindPatch;
-  static const auto fields = withBases<A>({{"reason", &A::reason}, {"area_m2", &A::area_m2}, {"at", &A::at}},
-                                          answerFields(static_cast<const ProductIdentity*>(patch)));
-  return fields;
-}
-
 const AnswerFields<CoverageAnswer>& answerFields(const CoverageAnswer* answer) {
   using A = CoverageAnswer;
   static const auto fields = withBases<A>({{"measured", &A::measured},
@@ -384,6 +391,7 @@ Result<Answered<CoverageAnswer>> runCoverage(const Document& document, const Cov
   TRY_ASSIGN(const auto scene, RayScene::build(world.environment, progress, world.balls));
   TRY_ASSIGN(const auto samples, sampleSurfaces(*scene, options.samples, options.seed, progress));
   const auto materials = std::make_shared<const MaterialAssignment>(world.assignment);
+  TRY_ASSIGN(const auto passing, passingOf(document, options, world, progress));
   if (document.walkable() == nullptr)
     report.note("collide", "the walkable surface has not been computed; every floor counts as walkable");
   for (std::size_t i = 0; i < paths.size(); ++i) {
@@ -394,7 +402,7 @@ Result<Answered<CoverageAnswer>> runCoverage(const Document& document, const Cov
     progress.stage("Coverage of " + path.trajectory->name, part(i), part(i + 1));
     const Expectation expectation(scene, materials, ReturnLaw(path.instrument, path.settings));
     const PulseDensity pulses(*path.instrument.moving, path.settings);
-    TRY_ASSIGN(path.sights, predictSights(path.carried, expectation, pulses, samples, wanted, progress));
+    TRY_ASSIGN(path.sights, predictSights(path.carried, expectation, pulses, samples, wanted, progress, passing.get()));
     const auto places = walkablePlaces(*scene, document.walkable(), eyeHeight_m(*path.trajectory));
     TRY(findUnreachable(path.sights, samples, *scene, places, path.settings.max_range_m, wanted, progress));
     if (options.measured) {

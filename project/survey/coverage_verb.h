@@ -17,6 +17,8 @@ struct CoverageOptions {
   Switch closures = Switch::on, anchors = Switch::off;
   std::filesystem::path control;
   bool measured = false;
+  Switch movers = Switch::on;
+  double movers_from_s = 0;  // their clock when the trajectory begins
   double density_per_m2 = 100, max_incidence_deg = 75, pass_gap_s = 30;
   std::size_t samples = 40000;
   std::uint64_t seed = 1;
@@ -28,7 +30,8 @@ struct CoverageShare {
   double exposed_m2 = 0, covered_m2 = 0, twice_m2 = 0;  // twice: in two passes or more
   double coverage = 0, twice = 0;                       // 0..1, of what is exposed
   // What is blind, by the reason (survey/trajectories/path_coverage.h).
-  double sparse_m2 = 0, grazing_m2 = 0, out_of_view_m2 = 0, out_of_range_m2 = 0, occluded_m2 = 0, unreachable_m2 = 0;
+  double passed_by_m2 = 0, sparse_m2 = 0, grazing_m2 = 0, out_of_view_m2 = 0, out_of_range_m2 = 0, occluded_m2 = 0,
+         unreachable_m2 = 0;
 };
 const AnswerFields<CoverageShare>& answerFields(const CoverageShare*);
 struct CoverageTrajectory : CoverageShare {
@@ -50,13 +53,6 @@ struct CoverageStorey : CoverageShare {
 const AnswerFields<CoverageStorey>& answerFields(const CoverageStorey*);
 struct CoverageProduct : CoverageShare, ProductIdentity {};
 const AnswerFields<CoverageProduct>& answerFields(const CoverageProduct*);
-struct BlindPatch : ProductIdentity {
-  std::string reason;  // "occluded"
-  double area_m2 = 0;
-  Eigen::Vector3d at = Eigen::Vector3d::Zero();  // on it, near its middle; the model's file frame
-};
-const AnswerFields<BlindPatch>& answerFields(const BlindPatch*);
-
 struct CoverageAnswer : CoverageShare {  // of all these trajectories together
   bool measured = false;
   double common_m2 = 0;  // that each of them covers
@@ -64,7 +60,7 @@ struct CoverageAnswer : CoverageShare {  // of all these trajectories together
   std::vector<CoverageClass> classes;
   std::vector<CoverageStorey> storeys;
   std::vector<CoverageProduct> products;  // by what of them is blind, most of it first
-  std::vector<BlindPatch> blind;          // largest first
+  std::vector<PlanPatch> blind;           // largest first; each has a reason
 };
 const AnswerFields<CoverageAnswer>& answerFields(const CoverageAnswer*);
 Result<Answered<CoverageAnswer>> runCoverage(const Document& document, const CoverageOptions& options,

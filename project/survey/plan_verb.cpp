@@ -198,8 +198,12 @@ std::vector<PlanPatch> patchesOf(const std::vector<SurfaceHole>& holes, const En
                                  const Eigen::Vector3d& shift_m) {
   std::vector<PlanPatch> patches;
   for (const auto& hole : holes)
-    patches.push_back(
-        {identityOf(environment.products[hole.product]), hole.area_m2, hole.spacing_m, hole.at + shift_m, hole.shape});
+    patches.push_back({identityOf(environment.products[hole.product]),
+                       hole.area_m2,
+                       hole.spacing_m,
+                       hole.at + shift_m,
+                       hole.shape,
+                       {}});
   return patches;
 }
 

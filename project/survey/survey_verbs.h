@@ -155,12 +155,13 @@ struct PlanHole : PlanCoverage, ProductIdentity {
   double unseen_m2 = 0;
 };
 const AnswerFields<PlanHole>& answerFields(const PlanHole*);
-// A part of a surface that no station sees.
+// A part of a surface that no station sees, or that is blind from trajectories.
 struct PlanPatch : ProductIdentity {
   double area_m2 = 0;
   std::optional<double> spacing_m;               // of the points on what is seen of the product; nothing: all is hidden
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  // on it, near its middle; the model's file frame
   HoleShape shape;                               // local frame; not written
+  std::optional<std::string> reason;             // why no trajectory sees it: "occluded"; of stations nothing
 };
 const AnswerFields<PlanPatch>& answerFields(const PlanPatch*);
 std::vector<PlanPatch> patchesOf(const std::vector<SurfaceHole>& holes, const Environment& environment,

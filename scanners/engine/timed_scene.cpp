@@ -248,6 +248,17 @@ NearestHit TimedScene::nearest(const Eigen::Vector3d& origin, const Eigen::Vecto
   return hit;
 }
 
+NearestHit TimedScene::nearestBody(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
+                                   double max_range_m, double time_s) {
+  NearestHit hit{kNoFacet, static_cast<float>(max_range_m)};
+  if (!moves()) return hit;
+  Asked asked;
+  asked.origin[0] = origin, asked.direction[0] = direction_unit, asked.time_s[0] = time_s;
+  asked.facets = &hit.facet, asked.ranges_m = &hit.range_m;
+  ask(asked, 1);
+  return hit;
+}
+
 Facet TimedScene::at(const Facet& facet, double time_s) {
   if (facet.body == kNoBody) return facet;
   const Pose& at = pose(facet.body, time_s);

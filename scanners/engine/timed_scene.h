@@ -36,6 +36,9 @@ class TimedScene {
   void intersect(const RayPacket& rays, int count, float max_range_m, NearestHit* hits);
   NearestHit nearest(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit, double min_range_m,
                      double max_range_m, double time_s);
+  // Of bodies alone: what they hide of a place that far away is not asked of what stands.
+  NearestHit nearestBody(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit, double max_range_m,
+                         double time_s);
   // A facet of the rest frame where it is at that time; one that stands is itself.
   Facet at(const Facet& facet, double time_s);
 

@@ -2,6 +2,7 @@
 #include "survey/trajectories/path_coverage.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -53,11 +54,13 @@ std::vector<TimedPlace> placesAlong(const CarriedMotion& carried) {
 // What has been met of a sample so far that gives no point that counts.
 struct Misses {
   bool grazing = false, out_of_view = false, weak = false, hidden = false;
+  double passed_per_m2 = 0;  // points that what moves has kept away
 };
 
 Blindness reasonOf(const SampleSight& sight, const Misses& misses, const CoveredWhen& wanted) {
   if (sight.density_per_m2 >= wanted.density_per_m2) return Blindness::covered;
-  if (sight.density_per_m2 > 0) return Blindness::sparse;
+  if (sight.density_per_m2 + misses.passed_per_m2 >= wanted.density_per_m2) return Blindness::passed_by;
+  if (sight.density_per_m2 > 0 || misses.passed_per_m2 > 0) return Blindness::sparse;
   if (misses.grazing) return Blindness::grazing;
   if (misses.out_of_view) return Blindness::out_of_view;
   if (misses.hidden && !misses.weak) return Blindness::occluded;
@@ -75,25 +78,31 @@ void addPoints(SampleSight& sight, const ExpectedReturn& expected, double points
   sight.density_per_m2 += points;
 }
 
-SampleSight sightOf(const SurfaceSample& sample, std::span<const TimedPlace> along, const Expectation& expectation,
-                    const PulseDensity& pulses, const CoveredWhen& wanted) {
-  SampleSight sight;
-  Misses misses;
-  const auto& settings = expectation.law().settings();
-  const double least_cosine = std::cos(wanted.max_incidence_rad);
-  for (const auto& here : along) {
+// What a path sees, sample by sample.
+class Prediction {
+ public:
+  Prediction(const Expectation& expectation, const PulseDensity& pulses, const CoveredWhen& wanted,
+             const PassingBodies* passing, double path_first_s)
+      : expectation_(expectation), pulses_(pulses), wanted_(wanted), passing_(passing), first_s_(path_first_s) {}
+
+  void see(const SurfaceSample& sample, std::span<const TimedPlace> along, SampleSight& sight, Misses& misses) const {
+    for (const TimedPlace& here : along) see(sample, here, sight, misses);
+  }
+
+ private:
+  void see(const SurfaceSample& sample, const TimedPlace& here, SampleSight& sight, Misses& misses) const {
     SurfacePlace place = sample.place;
     const Eigen::Vector3d way = place.position - here.pose.translation;
     const double range = way.norm();
-    if (range < 1e-6 || range > settings.max_range_m) continue;
+    if (range < 1e-6 || range > expectation_.law().settings().max_range_m) return;
     const Eigen::Vector3d direction = way / range;
     if (place.normal.dot(direction) > 0) place.normal *= -1;  // the side that is turned to the path
     const double cosine = -place.normal.dot(direction);
-    const double density = pulses.along(here.pose.rotation.conjugate() * direction);
+    const double density = pulses_.along(here.pose.rotation.conjugate() * direction);
     // What a ray would tell is known already.
-    const bool slants = cosine < least_cosine, unseen = density <= 0;
-    if ((slants && misses.grazing) || (unseen && (misses.out_of_view || misses.grazing || sight.passes > 0))) continue;
-    const auto expected = expectation.from(here.pose.translation, place);
+    const bool slants = cosine < least_cosine_, unseen = density <= 0;
+    if ((slants && misses.grazing) || (unseen && (misses.out_of_view || misses.grazing || sight.passes > 0))) return;
+    const auto expected = expectation_.from(here.pose.translation, place);
     if (expected.fate == ReturnFate::hidden)
       misses.hidden = true;
     else if (expected.fate != ReturnFate::returned)
@@ -102,14 +111,41 @@ SampleSight sightOf(const SurfaceSample& sample, std::span<const TimedPlace> alo
       misses.out_of_view = true;
     else if (slants)
       misses.grazing = true;
+    else if (passing_ != nullptr &&
+             passing_->hide(here.pose.translation, place.position, sample.product, first_s_ + here.after_s))
+      misses.passed_per_m2 += density * here.lasts_s * cosine / (range * range);
     else
-      addPoints(sight, expected, density * here.lasts_s * cosine / (range * range), here.after_s, wanted);
+      addPoints(sight, expected, density * here.lasts_s * cosine / (range * range), here.after_s, wanted_);
   }
-  sight.blind = reasonOf(sight, misses, wanted);
-  return sight;
+
+  const Expectation& expectation_;
+  const PulseDensity& pulses_;
+  const CoveredWhen& wanted_;
+  const PassingBodies* passing_;
+  double first_s_;
+  double least_cosine_ = std::cos(wanted_.max_incidence_rad);
+};
+
+// Stretches of places: each short where things move, so that all threads ask of about the same time.
+std::vector<std::span<const TimedPlace>> stretchesOf(const std::vector<TimedPlace>& along, bool things_move) {
+  constexpr double kStretch_s = 0.5;
+  std::vector<std::span<const TimedPlace>> stretches;
+  for (std::size_t begin = 0; begin < along.size();) {
+    std::size_t end = things_move ? begin + 1 : along.size();
+    while (end < along.size() && along[end].after_s < along[begin].after_s + kStretch_s) ++end;
+    stretches.emplace_back(&along[begin], end - begin);
+    begin = end;
+  }
+  return stretches;
 }
 
 }  // namespace
+
+const char* nameOf(Blindness blind) {
+  static constexpr std::array<const char*, kBlindnesses> kNames = {
+      "covered", "hidden by a mover", "sparse", "grazing", "out of view", "out of range", "occluded", "unreachable"};
+  return kNames[static_cast<std::size_t>(blind)];
+}
 
 PulseDensity::PulseDensity(const MovingHead& head, const ScanSettings& settings)
     : bins_(static_cast<std::size_t>(kRows) * kColumns) {
@@ -132,18 +168,25 @@ double PulseDensity::along(const Eigen::Vector3d& direction_device) const { retu
 
 Result<std::vector<SampleSight>> predictSights(const CarriedMotion& carried, const Expectation& expectation,
                                                const PulseDensity& pulses, const SurfaceSamples& samples,
-                                               const CoveredWhen& wanted, Progress& progress) {
-  constexpr std::size_t kBatch = 512;
+                                               const CoveredWhen& wanted, Progress& progress,
+                                               const PassingBodies* passing) {
+  const std::size_t batch = passing == nullptr ? 512 : 8192;  // of rays a like number
   const auto along = placesAlong(carried);
+  const Prediction prediction(expectation, pulses, wanted, passing, carried.path->first_s());
   std::vector<SampleSight> sights(samples.samples.size());
-  for (std::size_t begin = 0; begin < sights.size(); begin += kBatch) {
-    TRY(progress.check());
-    progress.advance(static_cast<double>(begin) / static_cast<double>(sights.size()));
-    const std::size_t end = std::min(begin + kBatch, sights.size());
-    tbb::parallel_for(begin, end, [&](std::size_t k) {  // each into its own slot
-      if (samples.samples[k].exposed) sights[k] = sightOf(samples.samples[k], along, expectation, pulses, wanted);
-    });
-  }
+  std::vector<Misses> misses(sights.size());
+  const auto stretches = stretchesOf(along, passing != nullptr);
+  for (std::size_t s = 0; s < stretches.size(); ++s)
+    for (std::size_t begin = 0; begin < sights.size(); begin += batch) {
+      TRY(progress.check());
+      progress.advance((static_cast<double>(s) + static_cast<double>(begin) / static_cast<double>(sights.size())) /
+                       static_cast<double>(stretches.size()));
+      tbb::parallel_for(begin, std::min(begin + batch, sights.size()), [&](std::size_t k) {  // each into its own slot
+        if (samples.samples[k].exposed) prediction.see(samples.samples[k], stretches[s], sights[k], misses[k]);
+      });
+    }
+  for (std::size_t k = 0; k < sights.size(); ++k)
+    if (samples.samples[k].exposed) sights[k].blind = reasonOf(sights[k], misses[k], wanted);
   return sights;
 }
 
@@ -196,6 +239,8 @@ std::vector<SampleSight> SightSink::sights(const std::vector<SampleSight>& predi
     sight.density_per_m2 = static_cast<double>(counts_[k]) / (kPi * radius_m_ * radius_m_);
     if (sight.density_per_m2 >= wanted_.density_per_m2)
       sight.blind = Blindness::covered;
+    else if (predicted[k].blind == Blindness::passed_by)
+      sight.blind = Blindness::passed_by;
     else if (counts_[k] > 0 || predicted[k].blind <= Blindness::sparse)
       sight.blind = Blindness::sparse;
     else

@@ -9,6 +9,7 @@
 #include "core/points.h"
 #include "core/units.h"
 #include "scanners/forecast/expectation.h"
+#include "scanners/forecast/passing_bodies.h"
 #include "scanners/forecast/surface_samples.h"
 #include "survey/quality/scan_marks.h"
 #include "survey/trajectories/carried_motion.h"
@@ -25,6 +26,7 @@ struct CoveredWhen {
 // Why a surface is blind; of several reasons the one that is nearest to seeing it.
 enum class Blindness : std::uint8_t {
   covered,
+  passed_by,     // it would be covered if nothing moved: people or vehicles stood before it then
   sparse,        // some points, but too few
   grazing,       // it is only met at more than the largest incidence
   out_of_view,   // in reach and open, but where the device sends no pulse
@@ -32,6 +34,9 @@ enum class Blindness : std::uint8_t {
   occluded,      // something stands before it, all along this path
   unreachable,   // it can be seen from no place that can be walked to
 };
+
+constexpr std::size_t kBlindnesses = 8;
+const char* nameOf(Blindness blind);  // "out of view"
 
 // What a path sees of one sample of the surface.
 struct SampleSight {
@@ -56,9 +61,11 @@ class PulseDensity {
 // (on long ways evenly, and no more than 6000): a pulse density D, standing for dt seconds, adds D dt cos(i) / R²
 // points for each square metre. `expectation` has the laws of the instrument. Samples that light does not get to stay
 // empty.
+// `passing`: what moves meanwhile, by the clock of the trajectory; null: nothing.
 Result<std::vector<SampleSight>> predictSights(const CarriedMotion& carried, const Expectation& expectation,
                                                const PulseDensity& pulses, const SurfaceSamples& samples,
-                                               const CoveredWhen& wanted, Progress& progress);
+                                               const CoveredWhen& wanted, Progress& progress,
+                                               const PassingBodies* passing = nullptr);
 
 // The same of a scan's points as they come, for its densities; what keeps a surface from having any is left as
 // `predicted` has it. Points are placed as the file says, and seen from where the path is at their time.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -31,9 +32,9 @@ const json& rowOf(const json& answer, const char* name) {
 }
 
 double blindSum(const json& share) {
-  return share["sparse_m2"].get<double>() + share["grazing_m2"].get<double>() + share["out_of_view_m2"].get<double>() +
-         share["out_of_range_m2"].get<double>() + share["occluded_m2"].get<double>() +
-         share["unreachable_m2"].get<double>();
+  return share["passed_by_m2"].get<double>() + share["sparse_m2"].get<double>() + share["grazing_m2"].get<double>() +
+         share["out_of_view_m2"].get<double>() + share["out_of_range_m2"].get<double>() +
+         share["occluded_m2"].get<double>() + share["unreachable_m2"].get<double>();
 }
 
 TEST(CoverageVerb, ComparesTrajectoriesInOneTable) {
@@ -99,6 +100,26 @@ TEST(CoverageVerb, PredictsWhatTheScanThenHas) {
   EXPECT_TRUE(measured->answer["measured"].get<bool>());
   EXPECT_NEAR(measured->answer["coverage"].get<double>(), predicted->answer["coverage"].get<double>(), 0.03);
   EXPECT_GT(measured->answer["coverage"].get<double>(), 0.15);
+}
+
+// Somebody who stands on the scanner's way all the time; with the movers off nobody is there.
+TEST(CoverageVerb, CountsWhatMoversHide) {
+  auto crowded = run("mover", withWalks(),
+                     {{"add", "guard"}, {"kind", "person"}, {"through", {"500003,5600002:3600", "500003.3,5600002"}}});
+  ASSERT_TRUE(crowded) << describe(crowded.error());
+  json asked = {{"instrument", "leica-blk2go"}, {"samples", 8000}, {"trajectories", {"short"}}};
+  const auto hidden = run("coverage", crowded->document, asked);
+  ASSERT_TRUE(hidden) << describe(hidden.error());
+  EXPECT_GT(hidden->answer["passed_by_m2"].get<double>(), 0.5);
+  const auto& blind = hidden->answer["blind"];
+  EXPECT_TRUE(
+      std::any_of(blind.begin(), blind.end(), [](const json& p) { return p["reason"] == "hidden by a mover"; }));
+  asked["movers"] = "off";
+  const auto open = run("coverage", crowded->document, asked);
+  ASSERT_TRUE(open) << describe(open.error());
+  EXPECT_EQ(open->answer["passed_by_m2"], 0);
+  EXPECT_NEAR(open->answer["covered_m2"].get<double>(),
+              hidden->answer["covered_m2"].get<double>() + hidden->answer["passed_by_m2"].get<double>(), 1e-6);
 }
 
 TEST(CoverageVerb, HasTheSameFiguresInEachRun) {

@@ -41,12 +41,14 @@ class PathCoverage : public ::testing::Test {
     scene = *RayScene::build(environment, progress);
     samples = *sampleSurfaces(*scene, 30000, 1, progress);
   }
-  std::vector<SampleSight> sightsFrom(const CarriedMotion& path, const char* id = "velodyne-vlp-16") {
+  std::vector<SampleSight> sightsFrom(const CarriedMotion& path, const char* id = "velodyne-vlp-16",
+                                      const PassingBodies* passing = nullptr) {
     Progress progress;
     const auto instrument = instrumentOf(id);
     const auto settings = *resolveMovingSettings(instrument, {});
     const Expectation expectation(scene, std::make_shared<const MaterialAssignment>(), ReturnLaw(instrument, settings));
-    return *predictSights(path, expectation, PulseDensity(*instrument.moving, settings), samples, wanted, progress);
+    return *predictSights(path, expectation, PulseDensity(*instrument.moving, settings), samples, wanted, progress,
+                          passing);
   }
   double spacing_m() const { return std::sqrt(samples.each_m2()); }
   std::shared_ptr<Environment> environment = std::make_shared<Environment>();
@@ -81,6 +83,40 @@ TEST_F(PathCoverage, LeavesAStripBehindAPlateThatALongerPathSees) {
     EXPECT_EQ(blind > 0, strip_m > 0) << "P = " << length_m;
     EXPECT_GT(seen, 200);
   }
+}
+
+// It stands where the plate above stood, or goes away: its shadow of 2.5 m is hidden by it, or has the share of the
+// points that came before.
+TEST_F(PathCoverage, TellsApartWhatSomethingThatMovesHides) {
+  addBox(*environment, "wall", "IfcWall", {5, -6, 0}, {5.2, 6, 3});
+  build();
+  const auto with_plate = std::make_shared<Environment>(*environment);
+  addBox(*with_plate, "plate", "Vehicle", {2, -0.5, 0}, {2.001, 0.5, 3});
+  const auto rests = std::make_shared<const ConstantPose>(Pose{});
+  const auto passing = [&](double from_s, double to_s) {
+    std::vector<MovingBody> bodies{{{}, rests, from_s, to_s}};
+    for (std::uint32_t i = 0; i < with_plate->instances.size(); ++i)
+      if (with_plate->instances[i].product == 1) bodies[0].instances.push_back(i);
+    Progress progress;
+    return std::make_unique<PassingBodies>(*RayScene::build(with_plate, progress, {}, {}, bodies), 100);
+  };
+  wanted.density_per_m2 = 1;
+  const auto open = sightsFrom(pathOf(0));
+  const auto always = sightsFrom(pathOf(0), "velodyne-vlp-16", passing(0, 1000).get());
+  const auto later = sightsFrom(pathOf(0), "velodyne-vlp-16", passing(105, 1000).get());  // it comes after 5 s of 20
+  int hidden = 0;
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    const Vector3d& at = samples.samples[k].place.position;
+    if (std::abs(at.x() - 5) > 1e-6 || at.z() < 1.2 || at.z() > 1.8 || std::abs(std::abs(at.y()) - 1.25) < 0.02)
+      continue;
+    const bool behind = std::abs(at.y()) < 1.25;
+    ASSERT_EQ(open[k].blind, Blindness::covered);
+    EXPECT_EQ(always[k].blind, behind ? Blindness::passed_by : Blindness::covered) << at.transpose();
+    EXPECT_EQ(always[k].density_per_m2, behind ? 0 : open[k].density_per_m2);
+    EXPECT_NEAR(later[k].density_per_m2, (behind ? 0.25 : 1) * open[k].density_per_m2, 1e-6 * open[k].density_per_m2);
+    hidden += behind ? 1 : 0;
+  }
+  EXPECT_GT(hidden, 200);
 }
 
 TEST_F(PathCoverage, TellsWhyASurfaceIsBlind) {
