@@ -52,6 +52,7 @@ struct Scan {
   std::uint64_t pulses = 0;
   std::uint64_t points = 0;
   double instrument_seconds = 0;
+  std::optional<std::uint64_t> along = {};  // wayFingerprint() of the trajectory that it was made along, as it was then
   std::optional<AsScanned> as_scanned = {};  // nothing in the projects of versions that did not keep it
 };
 

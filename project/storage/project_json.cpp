@@ -52,16 +52,18 @@ json scanToJson(const Scan& s) {
               {"pulses", s.pulses},
               {"points", s.points},
               {"instrument_seconds", s.instrument_seconds}};
+  if (s.along) row["along"] = *s.along;
   if (s.as_scanned)
     row["as_scanned"] = {{"station", poseToJson(s.as_scanned->station)},
                          {"targets", targetsToJson(s.as_scanned->targets)}};
   return row;
 }
 
-// As it was scanned came later.
+// What it was made along and as it was scanned came later.
 Scan scanFrom(const json& j) {
   Scan s{j.at("instrument"), j.at("file"),   j.at("format"), j.at("settings"),
          j.at("seed"),       j.at("pulses"), j.at("points"), j.at("instrument_seconds")};
+  if (const auto along = j.find("along"); along != j.end()) s.along = along->get<std::uint64_t>();
   if (const auto as = j.find("as_scanned"); as != j.end())
     s.as_scanned = AsScanned{poseFrom(as->at("station")), targetsFrom(as->at("targets"))};
   return s;

@@ -17,6 +17,7 @@
 #include "project/survey/scan_header.h"
 #include "project/survey/scan_request.h"
 #include "project/survey/watched_sink.h"
+#include "survey/scanning/scan_age.h"
 #include "survey/scanning/scan_identity.h"
 #include "survey/trajectories/carried_motion.h"
 #include "survey/trajectories/trajectory_file.h"
@@ -230,7 +231,8 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
                               .seed = request.options.seed,
                               .pulses = count.pulses,
                               .points = count.points,
-                              .instrument_seconds = carried.seconds()});
+                              .instrument_seconds = carried.seconds(),
+                              .along = wayFingerprint(trajectory)});
   outcome.document.job = std::make_shared<const Job>(std::move(job));
   return outcome;
 }

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/random.h"
+
 namespace standpoint {
 
 namespace {
@@ -52,6 +54,20 @@ std::string ageText(const Scan& scan, const Station& station, const std::vector<
 
 std::string ageText(const Station& station, const std::vector<Target>& targets) {
   return station.scans.empty() ? std::string() : ageText(station.scans.back(), station, targets);
+}
+
+std::uint64_t wayFingerprint(const CarriedTrajectory& trajectory) {
+  std::string text = fmt::format("{} {} {} {} {} {}", trajectory.carrier, trajectory.height_m, trajectory.speed_mps,
+                                 trajectory.seed, trajectory.file, trajectory.format);
+  for (const Waypoint& w : trajectory.waypoints) {
+    text += fmt::format(";{} {} {} {}", w.floor_m.x(), w.floor_m.y(), w.floor_m.z(), w.stop_s);
+    if (w.look_rad) text += fmt::format(" {}", *w.look_rad);
+  }
+  return stableHash(text.c_str());
+}
+
+std::string ageText(const Scan& scan, const CarriedTrajectory& trajectory) {
+  return scan.along && *scan.along != wayFingerprint(trajectory) ? "older than " + trajectory.name : std::string();
 }
 
 }  // namespace standpoint

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -17,5 +18,10 @@ std::string ageText(const Scan& scan, const Station& station, const std::vector<
 
 // The same of the newest scan of a station; "" where there is none.
 std::string ageText(const Station& station, const std::vector<Target>& targets);
+
+// Another one once somebody goes another way, at another pace or otherwise: of all but name and scans.
+std::uint64_t wayFingerprint(const CarriedTrajectory& trajectory);
+// "older than W1" where it has another way by now.
+std::string ageText(const Scan& scan, const CarriedTrajectory& trajectory);
 
 }  // namespace standpoint

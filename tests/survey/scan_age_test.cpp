@@ -54,6 +54,21 @@ TEST_F(ScanAge, SaysNothingOfARecordThatDoesNotKnow) {
   EXPECT_EQ(ageText(scan, station, targets), "");
 }
 
+TEST_F(ScanAge, OfAWalkIsThatOfItsWay) {
+  CarriedTrajectory walk{.name = "W1", .waypoints = {{{0, 0, 0}}, {{4, 0, 0}}}};
+  EXPECT_EQ(ageText(scan, walk), "") << "nobody knows what it was made along";
+  scan.along = wayFingerprint(walk);
+  walk.name = "Hall";
+  walk.scans = {scan};
+  EXPECT_EQ(ageText(scan, walk), "") << "another name is no other way";
+  const CarriedTrajectory as_scanned = walk;
+  walk.waypoints[1].look_rad = 0;
+  EXPECT_EQ(ageText(scan, walk), "older than Hall");
+  walk = as_scanned;
+  walk.speed_mps = 0.5;
+  EXPECT_EQ(ageText(scan, walk), "older than Hall");
+}
+
 TEST_F(ScanAge, OfAStationIsThatOfItsNewestScan) {
   EXPECT_EQ(ageText(station, targets), "") << "it has none";
   station.scans = {scan};
@@ -91,6 +106,27 @@ TEST(ScanAgeOfAProject, ComesBackFromTheDiskExactly) {
   EXPECT_EQ(age(), "") << "it stands again where it stood";
   step("station", {{"move", "S1"}, {"at", {500002.2, 5600002, 1.6}}, {"yaw-deg", 33.3}, {"tilt-deg", 0.7}});
   EXPECT_EQ(age(), "older than S1");
+}
+
+TEST(ScanAgeOfAProject, OfAWalkComesBackFromTheDisk) {
+  const TemporaryFolder folder;
+  Progress progress;
+  auto walked =
+      run("trajectory", twoStoreyDocument(), {{"add", "W1"}, {"through", {"500001.1,5600001.3", "500002,5600001"}}});
+  ASSERT_TRUE(walked) << describe(walked.error());
+  auto scanned =
+      run("scan", walked->document,
+          {{"trajectory", "W1"}, {"instrument", "velodyne-vlp-16"}, {"output", (folder.path() / "s.e57").string()}});
+  ASSERT_TRUE(scanned) << describe(scanned.error());
+  ASSERT_TRUE(saveProject(scanned->document, folder.path() / "p", progress));
+  const auto back = loadProject(folder.path() / "p", progress);
+  ASSERT_TRUE(back) << describe(back.error());
+  const CarriedTrajectory& then = back->job->trajectories.at(0);
+  EXPECT_EQ(ageText(then.scans.at(0), then), "");
+  const auto slower = run("trajectory", *back, {{"change", "W1"}, {"speed", 0.5}});
+  ASSERT_TRUE(slower) << describe(slower.error());
+  const CarriedTrajectory& now = slower->document.job->trajectories.at(0);
+  EXPECT_EQ(ageText(now.scans.at(0), now), "older than W1");
 }
 
 }  // namespace
