@@ -9,6 +9,7 @@
 #include "editor/shell/actions.h"
 #include "project/materials/materials_verb.h"
 #include "project/materials/verification.h"
+#include "project/survey/coverage_verb.h"
 
 namespace standpoint {
 
@@ -172,6 +173,21 @@ void holes(Editor& editor) {
   invoke(editor, "holes-plan");
 }
 
+// What somebody with a handheld scanner does not see along the first trajectory, and why.
+void blindSpots(Editor& editor) {
+  survey(editor);
+  const auto& job = editor.session.document().job;
+  if (!job || job->trajectories.empty()) return;
+  editor.survey = {.trajectory = 0};
+  editor.session.start(CoverageOptions{.trajectories = {job->trajectories.front().name},
+                                       .instrument = editor.carried_scan.choice.instrument,
+                                       .samples = 100000});
+  editor.session.wait();
+  editor.update();
+  invoke(editor, "holes-plan");
+  editor.trajectory_ways.wait();
+}
+
 // What the first station measured last, cut open.
 void scan(Editor& editor) {
   survey(editor);
@@ -242,6 +258,7 @@ constexpr std::array kPictures = {Picture{"1-overview", overview},
                                   Picture{"13-coverage", coverage},
                                   Picture{"14-coverage-spacing", coverageSpacing},
                                   Picture{"18-holes", holes},
+                                  Picture{"19-blind-spots", blindSpots},
                                   Picture{"15-scan", scan},
                                   Picture{"16-points-by-material", pointsByMaterial},
                                   Picture{"17-wall", wall},

@@ -10,6 +10,7 @@
 
 #include "editor/model/model.h"
 #include "project/survey/assess_verb.h"
+#include "project/survey/coverage_verb.h"
 #include "survey/stations/storeys.h"
 
 namespace standpoint {
@@ -92,13 +93,29 @@ HoleInSight inSight(const PlanPatch& patch, const std::set<HoleSquare>& shown, c
 
 ShownHoles shownHoles(const Model& model) {
   const auto& session = model.session;
-  const auto *plan = session.lastOf("plan"), *assess = session.lastOf("assess");
+  const auto *plan = session.lastOf("plan"), *assess = session.lastOf("assess"), *walked = session.lastOf("coverage");
   for (const auto& task : session.finished()) {
-    if ((&task != plan && &task != assess) || task.revision != session.revision()) continue;
-    if (const auto* answer = answerAs<PlanAnswer>(task.answer)) return {&answer->patches, false};
-    if (const auto* answer = answerAs<AssessAnswer>(task.answer)) return {&answer->patches, true};
+    if ((&task != plan && &task != assess && &task != walked) || task.revision != session.revision()) continue;
+    if (const auto* answer = answerAs<PlanAnswer>(task.answer)) return {&answer->patches, ShownHoles::Of::plan};
+    if (const auto* answer = answerAs<AssessAnswer>(task.answer)) return {&answer->patches, ShownHoles::Of::scans};
+    if (const auto* answer = answerAs<CoverageAnswer>(task.answer))
+      return {&answer->blind, ShownHoles::Of::trajectories};
   }
   return {};
+}
+
+const char* wordsOf(Blindness blind) {
+  switch (blind) {
+    case Blindness::covered: return "Covered";
+    case Blindness::passed_by: return "Hidden by a mover";
+    case Blindness::sparse: return "Too few points";
+    case Blindness::grazing: return "Grazing incidence only";
+    case Blindness::out_of_view: return "Outside the field of view";
+    case Blindness::out_of_range: return "Out of range";
+    case Blindness::occluded: return "Occluded along this path";
+    case Blindness::unreachable: return "Not visible from any walkable place";
+  }
+  return "";
 }
 
 const std::vector<HoleInSight>& HolesInSight::of(const Model& model, const std::vector<PlanPatch>& patches,

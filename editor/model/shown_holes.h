@@ -9,17 +9,21 @@
 #include "editor/model/picker.h"
 #include "editor/model/view_state.h"
 #include "project/survey/survey_verbs.h"
+#include "survey/trajectories/path_coverage.h"
 
 namespace standpoint {
 
 struct Model;
 
-// The holes of the coverage that was computed last, be it of the plan or of the scans.
+// The holes of the coverage that was computed last, be it of the plan, of the scans or of trajectories.
 struct ShownHoles {
+  enum class Of { plan, scans, trajectories };
   const std::vector<PlanPatch>* patches = nullptr;  // null: none was computed, or the project has changed since
-  bool measured = false;                            // of the scans
+  Of of = Of::plan;
 };
 ShownHoles shownHoles(const Model& model);
+
+const char* wordsOf(Blindness blind);  // why a surface is blind along trajectories; English
 
 // What of a hole is in a picture. Local frame.
 struct HoleInSight {

@@ -8,6 +8,7 @@
 
 #include "core/motion/carriers.h"
 #include "core/units.h"
+#include "editor/model/shown_holes.h"
 #include "editor/model/trajectory_steps.h"
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
@@ -17,6 +18,8 @@
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 #include "editor/words/words.h"
+#include "project/survey/coverage_verb.h"
+#include "survey/scanning/scan_age.h"
 #include "survey/trajectories/trajectory_file.h"
 
 namespace standpoint {
@@ -341,6 +344,57 @@ void drawTrajectoryButtons(const Model& model, Actions& actions, const CarriedTr
     actions.start(TrajectoryOptions{.remove = trajectory.name}, trf("Remove trajectory {}", trajectory.name));
 }
 
+CoverageOptions coverageOf(const Model& model, const CarriedTrajectory& trajectory) {
+  constexpr std::size_t kSamples = 100000;  // so that blind spots are drawn by squares of some 30 cm in a house
+  const CarriedScan& scan = model.carried_scan;
+  return {.trajectories = {trajectory.name},
+          .instrument = scan.choice.instrument,
+          .settings = scan.choice.settings,
+          .trajectory_error = scan.error,
+          .closures = scan.closures ? Switch::on : Switch::off,
+          .anchors = scan.anchors ? Switch::on : Switch::off,
+          .samples = kSamples};
+}
+
+void drawShares(const CoverageAnswer& answer) {
+  if (!ui::beginProperties("blind", 0.5F)) return;
+  const auto row = [](const char* label, double area_m2) {
+    if (area_m2 > 0) ui::property(label, fmt::format("{:.1f} m²", area_m2));
+  };
+  row("Seen twice", answer.twice_m2);
+  row(wordsOf(Blindness::passed_by), answer.passed_by_m2);
+  row(wordsOf(Blindness::sparse), answer.sparse_m2);
+  row(wordsOf(Blindness::grazing), answer.grazing_m2);
+  row(wordsOf(Blindness::out_of_view), answer.out_of_view_m2);
+  row(wordsOf(Blindness::out_of_range), answer.out_of_range_m2);
+  row(wordsOf(Blindness::occluded), answer.occluded_m2);
+  row(wordsOf(Blindness::unreachable), answer.unreachable_m2);
+  ui::endProperties();
+}
+
+void drawPathCoverage(const Model& model, Actions& actions, const CarriedTrajectory& trajectory,
+                      const TrajectoryWay* way) {
+  ui::heading(model, "Coverage");
+  const auto* instrument = model.instrument(model.carried_scan.choice.instrument);
+  std::string why = model.session.whyNot("coverage");
+  if (why.empty() && instrument == nullptr) why = "Choose an instrument in the Scan panel first";
+  if (why.empty() && way != nullptr) why = way->problem;
+  if (ui::button(ICON_EYE "  Compute coverage###coverage-along", why, {-FLT_MIN, 0},
+                 "What is covered along this trajectory, and why the rest is blind"))
+    actions.start(coverageOf(model, trajectory), trf("Coverage along {}", trajectory.name));
+  if (instrument != nullptr) ui::dimText(trf("{} {}, as set in the Scan panel", instrument->maker, instrument->model));
+  const auto* last = model.session.lastOf("coverage");
+  const auto* answer = last == nullptr ? nullptr : answerAs<CoverageAnswer>(last->answer);
+  if (answer == nullptr || answer->trajectories.size() != 1 || answer->trajectories[0].trajectory != trajectory.name)
+    return;
+  if (model.session.isOutOfDate(*last)) ui::dimWrapped("Coverage is out of date. Compute it again.");
+  ui::meter(model, answer->coverage, tone::kGood);
+  ui::dimText(
+      trf("{} of {:.0f} m² of exposed surface", fmt::format("{:.0f} %", answer->coverage * 100), answer->exposed_m2));
+  drawShares(*answer);
+  if (!answer->blind.empty()) actions.button("holes-plan", "Show blind spots on the plan", -FLT_MIN);
+}
+
 }  // namespace
 
 void drawTrajectories(const Model& model, Actions& actions) {
@@ -402,8 +456,9 @@ void drawTrajectory(const Model& model, PanelStates& states, Actions& actions, c
   drawProblem(edit.common);
   if (way != nullptr) drawTrouble(model, actions, *way);
   drawTrajectoryButtons(model, actions, trajectory, way, why);
+  drawPathCoverage(model, actions, trajectory, way);
   drawWaypoints(model, edit, actions, trajectory, why);
-  drawScans(model, actions, trajectory.scans, [](const Scan&) { return std::string(); });
+  drawScans(model, actions, trajectory.scans, [&](const Scan& scan) { return ageText(scan, trajectory); });
 }
 
 }  // namespace standpoint

@@ -6,9 +6,13 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "editor/colours/colour_scale.h"
 #include "editor/model/coverage_view.h"
 #include "editor/model/shown_holes.h"
 #include "editor/shell/editor.h"
@@ -16,17 +20,48 @@
 #include "editor/shell/view_pen.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "survey/trajectories/path_coverage.h"
 
 namespace standpoint {
 
 namespace {
 
-// The colour of what is not covered in the maps, too; hatched, it is read without colours.
-constexpr ImU32 kRim = IM_COL32(kHoleColour[0], kHoleColour[1], kHoleColour[2], 255),
-                kFill = IM_COL32(kHoleColour[0], kHoleColour[1], kHoleColour[2], 70),
-                kHatch = IM_COL32(255, 255, 255, 170), kDark = IM_COL32(20, 12, 18, 200);
+constexpr ImU32 kHatch = IM_COL32(255, 255, 255, 170), kDark = IM_COL32(20, 12, 18, 200);
 constexpr double kEdgeOn = 0.12;  // sine of the angle under which a surface is but a line
 constexpr float kBar_pt = 5, kRim_pt = 1.5F, kHatch_pt = 1;
+
+// Why a trajectory leaves a surface blind.
+struct BlindReason {
+  std::string name;  // of the verb's answer
+  Rgba8 colour{};
+  const char* words = "";
+};
+const std::array<BlindReason, kBlindnesses - 1>& blindReasons() {
+  static const auto reasons = [] {
+    std::array<BlindReason, kBlindnesses - 1> all;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const auto blind = static_cast<Blindness>(k + 1);
+      all[k] = {nameOf(blind), blind == Blindness::unreachable ? kOtherColour : classColour(k), wordsOf(blind)};
+    }
+    return all;
+  }();
+  return reasons;
+}
+const BlindReason* reasonOf(const PlanPatch& patch) {
+  const auto& all = blindReasons();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const BlindReason& r) { return r.name == patch.reason; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+// What no station sees has the colour of what is not covered in the maps, too; hatched, it is read without colours.
+struct HoleTone {
+  ImU32 rim, fill;
+};
+HoleTone toneOf(const Rgba8& c) { return {IM_COL32(c[0], c[1], c[2], 255), IM_COL32(c[0], c[1], c[2], 70)}; }
+HoleTone toneOf(const PlanPatch& patch) {
+  const BlindReason* const reason = reasonOf(patch);
+  return toneOf(reason == nullptr ? kHoleColour : reason->colour);
+}
 
 bool isEdgeOn(const HoleInSight& hole, const Camera& camera) {
   const Eigen::Vector3d way =
@@ -62,16 +97,17 @@ std::optional<std::array<ImVec2, 4>> onScreen(const ViewPen& pen, const std::arr
 void drawHole(const ViewPen& pen, const HoleInSight& hole, bool edge_on, ImDrawList& list) {
   for (const auto& [a, b] : hole.rim)
     if (edge_on) pen.line(a, b, kDark, kBar_pt + 2);
+  const HoleTone tone = toneOf(*hole.patch);
   for (const auto& [a, b] : hole.rim)
-    if (edge_on) pen.line(a, b, kRim, kBar_pt);
+    if (edge_on) pen.line(a, b, tone.rim, kBar_pt);
   if (edge_on) return;
   const auto flags = list.Flags;
   list.Flags &= ~ImDrawListFlags_AntiAliasedFill;  // no seams between the rectangles
   for (const auto& corners : hole.fill)
-    if (const auto p = onScreen(pen, corners)) list.AddQuadFilled((*p)[0], (*p)[1], (*p)[2], (*p)[3], kFill);
+    if (const auto p = onScreen(pen, corners)) list.AddQuadFilled((*p)[0], (*p)[1], (*p)[2], (*p)[3], tone.fill);
   list.Flags = flags;
   for (const auto& [a, b] : hole.hatching) pen.line(a, b, kHatch, kHatch_pt);
-  for (const auto& [a, b] : hole.rim) pen.rod(a, b, kRim, kRim_pt);
+  for (const auto& [a, b] : hole.rim) pen.rod(a, b, tone.rim, kRim_pt);
 }
 
 bool isWithin(const std::array<ImVec2, 4>& quad, ImVec2 p) {
@@ -107,6 +143,7 @@ std::string areaText(double area_m2) { return fmt::format("{:.{}f} m²", area_m2
 std::string aboutHole(const PlanPatch& hole) {
   auto text = trf("Not covered: {} of {}", areaText(hole.area_m2),
                   fmt::format("{} {}", hole.ifc_class, hole.name.empty() ? hole.id : hole.name));
+  if (const BlindReason* const reason = reasonOf(hole)) return text + "\n" + tr(reason->words);
   return text + "\n" +
          (hole.spacing_m ? trf("Point spacing on the rest of it: {:.1f} mm", *hole.spacing_m * 1000)
                          : tr("No station sees any of it"));
@@ -127,27 +164,54 @@ void nameHoles(Editor& editor, const ViewState& view, ImVec2 origin, LabelBoard&
     if (const auto p = pen.at(hole.middle)) labels.over(*p, {areaText(hole.patch->area_m2)}, tone::kText);
 }
 
-void drawHolesLegend(Editor& editor, ImVec2 origin, ImVec2 size, bool hovered) {
-  if (!editor.view.holes || editor.cloud()) return;
-  const auto holes = shownHoles(editor);
-  if (holes.patches == nullptr || holes.patches->empty()) return;
+namespace {
+
+// Lines of the legend.
+std::vector<std::pair<HoleTone, std::string>> legendOf(const ShownHoles& holes) {
+  if (holes.of != ShownHoles::Of::trajectories)
+    return {{toneOf(kHoleColour),
+             tr(holes.of == ShownHoles::Of::scans ? "Not covered by the scans" : "Not covered as planned")}};
+  std::vector<std::pair<HoleTone, std::string>> lines;
+  for (const BlindReason& reason : blindReasons())
+    if (std::any_of(holes.patches->begin(), holes.patches->end(),
+                    [&](const auto& p) { return p.reason == reason.name; }))
+      lines.emplace_back(toneOf(reason.colour), tr(reason.words));
+  return lines;
+}
+
+void drawSwatch(Editor& editor, ImVec2 at, float side, const HoleTone& tone) {
   auto& list = *ImGui::GetWindowDrawList();
-  const auto text = tr(holes.measured ? "Not covered by the scans" : "Not covered as planned");
-  const float side = editor.px(16), line = std::max(side, ImGui::GetTextLineHeight());
-  const float wide = side + editor.px(6) + ImGui::CalcTextSize(text.c_str()).x;
-  // Above the legend of the colours where there is one.
-  const bool plain = editor.view.colour == ColourMode::model || editor.view.colour == ColourMode::material;
-  const float above = plain ? 0 : editor.px(64) + ImGui::GetTextLineHeight();
-  const ImVec2 at(origin.x + editor.px(10), origin.y + size.y - line - editor.px(10) - above);
-  drawPlate(editor, at, {wide, line});
-  list.AddRectFilled(at, {at.x + side, at.y + side}, kFill);
+  list.AddRectFilled(at, {at.x + side, at.y + side}, tone.fill);
   for (const float share : {0.5F, 1.0F}) {
     list.AddLine({at.x, at.y + share * side}, {at.x + share * side, at.y}, kHatch, editor.px(kHatch_pt));
     list.AddLine({at.x + (1 - share) * side, at.y + side}, {at.x + side, at.y + (1 - share) * side}, kHatch,
                  editor.px(kHatch_pt));
   }
-  list.AddRect(at, {at.x + side, at.y + side}, kRim, 0, 0, editor.px(kRim_pt));
-  list.AddText({at.x + side + editor.px(6), at.y + (line - ImGui::GetTextLineHeight()) / 2}, tone::kText, text.c_str());
+  list.AddRect(at, {at.x + side, at.y + side}, tone.rim, 0, 0, editor.px(kRim_pt));
+}
+
+}  // namespace
+
+void drawHolesLegend(Editor& editor, ImVec2 origin, ImVec2 size, bool hovered) {
+  if (!editor.view.holes || editor.cloud()) return;
+  const auto holes = shownHoles(editor);
+  if (holes.patches == nullptr || holes.patches->empty()) return;
+  const auto lines = legendOf(holes);
+  const float side = editor.px(16), gap = editor.px(6), line = std::max(side, ImGui::GetTextLineHeight());
+  float wide = 0;
+  for (const auto& [tone, text] : lines) wide = std::max(wide, side + gap + ImGui::CalcTextSize(text.c_str()).x);
+  const float high = static_cast<float>(lines.size()) * (line + gap) - gap;
+  // Above the legend of the colours where there is one.
+  const bool plain = editor.view.colour == ColourMode::model || editor.view.colour == ColourMode::material;
+  const float above = plain ? 0 : editor.px(64) + ImGui::GetTextLineHeight();
+  ImVec2 at(origin.x + editor.px(10), origin.y + size.y - high - editor.px(10) - above);
+  drawPlate(editor, at, {wide, high});
+  for (const auto& [tone, text] : lines) {
+    drawSwatch(editor, at, side, tone);
+    ImGui::GetWindowDrawList()->AddText({at.x + side + gap, at.y + (line - ImGui::GetTextLineHeight()) / 2},
+                                        tone::kText, text.c_str());
+    at.y += line + gap;
+  }
   if (!hovered || editor.view.dragging || editor.view.tool != Tool::select) return;
   const ViewPen pen(editor, origin);
   const auto view = editor.viewState();

@@ -49,7 +49,9 @@ void lookFrom(Editor& e, StandardView view) {
 }
 std::string whyNoHoles(const Editor& e) {
   if (auto why = whyNoModel(e); !why.empty()) return why;
-  return shownHoles(e).patches == nullptr ? "Compute the coverage of the plan, or assess the scans, first" : "";
+  return shownHoles(e).patches == nullptr
+             ? "Compute the coverage of the plan or of a trajectory, or assess the scans, first"
+             : "";
 }
 void showHolesOnPlan(Editor& e) {
   e.view.holes = true;

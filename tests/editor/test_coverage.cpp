@@ -166,7 +166,7 @@ TEST_F(Gaps, AreThereOnceTheCoverageIsComputedAndGoWhenTheProjectChanges) {
   EXPECT_NE(whyNot(*findAction("holes-plan"), editor), "");
   plan();
   ASSERT_NE(shownHoles(editor).patches, nullptr);
-  EXPECT_FALSE(shownHoles(editor).measured);
+  EXPECT_EQ(shownHoles(editor).of, ShownHoles::Of::plan);
   ASSERT_TRUE(invoke(editor, "holes-plan"));
   gui.frames(2);
   EXPECT_TRUE(editor.view.holes);

@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "demo_verbs.h"
 #include "editor/model/scan_form.h"
+#include "editor/model/shown_holes.h"
 #include "editor/model/trajectory_steps.h"
 #include "editor/panels/scan_panel.h"
 #include "editor/shell/actions.h"
@@ -344,6 +345,27 @@ TEST_F(ScanAlong, OfSeveralTrajectoriesOneIsChosen) {
   gui.frames(3);
   EXPECT_EQ(editor.survey.trajectory, 1);
   EXPECT_FALSE(gui.find("###run-scan")->disabled);
+}
+
+TEST_F(Trajectories, ShowWhatTheyLeaveBlindAndWhy) {
+  lay();
+  ASSERT_TRUE(gui.click("###coverage-along"));
+  settle();
+  const auto holes = shownHoles(editor);
+  ASSERT_NE(holes.patches, nullptr);
+  EXPECT_EQ(holes.of, ShownHoles::Of::trajectories);
+  ASSERT_FALSE(holes.patches->empty());
+  for (const auto& patch : *holes.patches) {
+    EXPECT_TRUE(patch.reason.has_value());
+    EXPECT_FALSE(patch.shape.squares.empty());
+  }
+  ASSERT_TRUE(invoke(editor, "holes-plan"));
+  gui.frames(2);
+  itemProbe().listens = true;
+  gui.frame();
+  itemProbe().listens = false;
+  EXPECT_THAT(itemProbe().texts, testing::Contains("Occluded along this path"));
+  EXPECT_THAT(itemProbe().texts, testing::Not(testing::Contains("Not covered as planned")));
 }
 
 }  // namespace
