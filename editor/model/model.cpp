@@ -204,6 +204,7 @@ void Model::update() {
     adoptDocument();
     followOnlyCloud();
     followLocated();
+    followScans();
   }
   followPointColours();
   followWalking(*this);
@@ -301,6 +302,25 @@ void Model::followLocated() {
   if (answer == nullptr || session.lastOf("locate")->revision != session.revision() || !cloud_) return;
   for (const auto& located : answer->located)
     if (located.from == cloud_->file) return showClouds({located.to});
+}
+
+// A scan that is undone is no longer shown; nor is one that is taken off the project.
+void Model::followScans() {
+  std::set<std::filesystem::path> files;
+  const auto& job = session.document().job;
+  const auto add = [&](const std::vector<Scan>& scans) {
+    for (const Scan& scan : scans) files.insert(scan.file);
+  };
+  if (job) {
+    for (const Station& station : job->stations) add(station.scans);
+    for (const CarriedTrajectory& trajectory : job->trajectories) add(trajectory.scans);
+  }
+  const auto before = std::exchange(scan_files_, std::move(files));
+  if (!read_ || live_) return;
+  std::vector<std::filesystem::path> shown = read_->files;
+  if (shown.empty()) shown.push_back(read_->file);
+  const auto gone = [&](const auto& file) { return before.contains(file) && !scan_files_.contains(file); };
+  if (std::erase_if(shown, gone) > 0) showClouds(shown);
 }
 
 void Model::chooseWanted() {

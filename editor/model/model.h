@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -349,6 +350,7 @@ struct Model : Style {
   void chooseWanted();
   void followOnlyCloud();
   void followLocated();
+  void followScans();
   void followPreview();
   void startWaitingCloud();
   void followLiveScan();
@@ -366,10 +368,11 @@ struct Model : Style {
   Bounds shownScanBounds() const;
   std::optional<Camera> camera_before_preview_;
   CloudLoader cloud_loader_;
-  std::shared_ptr<const Cloud> read_, cloud_;  // as its file has it, and as it is shown
-  std::filesystem::path only_cloud_;           // of a project of clouds alone that has one; else empty
-  std::shared_ptr<const Job> solved_by_;       // that cloud_ is moved by; null: it is not
-  std::shared_ptr<const Underlay> placed_as_;  // that cloud_ is; null: none, or it is not turned yet
+  std::shared_ptr<const Cloud> read_, cloud_;   // as its file has it, and as it is shown
+  std::filesystem::path only_cloud_;            // of a project of clouds alone that has one; else empty
+  std::shared_ptr<const Job> solved_by_;        // that cloud_ is moved by; null: it is not
+  std::shared_ptr<const Underlay> placed_as_;   // that cloud_ is; null: none, or it is not turned yet
+  std::set<std::filesystem::path> scan_files_;  // of the document, as it was seen last
   std::vector<std::filesystem::path> missing_clouds_;
   std::chrono::steady_clock::time_point looked_for_clouds_;
   std::filesystem::path live_file_;              // that the scan is written to

@@ -234,6 +234,9 @@ TEST_F(ScanPanel, ScansWithWhatIsSetAndTheDocumentRemembersIt) {
   ASSERT_TRUE(editor.session.document().scanning);
   EXPECT_EQ(*editor.session.document().scanning, wanted);
   EXPECT_TRUE(std::filesystem::exists(folder / "S1.e57"));
+  editor.session.undo();
+  gui.settle();
+  EXPECT_FALSE(editor.cloud()) << "a scan that is undone is not shown";
 }
 
 PointBlock pointsAlongX(int from, int count) {
