@@ -114,7 +114,7 @@ TEST(DocsPictures, AreWhatTheEditorDraws) {
   const auto drawn = drawPictures(editor, **offscreen, folder.path(), wanted);
   ASSERT_TRUE(drawn) << describe(drawn.error());
   TrajectoryOptions walk{.add = "Walk"};
-  walk.through = {"7.5,3", "7.5,1.2", "4.5,1.2", "2,1.2"};
+  walk.through = {"7.5,1.3", "7.2,5", "7.9,5", "7.8,1.4"};
   ASSERT_TRUE(editor.session.start(walk));
   editor.session.wait();
   const auto walked = drawPictures(editor, **offscreen, folder.path(), {kBlindSpots.picture});
