@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "importers/stl/stl_text.h"
 
-#include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "importers/files/text_cursor.h"
@@ -14,16 +12,6 @@ namespace {
 
 constexpr std::size_t kTextPiece = 4U << 20U;
 constexpr double kLargestInText = 1e13;
-constexpr std::uint32_t kFree = 0xFFFFFFFFU;
-
-std::uint64_t hashOf(const Eigen::Vector3d& p) {
-  std::uint64_t h = 0;
-  for (int i = 0; i < 3; ++i) {
-    h = (h ^ std::bit_cast<std::uint64_t>(p[i])) * 0x9E3779B97F4A7C15U;
-    h ^= h >> 32U;
-  }
-  return h;
-}
 
 class TextReader {
  public:
@@ -122,9 +110,7 @@ void StlSoup::begin(const std::string& name, std::uint64_t facets) {
   soup_.products.push_back(std::move(p));
 }
 
-void StlSoup::corner(const Eigen::Vector3d& p) {
-  soup_.corners.push_back(weld(p + Eigen::Vector3d::Zero()));
-}  // -0 → 0
+void StlSoup::corner(const Eigen::Vector3d& p) { soup_.corners.push_back(welder_.weld(p, soup_.positions)); }
 
 void StlSoup::endFacet(std::size_t line) {
   const auto face = static_cast<std::uint32_t>(soup_.face_begins.size() - 1),
@@ -139,30 +125,11 @@ void StlSoup::endFacet(std::size_t line) {
   facet_colour_ = kNoFaceColour;
 }
 
-std::uint32_t StlSoup::weld(const Eigen::Vector3d& p) {
-  if (2 * (soup_.positions.size() + 1) > table_.size()) grow();
-  std::size_t slot = hashOf(p) & (table_.size() - 1);
-  for (; table_[slot] != kFree; slot = (slot + 1) & (table_.size() - 1))
-    if (soup_.positions[table_[slot]] == p) return table_[slot];
-  table_[slot] = static_cast<std::uint32_t>(soup_.positions.size());
-  soup_.positions.push_back(p);
-  return table_[slot];
-}
-
-void StlSoup::grow() {
-  table_.assign(std::max<std::size_t>(1024, 2 * table_.size()), kFree);
-  for (std::size_t i = 0; i < soup_.positions.size(); ++i) {
-    std::size_t slot = hashOf(soup_.positions[i]) & (table_.size() - 1);
-    while (table_[slot] != kFree) slot = (slot + 1) & (table_.size() - 1);
-    table_[slot] = static_cast<std::uint32_t>(i);
-  }
-}
-
 FaceSoup StlSoup::soup() && {
   Surface plain;
   plain.source = "STL";
   soup_.surfaces.push_back(std::move(plain));
-  table_ = {};
+  welder_ = {};
   if (!colours_.empty()) {
     colours_.resize(soup_.face_begins.size() - 1, kNoFaceColour);
     paintFaces(soup_, colours_);

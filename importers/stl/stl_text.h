@@ -7,6 +7,7 @@
 #include "importers/files/file_bytes.h"
 #include "importers/soup/face_colours.h"
 #include "importers/soup/face_soup.h"
+#include "importers/soup/position_welder.h"
 
 namespace standpoint {
 
@@ -24,11 +25,8 @@ class StlSoup {
   std::vector<std::size_t> takeLines() { return std::move(lines_); }
 
  private:
-  std::uint32_t weld(const Eigen::Vector3d& p);
-  void grow();
-
   FaceSoup soup_{.face_begins = {0}};
-  std::vector<std::uint32_t> table_;    // open addressing: index of a position, or kNoTextureCorner
+  PositionWelder welder_;
   std::vector<std::uint32_t> colours_;  // of facets, once one has a colour
   std::vector<std::size_t> lines_;      // of facets, where there are lines
   std::uint32_t facet_colour_ = kNoFaceColour;
