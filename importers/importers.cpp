@@ -11,6 +11,7 @@
 
 #include "importers/citygml/citygml.h"
 #include "importers/cityjson/cityjson.h"
+#include "importers/dxf/dxf.h"
 #include "importers/gltf/gltf.h"
 #include "importers/obj/obj.h"
 #include "importers/plausibility.h"
@@ -29,10 +30,12 @@ struct Magic {
   const char* importer;
 };
 // The first bytes after a byte-order mark and white space.
-constexpr std::array kMagics{Magic{"ISO-10303-21", "ifc"}, Magic{"PK\x03\x04", "ifc"}, Magic{"\x1F\x8B", "ifc"},
-                             Magic{"glTF", "gltf"},        Magic{"ply\n", "ply"},      Magic{"ply\r", "ply"},
-                             Magic{"solid ", "stl"},       Magic{"solid\n", "stl"},    Magic{"solid\r", "stl"},
-                             Magic{"mtllib ", "obj"},      Magic{"v ", "obj"}};
+constexpr std::array kMagics{
+    Magic{"ISO-10303-21", "ifc"}, Magic{"PK\x03\x04", "ifc"}, Magic{"\x1F\x8B", "ifc"},
+    Magic{"glTF", "gltf"},        Magic{"ply\n", "ply"},      Magic{"ply\r", "ply"},
+    Magic{"solid ", "stl"},       Magic{"solid\n", "stl"},    Magic{"solid\r", "stl"},
+    Magic{"mtllib ", "obj"},      Magic{"v ", "obj"},         Magic{"0\nSECTION", "dxf"},
+    Magic{"0\r\nSECTION", "dxf"}, Magic{"AC10", "dxf"},       Magic{"AutoCAD Binary DXF", "dxf"}};
 // JSON is told by a word: these stand near the beginning unless somebody has sorted the members.
 constexpr std::array kWordsOfJson{Magic{"\"CityObjects\"", "cityjson"}, Magic{"\"CityJSON", "cityjson"},
                                   Magic{"\"asset\"", "gltf"}};
@@ -81,7 +84,8 @@ const Importer* byExtension(const std::filesystem::path& file) {
 
 std::span<const Importer> importers() {
   static const std::array kImporters{
-      kIfcImporter, kGltfImporter, kCityJsonImporter, kCityGmlImporter, kObjImporter, kPlyImporter, kStlImporter,
+      kIfcImporter, kGltfImporter, kCityJsonImporter, kCityGmlImporter,
+      kObjImporter, kPlyImporter,  kStlImporter,      kDxfImporter,
   };
   return kImporters;
 }
@@ -96,7 +100,7 @@ Result<ImportedModel> importFile(const std::filesystem::path& file, const Import
   if (!importer && head.starts_with('{')) importer = named("gltf");
   if (!importer && hasSizeOfStl(file)) importer = &kStlImporter;
   if (!importer)
-    return failure(ErrorKind::unusable, "unsupported format; use IFC, glTF, CityJSON, CityGML, OBJ, PLY or STL",
+    return failure(ErrorKind::unusable, "unsupported format; use IFC, glTF, CityJSON, CityGML, OBJ, PLY, STL or DXF",
                    file.string());
   auto model = importer->read(file, options, progress);
   if (!model) return model;

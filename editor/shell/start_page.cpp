@@ -79,7 +79,7 @@ void drawBegin(Editor& editor) {
   startButton(editor, "workspace-instrument", ICON_TABLET, "Rehearse on a device", false);
   ui::gap(editor, 6);
   ui::dimWrapped(
-      "Or drop a file here: IFC, glTF, CityJSON, CityGML, OBJ, PLY, STL, a point cloud, or a project folder.");
+      "Or drop a file here: IFC, glTF, CityJSON, CityGML, OBJ, PLY, STL, DXF, a point cloud, or a project folder.");
 }
 
 void drawRecent(Editor& editor) {

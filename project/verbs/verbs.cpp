@@ -43,9 +43,8 @@ Verb withoutModel(Verb verb) {
 const std::vector<Verb>& table() {
   static const std::vector<Verb> verbs = {
       verbOf("import",
-             "Import models (IFC, glTF, CityJSON, CityGML, OBJ, PLY, STL) or point clouds as a new project, or update "
-             "it from a "
-             "changed model",
+             "Import models (IFC, glTF, CityJSON, CityGML, OBJ, PLY, STL, DXF) or point clouds as a new project, or "
+             "update it from a changed model",
              S::creates, importFields(), runImport),
       withoutModel(verbOf("add", "Add models to the environment", S::changes, addFields(), runAdd)),
       verbOf("optimize", "Optimize the model to a triangle budget and measure the deviation", S::changes,
