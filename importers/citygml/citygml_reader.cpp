@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/one_of.h"
+
 namespace standpoint {
 
 namespace {
@@ -15,11 +17,6 @@ constexpr std::size_t kDeepestElement = 100;
 constexpr const char* kAppearances = "appearances";
 constexpr double kLargestCoordinate = 1e13;
 constexpr std::size_t kLongestValue = 4096;
-
-template <std::size_t N>
-bool isOneOf(std::string_view word, const std::array<std::string_view, N>& words) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
 
 bool isCapital(std::string_view name) { return !name.empty() && name[0] >= 'A' && name[0] <= 'Z'; }
 

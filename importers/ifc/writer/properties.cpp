@@ -6,17 +6,13 @@
 #include <set>
 #include <utility>
 
+#include "core/one_of.h"
 #include "core/presentation_layers.h"
 
 namespace standpoint::ifc {
 namespace {
 
 constexpr std::size_t kLongestLabel = 255;
-
-template <std::size_t N>
-bool isOneOf(std::string_view word, const std::array<std::string_view, N>& words) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
 
 std::string typed(std::string_view keyword, const std::string& argument) {
   return std::string(keyword) + "(" + argument + ")";

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/one_of.h"
 #include "importers/ifc/model/units.h"
 
 namespace standpoint::ifc {
@@ -140,11 +141,6 @@ constexpr std::array<Converted, 11> kConverted{
      {"HOUR", 0, 1, "TIMEUNIT", "IFCTIMEMEASURE", 3600, "SECOND"},
      {"DAY", 0, 1, "TIMEUNIT", "IFCTIMEMEASURE", 86400, "SECOND"}}};
 
-template <std::size_t N>
-bool has(const std::array<std::string_view, N>& all, std::string_view word) {
-  return std::find(all.begin(), all.end(), word) != all.end();
-}
-
 std::string_view typeOfSi(std::string_view name) {
   for (const auto& [si, type] : kTypeOfSi)
     if (si == name) return type;
@@ -206,7 +202,7 @@ UnitWriter::UnitWriter(const Environment& environment, StepWriter& out) : out_(o
   symbols["PLANEANGLEUNIT"] = {{"rad", 1}};
   std::vector<Ref> units;
   for (const auto& [type, counts] : symbols) {
-    const bool named = has(kNamedTypes, type) || has(kDerivedTypes, type) || type == "MONETARYUNIT";
+    const bool named = isOneOf(type, kNamedTypes) || isOneOf(type, kDerivedTypes) || type == "MONETARYUNIT";
     if (!named || counts.contains("")) continue;
     const auto most = std::max_element(counts.begin(), counts.end(),
                                        [](const auto& a, const auto& b) { return a.second < b.second; });
@@ -239,7 +235,7 @@ Ref UnitWriter::writeDerived(const std::string& unit_type, std::string_view symb
     const Ref unit = writeSi(std::string(typeOfSi(f.unit.name)), f.unit.prefix, f.unit.name);
     elements.push_back(out_.shared(StepRecord("IFCDERIVEDUNITELEMENT").ref(unit).integer(f.exponent)));
   }
-  const bool known = has(kDerivedTypes, unit_type);
+  const bool known = isOneOf(unit_type, kDerivedTypes);
   return out_.shared(StepRecord("IFCDERIVEDUNIT")
                          .refs(elements)
                          .symbol(known ? unit_type : "USERDEFINED")
@@ -248,7 +244,7 @@ Ref UnitWriter::writeDerived(const std::string& unit_type, std::string_view symb
 
 Ref UnitWriter::write(const std::string& unit_type, const std::string& symbol) {
   if (unit_type == "MONETARYUNIT") return out_.shared(StepRecord("IFCMONETARYUNIT").text(symbol));
-  if (has(kDerivedTypes, unit_type) || unit_type.empty())
+  if (isOneOf(unit_type, kDerivedTypes) || unit_type.empty())
     if (const Ref derived = writeDerived(unit_type.empty() ? "" : unit_type, symbol)) return derived;
   if (const auto si = siUnitOf(symbol)) return writeSi(std::string(typeOfSi(si->name)), si->prefix, si->name);
   for (const Converted& c : kConverted) {
@@ -264,7 +260,7 @@ Ref UnitWriter::write(const std::string& unit_type, const std::string& symbol) {
   const Ref dimensions = out_.shared(StepRecord("IFCDIMENSIONALEXPONENTS").raw("0,0,0,0,0,0,0"));
   return out_.shared(StepRecord("IFCCONTEXTDEPENDENTUNIT")
                          .ref(dimensions)
-                         .symbol(has(kNamedTypes, unit_type) ? unit_type : "USERDEFINED")
+                         .symbol(isOneOf(unit_type, kNamedTypes) ? unit_type : "USERDEFINED")
                          .text(symbol));
 }
 
