@@ -75,25 +75,15 @@ CityJsonTexture CityJsonAppearance::textureOf(const Json& rings) {
   if (!image.is_string()) return {};
   const auto index = rings[0][0].get<std::size_t>();
   const auto [known, is_new] = image_of_.try_emplace(index, -1);
-  if (is_new) {
-    const std::string name = image.get<std::string>(), place = "/appearance/textures/" + std::to_string(index);
-    const auto found = folder_.find(name, folder_.root());
-    const auto added = found ? images_.add(found->file) : Result<std::int32_t>(failure(found.error()));
-    if (added)
-      known->second = *added;
-    else
-      report_.lose(place,
-                   "colour texture '" + name + "' " + added.error().message + "; using the diffuse colour instead");
-  }
+  if (is_new)
+    known->second = images_.add(image.get<std::string>(), "/appearance/textures/" + std::to_string(index));
   return known->second < 0 ? CityJsonTexture() : CityJsonTexture{&rings, known->second};
 }
 
-// The file's (0, 0) is the lower left corner.
 std::optional<Eigen::Vector2f> CityJsonAppearance::coordinate(const Json& index) const {
   const auto& uv = elementOf(cityMember(appearance_, "vertices-texture"), index);
   if (!uv.is_array() || uv.size() != 2 || !uv[0].is_number() || !uv[1].is_number()) return std::nullopt;
-  const Eigen::Vector2f upper_left(uv[0].get<float>(), 1 - uv[1].get<float>());
-  return upper_left.allFinite() ? std::optional(upper_left) : std::nullopt;
+  return cityTextureCoordinate(uv[0].get<double>(), uv[1].get<double>());
 }
 
 }  // namespace standpoint

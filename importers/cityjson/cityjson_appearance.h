@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/report.h"
+#include "importers/city/city_images.h"
 #include "importers/city/city_model.h"
-#include "importers/files/model_folder.h"
 
 namespace standpoint {
 
@@ -26,7 +26,7 @@ struct CityJsonTexture {
 class CityJsonAppearance {
  public:
   CityJsonAppearance(const std::filesystem::path& file, CityModel& model, Report& report)
-      : folder_(file), model_(model), report_(report) {}
+      : model_(model), images_(file, report) {}
 
   void begin(const nlohmann::json& appearance);
   // The values of the theme within a geometry's "material" or "texture"; null where there are none.
@@ -40,10 +40,8 @@ class CityJsonAppearance {
   void finish() { model_.images = std::move(images_).images(); }
 
  private:
-  ModelFolder folder_;
   CityModel& model_;
-  Report& report_;
-  ImageFiles images_;
+  CityImages images_;
   nlohmann::json appearance_;
   std::vector<std::uint32_t> surfaces_;           // of the materials
   std::map<std::size_t, std::int32_t> image_of_;  // texture → image, −1 where there is none
