@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <unordered_map>
 
 #include "importers/city/city_classes.h"
 #include "importers/soup/obj_polygon.h"
@@ -58,15 +59,52 @@ std::size_t CityModel::beginPolygon(Levelled of, std::uint32_t surface) {
   return polygons_.size() - 1;
 }
 
-void CityModel::give(std::size_t polygon, std::uint32_t thing, std::uint32_t surface) {
-  polygons_[polygon].thing = thing;
-  polygons_[polygon].surface = surface;
-}
-
 void CityModel::texture(const Eigen::Vector2f& upper_left) {
   texture_corners_.resize(corners_.size(), kNoTextureCorner);
   texture_corners_.back() = static_cast<std::uint32_t>(texture_coordinates_.size());
   texture_coordinates_.push_back(upper_left);
+}
+
+bool CityModel::texture(std::size_t polygon, std::size_t ring_of_polygon, std::span<const Eigen::Vector2f> upper_left) {
+  const std::size_t index = polygons_[polygon].first_ring + ring_of_polygon, length = ring(index).size();
+  if (upper_left.size() < length) return false;
+  texture_corners_.resize(corners_.size(), kNoTextureCorner);
+  for (std::size_t i = 0; i < length; ++i) {
+    texture_corners_[ring_begins_[index] + i] = static_cast<std::uint32_t>(texture_coordinates_.size());
+    texture_coordinates_.push_back(upper_left[i]);
+  }
+  return true;
+}
+
+Result<void> CityModel::place(std::size_t first, std::size_t end, Levelled of, const CityPlacement& placement) {
+  const auto refused = [&](const char* why) {
+    return failure(ErrorKind::unusable, why, file_ + " " + placement.place);
+  };
+  const bool mirrored = placement.world_from_template.leftCols<3>().determinant() < 0;
+  std::unordered_map<std::uint32_t, std::uint32_t> placed;  // position of the template → of this one
+  for (std::size_t polygon = first; polygon < end; ++polygon) {
+    const std::size_t rings_end = ringsEnd(polygon);
+    beginPolygon(of, polygons_[polygon].surface);
+    for (std::size_t r = polygons_[polygon].first_ring; r < rings_end; ++r) {
+      const std::size_t begin = ring_begins_[r], length = ring(r).size();
+      if ((placed_corners_ += length) > kMostPlacedCityCorners)
+        return refused("exceeds the limit of 20 000 000 placed corners");
+      beginRing();
+      for (std::size_t i = 0; i < length; ++i) {
+        const std::size_t c = begin + (mirrored ? length - 1 - i : i);
+        const auto [known, is_new] = placed.try_emplace(corners_[c], static_cast<std::uint32_t>(positions.size()));
+        if (is_new) positions.push_back(placement.world_from_template * positions[corners_[c]].homogeneous());
+        if (!(positions[known->second].cwiseAbs().maxCoeff() <= kLargestCityCoordinate))
+          return refused("a coordinate is not a finite number below 1e13");
+        corner(known->second);
+        if (c >= texture_corners_.size() || texture_corners_[c] == kNoTextureCorner) continue;
+        const std::uint32_t coordinate = texture_corners_[c];
+        texture_corners_.resize(corners_.size(), kNoTextureCorner);
+        texture_corners_.back() = coordinate;
+      }
+    }
+  }
+  return {};
 }
 
 std::span<const std::uint32_t> CityModel::ring(std::size_t index) const {
@@ -109,7 +147,8 @@ std::vector<bool> CityModel::chosenPolygons(Report& report) const {
   std::vector<std::uint32_t> owner_of(things_.size());
   for (std::uint32_t i = 0; i < things_.size(); ++i) owner_of[i] = ownerOf(i);
   std::vector<std::int16_t> highest(things_.size(), kNoLevel), of_parts(things_.size(), kNoLevel);
-  for (const auto& p : polygons_) highest[owner_of[p.thing]] = std::max(highest[owner_of[p.thing]], p.level);
+  for (const auto& p : polygons_)
+    if (p.thing != kCityTemplate) highest[owner_of[p.thing]] = std::max(highest[owner_of[p.thing]], p.level);
   for (std::uint32_t i = 0; i < things_.size(); ++i)
     for (auto at = i; isPart(things_[at].type) && things_[at].parent != kNoCityThing;) {
       at = static_cast<std::uint32_t>(things_[at].parent);
@@ -119,6 +158,7 @@ std::vector<bool> CityModel::chosenPolygons(Report& report) const {
   std::vector<bool> chosen(polygons_.size());
   std::size_t left_out = 0, first = 0;
   for (std::size_t i = 0; i < polygons_.size(); ++i) {
+    if (polygons_[i].thing == kCityTemplate) continue;
     const auto owner = owner_of[polygons_[i].thing];
     chosen[i] = polygons_[i].level == highest[owner] && highest[owner] >= of_parts[owner];
     if (!chosen[i] && left_out++ == 0) first = i;

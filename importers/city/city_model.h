@@ -16,6 +16,9 @@
 namespace standpoint {
 
 constexpr std::int32_t kNoCityThing = -1;
+constexpr std::uint32_t kCityTemplate = 0xFFFFFFFFU;  // the thing of polygons that are there only where they are placed
+constexpr double kLargestCityCoordinate = 1e13;
+constexpr std::size_t kMostPlacedCityCorners = 20'000'000;  // of all templates of a file
 
 // A city object ("Building"), or a thematic surface of one ("WallSurface", "Window").
 struct CityThing {
@@ -26,6 +29,12 @@ struct CityThing {
   bool thematic = false;               // a surface: its level of detail is chosen with that of its parent
   std::vector<Property> properties;
   std::vector<std::string> groups;
+};
+
+// Where a template stands.
+struct CityPlacement {
+  Eigen::Matrix<double, 3, 4> world_from_template;  // may mirror: corners then go round the other way
+  std::string place;                                // for errors
 };
 
 // What CityJSON and CityGML come down to: things in a tree, and their polygons with holes in one or more levels of
@@ -50,12 +59,19 @@ class CityModel {
   };
   std::size_t beginPolygon(Levelled of, std::uint32_t surface);  // answers its number
   std::uint32_t thingOf(std::size_t polygon) const { return polygons_[polygon].thing; }
-  void give(std::size_t polygon, std::uint32_t thing, std::uint32_t surface);
+  std::size_t polygons() const { return polygons_.size(); }
+  void give(std::size_t polygon, std::uint32_t thing) { polygons_[polygon].thing = thing; }
+  void paint(std::size_t polygon, std::uint32_t surface) { polygons_[polygon].surface = surface; }
   void beginRing() { ring_begins_.push_back(corners_.size()); }
   void corner(std::uint32_t position) { corners_.push_back(position); }
   void texture(const Eigen::Vector2f& upper_left);  // of the corner before; all or none of a polygon
+  // Of a ring that is there: false where there are fewer coordinates than corners.
+  bool texture(std::size_t polygon, std::size_t ring_of_polygon, std::span<const Eigen::Vector2f> upper_left);
+  // The polygons from `first` to `end` once more, behind the others in the same order, with their textures. Refused
+  // beyond kMostPlacedCityCorners in all, and where a coordinate is not below kLargestCityCoordinate.
+  Result<void> place(std::size_t first, std::size_t end, Levelled of, const CityPlacement& placement);
 
-  // The file's frame and unit, Z up, finite and below 1e13.
+  // The file's frame and unit, Z up, finite and below kLargestCityCoordinate.
   std::vector<Eigen::Vector3d> positions;
   std::vector<std::shared_ptr<const Image>> images;
   CityFrame frame;
@@ -92,6 +108,7 @@ class CityModel {
   std::vector<std::uint32_t> corners_;
   std::vector<std::uint32_t> texture_corners_;  // empty, or up to the last corner that has one
   std::vector<Eigen::Vector2f> texture_coordinates_;
+  std::size_t placed_corners_ = 0;
 };
 
 // "2.2" → 22, "3" → 30; 0 for what is no level of detail.

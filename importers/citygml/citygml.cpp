@@ -81,10 +81,11 @@ Result<ImportedModel> readCityGml(const std::filesystem::path& path, const Impor
   try {
     TRY_ASSIGN(const auto bytes, FileBytes::open(path));
     CityModel model(file, path.stem().string());
-    CityGmlReader reader(file, model);
-    TRY(parse(bytes, file, reader, progress));
     Report report;
-    reader.finish(report);
+    CityGmlAppearance appearance(path, model, report);
+    CityGmlReader reader(file, model, appearance);
+    TRY(parse(bytes, file, reader, progress));
+    TRY(reader.finish(report));
     return std::move(model).finish(options, std::move(report), progress);
   } catch (const std::bad_alloc&) {
     return failure(ErrorKind::unusable, "not enough memory", file);

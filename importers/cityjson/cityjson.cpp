@@ -20,7 +20,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::uint64_t kMaxBytes = std::uint64_t{2} << 30U;
-constexpr double kLargest = 1e13;
 
 std::string textMember(const Json& object, const char* key) {
   const auto& value = cityMember(object, key);
@@ -117,7 +116,7 @@ class CityJsonImport {
       return failure(ErrorKind::unusable, "has more than 4 294 967 294 vertices", file_ + " /vertices");
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const Eigen::Vector3d v = vertices[i].cwiseProduct(scale_) + translate_;
-      if (!(v.cwiseAbs().maxCoeff() <= kLargest))
+      if (!(v.cwiseAbs().maxCoeff() <= kLargestCityCoordinate))
         return failure(ErrorKind::unusable, "a coordinate is not a finite number below 1e13",
                        file_ + " /vertices/" + std::to_string(i));
       model_.positions.push_back(v);

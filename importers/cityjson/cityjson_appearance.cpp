@@ -75,8 +75,7 @@ CityJsonTexture CityJsonAppearance::textureOf(const Json& rings) {
   if (!image.is_string()) return {};
   const auto index = rings[0][0].get<std::size_t>();
   const auto [known, is_new] = image_of_.try_emplace(index, -1);
-  if (is_new)
-    known->second = images_.add(image.get<std::string>(), "/appearance/textures/" + std::to_string(index));
+  if (is_new) known->second = images_.add(image.get<std::string>(), "/appearance/textures/" + std::to_string(index));
   return known->second < 0 ? CityJsonTexture() : CityJsonTexture{&rings, known->second};
 }
 

@@ -14,8 +14,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::uint32_t kNotPlaced = 0xFFFFFFFFU;
-constexpr double kLargestPlaced = 1e13;
-constexpr std::size_t kMostPlacedCorners = 20'000'000;
 constexpr std::size_t kLongestProperty = 10'000;
 
 const Json kNull;
@@ -126,7 +124,7 @@ void CityJsonGeometry::surface(const Json& rings, const Json& semantics, const J
 
 bool CityJsonGeometry::ring(const Json& corners, const CityJsonTexture& texture, std::size_t index) {
   if (!corners.is_array()) return fail("the boundaries are not nested as the geometry's type requires");
-  if (now_.placed && (placed_corners_ += corners.size()) > kMostPlacedCorners)
+  if (now_.placed && (placed_corners_ += corners.size()) > kMostPlacedCityCorners)
     return fail("exceeds the limit of 20 000 000 placed corners");
   const auto& uvs = texture.rings != nullptr ? valueAt(*texture.rings, index) : kNull;
   model_.beginRing();
@@ -154,7 +152,7 @@ std::optional<std::uint32_t> CityJsonGeometry::positionOf(const Json& index) {
   if (!now_.placed) return first_vertex_ + vertex;
   if (placed_[vertex] != kNotPlaced) return placed_[vertex];
   const Eigen::Vector3d at = world_from_template_ * template_vertices_[vertex].homogeneous();
-  if (!(at.cwiseAbs().maxCoeff() <= kLargestPlaced)) {
+  if (!(at.cwiseAbs().maxCoeff() <= kLargestCityCoordinate)) {
     fail("a coordinate is not a finite number below 1e13");
     return std::nullopt;
   }
