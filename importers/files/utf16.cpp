@@ -3,22 +3,13 @@
 
 #include <string_view>
 
+#include "importers/files/utf8.h"
+
 namespace standpoint {
 
 namespace {
 
 constexpr std::uint64_t kMaxBytes = 1U << 30U;
-
-void append(std::string& text, std::uint32_t c) {
-  if (c < 0x80) {
-    text += static_cast<char>(c);
-    return;
-  }
-  const unsigned more = c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;  // bytes after the first
-  const unsigned lead = more == 1 ? 0xC0 : more == 2 ? 0xE0 : 0xF0;
-  text += static_cast<char>(lead | c >> 6U * more);
-  for (unsigned i = more; i-- > 0;) text += static_cast<char>(0x80U | (c >> 6U * i & 0x3FU));
-}
 
 }  // namespace
 
@@ -41,9 +32,9 @@ Result<std::string> utf8FromUtf16(const FileBytes& bytes) {
     const std::uint32_t c = unit(i);
     const bool high = c >= 0xD800 && c < 0xDC00, low = c >= 0xDC00 && c < 0xE000;
     if (!high && !low) {
-      append(text, c);
+      appendUtf8(text, c);
     } else if (high && i + 3 < all.size() && unit(i + 2) >= 0xDC00 && unit(i + 2) < 0xE000) {
-      append(text, 0x10000 + ((c - 0xD800) << 10U) + (unit(i + 2) - 0xDC00));
+      appendUtf8(text, 0x10000 + ((c - 0xD800) << 10U) + (unit(i + 2) - 0xDC00));
       i += 2;
     } else {
       text += '?';

@@ -94,6 +94,8 @@ TEST(IfcText, KeepsEveryCharacterOfAName) {
   EXPECT_EQ(ifc::stepText("Wände 'a' \\ 𝄞\n"),
             "'W\\X2\\00E4\\X0\\nde ''a'' \\\\ \\X4\\0001D11E\\X0\\\\X2\\000A\\X0\\'");
   EXPECT_EQ(ifc::stepText("\xC3"), "'\\X2\\FFFD\\X0\\'");
+  EXPECT_EQ(ifc::stepText("\xED\xA0\x80"), "'\\X2\\FFFDFFFDFFFD\\X0\\'");  // half of a pair
+  EXPECT_EQ(ifc::stepText("\xC0\xAF"), "'\\X2\\FFFDFFFD\\X0\\'");          // longer than it has to be
 }
 
 TEST(IfcText, GivesRealsTheirPoint) {

@@ -7,34 +7,12 @@
 
 #include <fmt/format.h>
 
+#include "importers/files/utf8.h"
+
 namespace standpoint::ifc {
 namespace {
 
 constexpr std::size_t kBlock = std::size_t{1} << 20U;
-constexpr std::uint32_t kReplacement = 0xFFFD;
-
-// The code point that begins at `at`, which is moved behind it; kReplacement where the bytes are not UTF-8.
-std::uint32_t nextCode(std::string_view s, std::size_t& at) {
-  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(s[i]); };
-  const std::uint8_t lead = byte(at++);
-  if (lead < 0x80) return lead;
-  const int more = lead >= 0xF0 && lead < 0xF5   ? 3
-                   : lead >= 0xE0 && lead < 0xF0 ? 2
-                   : lead >= 0xC2 && lead < 0xE0 ? 1
-                                                 : 0;
-  if (more == 0 || at + static_cast<std::size_t>(more) > s.size()) return kReplacement;
-  std::uint32_t code = lead & (0x3FU >> more);
-  for (int i = 0; i < more; ++i) {
-    if ((byte(at + static_cast<std::size_t>(i)) & 0xC0U) != 0x80) return kReplacement;
-    code = code << 6U | (byte(at + static_cast<std::size_t>(i)) & 0x3FU);
-  }
-  at += static_cast<std::size_t>(more);
-  constexpr std::array<std::uint32_t, 4> kLeast{0, 0x80, 0x800, 0x10000};
-  const bool valid =
-      code >= kLeast[static_cast<std::size_t>(more)] && code <= 0x10FFFF && (code < 0xD800 || code >= 0xE000);
-  return valid ? code : kReplacement;
-}
-
 template <class T>
 std::string realText(T number) {
   if (!std::isfinite(number)) return "0.";
@@ -49,7 +27,8 @@ std::string stepText(std::string_view utf8) {
   std::string text = "'";
   int digits = 0;  // of each character of the run that is open
   for (std::size_t at = 0; at < utf8.size();) {
-    const std::uint32_t code = nextCode(utf8, at);
+    const auto [code, bytes] = utf8At(utf8, at).value_or(Utf8Character{kReplacementCharacter, 1});
+    at += bytes;
     const int needed = code >= 0x20 && code < 0x7F ? 0 : code < 0x10000 ? 4 : 8;
     if (needed != digits) {
       if (digits > 0) text += "\\X0\\";
