@@ -13,6 +13,7 @@
 #include "importers/ifc/writer/georeference.h"
 #include "importers/ifc/writer/global_ids.h"
 #include "importers/ifc/writer/step_writer.h"
+#include "importers/ifc/writer/units.h"
 #include "tests/importers/ifc_fixture.h"
 
 namespace standpoint::test {
@@ -105,6 +106,17 @@ TEST(IfcText, GivesRealsTheirPoint) {
   EXPECT_EQ(ifc::stepReal(-2.5e30), "-2.5E+30");
   EXPECT_EQ(ifc::stepReal(0.1F), "0.1");
   EXPECT_EQ(ifc::stepReal(std::nan("")), "0.");
+}
+
+TEST(IfcText, ReadsLengthsInAnyUnitOfTheFile) {
+  EXPECT_EQ(ifc::metresOf("2700 mm"), 2.7);
+  EXPECT_EQ(ifc::metresOf("9 FOOT"), 9 * 0.3048);
+  EXPECT_EQ(ifc::metresOf("2 INCH"), 0.0508);
+  EXPECT_EQ(ifc::metresOf("-1.5 km"), -1500);
+  EXPECT_EQ(ifc::metresOf("2.5"), 2.5);
+  EXPECT_FALSE(ifc::metresOf("2 m²"));
+  EXPECT_FALSE(ifc::metresOf("3 kg"));
+  EXPECT_FALSE(ifc::metresOf("tall"));
 }
 
 TEST(IfcText, CountsAnglesOfASiteInMillionthsOfASecond) {

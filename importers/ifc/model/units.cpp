@@ -150,10 +150,11 @@ std::string unitTypeOf(std::string_view measure) {
 
 std::optional<SiUnitName> siUnitOf(std::string_view symbol) {
   for (const SiUnit& unit : kSiUnits)
-    if (symbol == unit.symbol) return SiUnitName{{}, unit.name};
+    if (symbol == unit.symbol) return SiUnitName{{}, unit.name, 1};
   for (const SiUnit& unit : kSiUnits)
     for (const Prefix& prefix : kPrefixes)
-      if (symbol == std::string(prefix.symbol) + unit.symbol) return SiUnitName{prefix.name, unit.name};
+      if (symbol == std::string(prefix.symbol) + unit.symbol)
+        return SiUnitName{prefix.name, unit.name, std::pow(prefix.factor, unit.power)};
   return {};
 }
 

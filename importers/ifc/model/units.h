@@ -27,10 +27,11 @@ std::string unitSymbol(const Entity& unit);
 // "LENGTHUNIT" of "IFCPOSITIVELENGTHMEASURE", "AREAUNIT" of "IFCQUANTITYAREA"; empty for what is not measured.
 std::string unitTypeOf(std::string_view measure);
 
-// An SI unit by its symbol: MILLI and METRE of "mm".
+// An SI unit by its symbol: MILLI, METRE and 0.001 of "mm".
 struct SiUnitName {
   std::string_view prefix;  // empty: none
   std::string_view name;
+  double factor = 1;
 };
 std::optional<SiUnitName> siUnitOf(std::string_view symbol);
 

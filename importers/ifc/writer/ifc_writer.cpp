@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -28,19 +27,6 @@ namespace ifc {
 namespace {
 
 using Names = std::vector<std::string_view>;
-
-// Metres of "2700 mm" or "9 FOOT"; nothing of what is no length.
-std::optional<double> lengthOf(const std::string& text) {
-  const auto [number, unit] = quantityOf(text);
-  double value = 0;
-  if (number.empty() || std::from_chars(number.data(), number.data() + number.size(), value).ec != std::errc())
-    return {};
-  constexpr std::array<std::pair<std::string_view, double>, 7> kLengths{
-      {{"", 1}, {"m", 1}, {"mm", 0.001}, {"cm", 0.01}, {"dm", 0.1}, {"FOOT", 0.3048}, {"INCH", 0.0254}}};
-  for (const auto& [symbol, metres] : kLengths)
-    if (unit == symbol) return value * metres;
-  return {};
-}
 
 std::string upper(std::string_view text) {
   std::string all(text);
@@ -239,7 +225,7 @@ std::string Writer::attribute(std::string_view name, const SortedProperties& pro
     if (name == "RefElevation") return stepReal(georeference_.site->elevation_m);
   }
   if (name == "OverallHeight" || name == "OverallWidth" || name == "Elevation") {
-    const auto length = lengthOf(value);
+    const auto length = metresOf(value);
     return length ? stepReal(*length) : "$";
   }
   if ((name == "Tag" || name == "LongName") && !value.empty()) return stepText(value);

@@ -189,6 +189,18 @@ Quantity quantityOf(std::string_view text) {
   return {std::string(text.substr(0, size)), size < text.size() ? std::string(text.substr(size + 1)) : std::string()};
 }
 
+std::optional<double> metresOf(std::string_view text) {
+  const auto [number, unit] = quantityOf(text);
+  double value = 0;
+  if (number.empty() || std::from_chars(number.data(), number.data() + number.size(), value).ec != std::errc())
+    return {};
+  if (unit.empty()) return value;
+  if (const auto si = siUnitOf(unit)) return si->name == "METRE" ? std::optional(value * si->factor) : std::nullopt;
+  for (const Converted& c : kConverted)
+    if (unit == c.name && c.si == "METRE") return value * c.factor;
+  return {};
+}
+
 UnitWriter::UnitWriter(const Environment& environment, StepWriter& out) : out_(out) {
   std::map<std::string, std::map<std::string, std::size_t>> symbols;
   const auto look = [&](const std::vector<Property>& properties) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -16,6 +17,8 @@ struct Quantity {
   std::string unit;    // symbol; empty: none
 };
 Quantity quantityOf(std::string_view text);
+// Metres of "2700 mm", "9 FOOT" or "2.7"; nothing of what is no length.
+std::optional<double> metresOf(std::string_view text);
 
 // The units of the file: metre and radian, and for each other kind of measure the one that most properties have, unless
 // some have none. Other units stand with the property itself.
