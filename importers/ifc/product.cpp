@@ -35,11 +35,10 @@ std::string statedType(const Entity& e) {
   const EntityName* name = entityName(e.typeName());
   if (!name || name->predefined_type < 0) return {};
   const std::string type(e[static_cast<std::size_t>(name->predefined_type)].symbol());
-  // In IFC2X3 the place of a proxy's or storey's type holds its composition.
-  return type == "ELEMENT" || type == "COMPLEX" || type == "PARTIAL" || type == "INTERNAL" || type == "EXTERNAL" ||
-                 type == "T" || type == "F"
-             ? std::string()
-             : type;
+  // In IFC2X3 the place of a proxy's or storey's type holds its composition; that of a room's holds INTERNAL or
+  // EXTERNAL, which IFC4 made types.
+  return type == "ELEMENT" || type == "COMPLEX" || type == "PARTIAL" || type == "T" || type == "F" ? std::string()
+                                                                                                   : type;
 }
 
 // The occurrence's, else its type's; the user's own word (ObjectType, ElementType) where it is USERDEFINED.

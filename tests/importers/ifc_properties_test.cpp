@@ -123,8 +123,9 @@ TEST(IfcProperties, APlaceHasItsPropertiesToo) {
               "#120=IFCQUANTITYAREA('NetFloorArea',$,$,12.5,$);\n#121=IFCELEMENTQUANTITY('q',$,'Qto_"
               "SpaceBaseQuantities',$,$,(#120));\n#122=IFCRELDEFINESBYPROPERTIES('r',$,$,$,(#110),#121);\n"));
   ASSERT_EQ(model.environment.spatial.size(), 4U);
-  EXPECT_EQ(text(model.environment.spatial[3].properties),
-            "Attributes.LongName=Kitchen\nQto_SpaceBaseQuantities.NetFloorArea=12.5\n");
+  EXPECT_EQ(
+      text(model.environment.spatial[3].properties),
+      "Attributes.PredefinedType=INTERNAL\nAttributes.LongName=Kitchen\nQto_SpaceBaseQuantities.NetFloorArea=12.5\n");
   EXPECT_EQ(text(model.environment.spatial[2].properties), "Attributes.Elevation=2.5 m\n");
 }
 
