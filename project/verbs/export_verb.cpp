@@ -178,7 +178,8 @@ Result<void> exportIfc(const Document& document, Environment& all, const fs::pat
                        Answered<ExportAnswer>& outcome, Progress& progress) {
   const std::array environments = {&all};
   const auto physical = physicalSurfaces(document, environments, LooksOfSplit::kept);
-  TRY_ASSIGN(const auto summary, writeIfc(all, physical, *document.georeference, file,
+  const fs::path named = document.sources.empty() ? file : fs::path(document.sources.front());
+  TRY_ASSIGN(const auto summary, writeIfc(all, physical, *document.georeference, file, named.stem().string(),
                                           fmt::format("Standpoint {}", programVersion()), outcome.report, progress));
   outcome.answer.triangles = summary.triangles;
   outcome.answer.schema = summary.schema;

@@ -35,7 +35,8 @@ Written written(const Environment& environment, const Georeference& georeference
   Written result;
   const TemporaryFile file("");
   Progress progress;
-  const auto done = writeIfc(environment, physical, georeference, file.path(), "Standpoint 1", result.report, progress);
+  const auto done =
+      writeIfc(environment, physical, georeference, file.path(), "Model", "Standpoint 1", result.report, progress);
   EXPECT_TRUE(done) << describe(done.error());
   if (!done) return result;
   result.summary = *done;
@@ -269,6 +270,20 @@ TEST(IfcWriter, MakesStoreysOfTheNamesThatProductsOfOtherFormatsHave) {
   EXPECT_EQ(comeBack(w.again, "Wedge 1").storey, "Upper");
   EXPECT_EQ(comeBack(w.again, "Wedge 1").ifc_class, "IfcBuildingElementProxy");
   EXPECT_TRUE(ifc::isGlobalId(comeBack(w.again, "Wedge 0").global_id));
+}
+
+// Cities and fragments have places, but no project above them.
+TEST(IfcWriter, NamesAProjectThatTheModelDoesNotHave) {
+  Environment e = wedges({Eigen::Affine3d::Identity()});
+  e.spatial = {{"/", "IfcSite", "Quarter", "", -1, 0, {}}};
+  e.products[0].container = 0;
+  const Written w = written(e);
+  ASSERT_EQ(w.again.environment.spatial.size(), 2U);
+  EXPECT_EQ(w.again.environment.spatial[0].ifc_class, "IfcProject");
+  EXPECT_EQ(w.again.environment.spatial[0].name, "Model");
+  EXPECT_EQ(w.again.environment.spatial[1].name, "Quarter");
+  const ImportedModel own = importText(ifcText(fullText()));
+  EXPECT_EQ(written(own.environment).again.environment.spatial[0].name, own.environment.spatial[0].name);
 }
 
 TEST(IfcWriter, WritesASharedMeshOnceAndAMirroredOneOnceMore) {

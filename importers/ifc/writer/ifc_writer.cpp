@@ -58,6 +58,7 @@ bool contains(const Names& names, std::string_view name) {
 
 // The spatial structure: the model's own, or a site with a building and the storeys that products name.
 struct Structure {
+  std::string name;  // of the project where the nodes have none
   std::vector<SpatialNode> made;
   std::span<const SpatialNode> nodes;
   std::vector<std::int32_t> container;  // of each product; -1: none
@@ -65,6 +66,7 @@ struct Structure {
 
 Structure structureOf(const Environment& environment, const std::string& name) {
   Structure s;
+  s.name = name;
   s.nodes = environment.spatial;
   for (const Product& p : environment.products) s.container.push_back(p.container);
   if (!environment.spatial.empty()) return s;
@@ -113,7 +115,7 @@ class Writer {
   std::string projectKey() const {
     for (const SpatialNode& node : structure_.nodes)
       if (node.ifc_class == "IfcProject") return node.global_id + node.name;
-    return {};
+    return structure_.name;
   }
   bool isIncluded(const Product& p) const { return !p.excluded && (p.tangible || p.ifc_class == "IfcSpace"); }
   std::span<const Instance> instancesOf(std::size_t product) const {
@@ -200,7 +202,7 @@ void Writer::writeProject() {
   project_ = out_.add(StepRecord("IFCPROJECT")
                           .text(ids_.keep(node == nullptr ? std::string() : node->global_id, "project"))
                           .none()
-                          .text(node == nullptr ? std::string() : node->name)
+                          .text(node == nullptr ? structure_.name : node->name)
                           .text(value("Description"))
                           .text(value("ObjectType"))
                           .text(value("LongName"))
@@ -484,14 +486,13 @@ Schema schemaFor(const Environment& environment, const Georeference& georeferenc
 
 Result<IfcSummary> writeIfc(const Environment& environment, const std::vector<const PhysicalMaterial*>& physical,
                             const Georeference& georeference, const std::filesystem::path& file,
-                            const std::string& program, Report& report, Progress& progress) {
+                            const std::string& name, const std::string& program, Report& report, Progress& progress) {
   progress.stage("Writing IFC");
   if (auto wrong = validate(environment); !wrong.empty()) return failure(ErrorKind::internal, wrong, file.string());
   const ifc::Schema schema = ifc::schemaFor(environment, georeference);
   TRY_ASSIGN(auto out, ifc::StepWriter::create(file));
   out.header("ViewDefinition [notYetAssigned]", schema == ifc::Schema::ifc4 ? "IFC4" : "IFC4X3_ADD2", program);
-  ifc::Writer writer(environment, physical, georeference, ifc::structureOf(environment, file.stem().string()), schema,
-                     out, report);
+  ifc::Writer writer(environment, physical, georeference, ifc::structureOf(environment, name), schema, out, report);
   TRY_ASSIGN(const auto summary, writer.write(progress));
   TRY(out.commit());
   return summary;

@@ -26,9 +26,9 @@ struct IfcSummary {
 // where nothing is assigned. A model without a spatial structure (glTF, OBJ) gets a site and a building, and its
 // storeys by name. What is left out (openings, grids, annotations, what the author excluded, images, colours of
 // vertices) and what was changed (classes that the schema no longer has, GlobalIds that are not valid or there twice)
-// is told. `program`: "Standpoint 0.9.0".
+// is told. `name`: of the project where the model has none; `program`: "Standpoint 0.9.0".
 Result<IfcSummary> writeIfc(const Environment& environment, const std::vector<const PhysicalMaterial*>& physical,
                             const Georeference& georeference, const std::filesystem::path& file,
-                            const std::string& program, Report& report, Progress& progress);
+                            const std::string& name, const std::string& program, Report& report, Progress& progress);
 
 }  // namespace standpoint
