@@ -48,6 +48,7 @@ foreach(file ${data_files})
 endforeach()
 install(DIRECTORY ${built_data}/editor/words/ DESTINATION ${data}/editor/words FILES_MATCHING PATTERN "*.mo")
 install(FILES ${CMAKE_BINARY_DIR}/samples/house.ifc ${CMAKE_BINARY_DIR}/samples/street.ifc
+  ${CMAKE_BINARY_DIR}/samples/corridor.ifc ${CMAKE_BINARY_DIR}/samples/turbine.ifc
   DESTINATION ${data}/samples)
 install(FILES ${sample_pictures} DESTINATION ${data}/sample-pictures)
 

@@ -31,6 +31,7 @@ constexpr Paint kBark{"Bark", {0.36, 0.26, 0.18}};
 constexpr Paint kFoliage{"Foliage", {0.20, 0.42, 0.15}};
 constexpr Paint kRubber{"Rubber", {0.08, 0.08, 0.08}};
 constexpr Paint kCarPaint{"Car paint", {0.55, 0.08, 0.10}};
+constexpr Paint kCoat{"White paint", {0.93, 0.94, 0.95}};
 }  // namespace paint
 
 // An opening in a wall, measured along the wall's own x from its origin and up from the storey.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// standpoint-samples OUTDIR: writes house.ifc, street.ifc and ornament.glb, the same bytes every time.
+// standpoint-samples OUTDIR: writes the samples, the same bytes every time.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
   std::filesystem::create_directories(folder, code);
   using namespace standpoint::samples;
   const bool ok = write(folder / "house.ifc", houseIfc()) && write(folder / "street.ifc", streetIfc()) &&
+                  write(folder / "corridor.ifc", corridorIfc()) && write(folder / "turbine.ifc", turbineIfc()) &&
                   write(folder / "ornament.glb", ornamentGlb());
   return ok ? 0 : 4;
 }

@@ -10,6 +10,8 @@ namespace standpoint::samples {
 // Whole files.
 std::string houseIfc();
 std::string streetIfc();
+std::string corridorIfc();
+std::string turbineIfc();
 std::string ornamentGlb();
 
 // The furnished house, 10 m by 8 m, front door to −y; ground floor at z = 0, terrain 0.15 m below.

@@ -37,7 +37,7 @@ __all__ = ["Answer", "Cancelled", "Cloud", "Error", "FileSystemError", "Internal
 
 
 def samples_folder() -> Path:
-    """Where the sample models are: house.ifc, street.ifc."""
+    """Where the sample models are: house.ifc, street.ifc, corridor.ifc, turbine.ifc."""
     return Path(_native.samples_folder())
 
 
