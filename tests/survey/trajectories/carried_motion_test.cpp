@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "survey/trajectories/carried_motion.h"
+
+#include <gtest/gtest.h>
+
+#include "core/data_folder.h"
+#include "tests/project/support.h"
+
+namespace standpoint {
+namespace {
+
+using Eigen::Vector3d;
+
+// Evenly along x, 1.5 m up, 1 m/s.
+CarriedMotion alongX(double from_m, double to_m) {
+  Trajectory samples;
+  for (int k = 0; k <= 20; ++k) {
+    samples.time_s.push_back((to_m - from_m) * k / 20);
+    samples.pose.push_back({Eigen::Quaterniond::Identity(), {from_m + samples.time_s.back(), 0, 1.5}});
+  }
+  CarriedMotion carried;
+  carried.path = carried.truth = std::make_shared<const PoseSpline>(*PoseSpline::through(samples));
+  carried.length_m = to_m - from_m;
+  return carried;
+}
+
+// σ of the position at the end of the path, by axes, of a walk that drifts alike in all directions where surfaces face
+// all of them.
+Vector3d expectedAtTheEnd(const std::shared_ptr<const Environment>& environment, const CarriedMotion& carried) {
+  Progress progress;
+  const auto scene = *RayScene::build(environment, progress);
+  const ErrorProfile drifts{.id = "drifts", .name = "Drifts", .drift_m_sqrt_m = 0.0014};
+  const MotionSolving solving{.profile = &drifts, .max_range_m = 25};
+  const auto expected = expectedMotion(carried, *scene, {}, solving, progress);
+  EXPECT_TRUE(expected) << describe(expected.error());
+  return expected ? expected->back().position_m : Vector3d(Vector3d::Zero());
+}
+
+std::shared_ptr<Environment> withConcrete() {
+  auto environment = std::make_shared<Environment>();
+  environment->surfaces.push_back({"Concrete", {0.6F, 0.6F, 0.6F, 1}, "#1", {}, {}});
+  return environment;
+}
+
+// M20, by what rays from the path meet: the ends of the corridor are out of the scanner's range.
+TEST(CarriedMotion, M20_DriftsFiveTimesAsMuchAlongABareCorridorAsAcross) {
+  const auto corridor = withConcrete();
+  addBox(*corridor, "floor", "IfcSlab", {-200, -2, -0.2}, {300, 2, 0});
+  addBox(*corridor, "ceiling", "IfcSlab", {-200, -2, 2.7}, {300, 2, 2.9});
+  addBox(*corridor, "south", "IfcWall", {-200, -1.3, 0}, {300, -1.1, 2.7});
+  addBox(*corridor, "north", "IfcWall", {-200, 1.1, 0}, {300, 1.3, 2.7});
+  const Vector3d sigma = expectedAtTheEnd(corridor, alongX(0, 70));
+  EXPECT_NEAR(sigma.x(), 5 * 0.0014 * std::sqrt(70), 0.0006);
+  EXPECT_NEAR(sigma.x() / std::min(sigma.y(), sigma.z()), 5, 0.5);
+}
+
+TEST(CarriedMotion, M20_DriftsAlikeInARoomLikeACube) {
+  const auto room = withConcrete();
+  addBox(*room, "room", "IfcBuildingElementProxy", {-3, -3, -1.5}, {3, 3, 4.5});
+  const Vector3d sigma = expectedAtTheEnd(room, alongX(-1, 1));
+  EXPECT_GE(sigma.minCoeff(), 0.0014 * std::sqrt(2) - 1e-6);
+  EXPECT_LE(sigma.maxCoeff() / sigma.minCoeff(), 1.3);
+}
+
+// Walls close by and ends 70 m apart: the sample is as bare as a corridor can be but for the last metres.
+TEST(CarriedMotion, DriftsNearlyAsMuchInTheSampleCorridor) {
+  Progress progress;
+  const auto imported =
+      runVerb(*findVerb(verbs(), "import"), {}, {{"files", {(samplesFolder() / "corridor.ifc").string()}}}, progress);
+  ASSERT_TRUE(imported) << describe(imported.error());
+  const Vector3d sigma = expectedAtTheEnd(imported->document.environment(), alongX(2, 68));
+  const double ratio = sigma.x() / sigma.y();
+  EXPECT_GT(ratio, 4);
+  EXPECT_LE(ratio, 5.5);
+}
+
+}  // namespace
+}  // namespace standpoint
