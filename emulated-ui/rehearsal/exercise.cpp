@@ -74,7 +74,7 @@ void checkWalk(JsonFields& f, const nlohmann::json& way) {
   }
 }
 
-// `prepares`: before anybody is there, more can be done: doors stand open that the model has shut.
+// `prepares`: before anybody is there, more can be done: doors stand open that the model has shut, a rotor turns.
 RehearsalAction action(JsonFields& f, bool prepares = false) {
   RehearsalAction a;
   const auto named = [&](const char* key, Kind kind) {
@@ -96,9 +96,9 @@ RehearsalAction action(JsonFields& f, bool prepares = false) {
     const bool field = isFieldVerb(a.name);
     if (!a.options.is_object())
       f.needs("options", a.options, "an object, such as {\"add\": \"S1\", \"on\": [4.3, 1.6, 0]}");
-    if (!field && !(prepares && (a.name == "treat" || a.name == "scan")))
+    if (!field && !(prepares && (a.name == "treat" || a.name == "mover" || a.name == "scan")))
       f.wrong("verb", fmt::format("'{}' is not allowed here; allowed: {}", a.name,
-                                  prepares ? "station, target, plan, treat, scan" : "station, target and plan"));
+                                  prepares ? "station, target, plan, treat, mover, scan" : "station, target and plan"));
   } else if (named("hint", Kind::hint)) {
   } else if (const auto* way = f.raw("walk")) {
     a.kind = Kind::walk;

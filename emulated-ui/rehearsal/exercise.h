@@ -132,7 +132,7 @@ struct Exercise {
   std::vector<double> area;  // x, y, z of its least and of its greatest corner: what survey.* asks of; empty: all
   std::map<std::string, std::vector<double>> places;   // x, y of what place.NAME asks of
   std::map<std::string, ExercisePart> parts;           // what part.NAME.* asks of
-  std::vector<nlohmann::json> setup;                   // verbs that prepare the environment: station, target
+  std::vector<nlohmann::json> setup;                   // verbs that prepare the environment: station, mover
   std::vector<RehearsalAction> start;                  // done by nobody: how the device is found
   std::map<std::string, std::vector<double>> control;  // x, y, z of known places, by the names of targets
   std::optional<double> battery;                       // share, from the start; nothing: full

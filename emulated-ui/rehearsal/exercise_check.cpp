@@ -217,6 +217,8 @@ class Checker {
     };
     if (verb == "station") lacks("add", R"({"add": "S1", "on": [4.3, 1.6, 0]})");
     if (verb == "target") lacks("add", R"({"add": "T1", "type": "sphere-145", "on": [1.2, 1, 0], "height": 1.2})");
+    if (verb == "mover")
+      lacks("add", R"({"add": "Rotor", "kind": "turning", "product": ["Hub"], "axis-at": [0, 0, 120], "turn": 30})");
     if (verb == "treat") lacks("as", R"({"products": ["class:IfcDoor"], "as": "excluded"})");
   }
 

@@ -332,7 +332,8 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const ScanVerbOpti
   if (options.movers_from_s != 0) request.notes.push_back(fmt::format("movers-from={} s", options.movers_from_s));
   TRY(choosePanorama(request, options));
   const bool truth = options.truth;
-  request.options.channels = {.time = truth || carried,
+  const bool movers = options.movers == Switch::on && document.job && !document.job->movers.empty();
+  request.options.channels = {.time = truth || carried || movers,
                               .channel = laserChannels(request.instrument) > 1,
                               .returns = truth || request.instrument.waveform.max_returns > 1,
                               .truth = truth};

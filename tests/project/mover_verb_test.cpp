@@ -96,6 +96,22 @@ TEST(MoverVerb, PutsPeopleIntoScansThatAskForThem) {
   EXPECT_NE(other.scans[0].header.guid, scanOf(made, kQuick, folder.path() / "again.e57").scans[0].header.guid);
 }
 
+// By which a point is laid back to where its surface was.
+TEST(MoverVerb, GivesEachPointItsTimeWhereSomethingMoves) {
+  const TemporaryFolder folder;
+  const Document made =
+      after(twoStoreyDocument(), {{"station", {{"add", "S1"}, {"on", {500003, 5600003, 0}}}}, {"mover", passerby()}});
+  for (const auto& [movers, timed] : {std::pair{"on", true}, {"off", false}}) {
+    json options = kQuick;
+    options["movers"] = movers, options["output"] = (folder.path() / (std::string(movers) + ".e57")).string();
+    ASSERT_TRUE(run("scan", made, options));
+    KeptScans kept;
+    ASSERT_TRUE(standpoint::testing::readAll(folder.path() / (std::string(movers) + ".e57"), kept));
+    EXPECT_EQ(kept.scans[0].header.has_time, timed) << movers;
+    EXPECT_EQ(kept.scans[0].points.time_s.empty(), !timed) << movers;
+  }
+}
+
 TEST(MoverVerb, TurnsAProductOfTheModel) {
   const TemporaryFolder folder;
   const Document made = after(twoStoreyDocument(), {{"station", {{"add", "S1"}, {"on", {500002, 5600002, 0}}}},
