@@ -9,6 +9,7 @@
 #include "editor/instrument/desk.h"
 #include "editor/shell/dialogs.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 #include "editor/words/sentences.h"
@@ -212,11 +213,23 @@ void steps(InstrumentDesk& desk, const std::string& language) {
   }
 }
 
+// An empty field until a number was typed.
+void typedAnswer(InstrumentDesk& desk, const ExerciseQuestion& question, const std::string& answer) {
+  const auto& [minimum, maximum, unit] = *question.number;
+  double value = numberFromText(answer).value_or(0);
+  NumberFormat format{.kind = {.unit = unit, .least = minimum, .most = maximum}};
+  if (answer.empty()) format.zero = "";
+  ImGui::SetNextItemWidth(8 * ImGui::GetFontSize());
+  if (ui::numberField(("###" + question.id).c_str(), value, format))
+    act(desk, {Kind::answer, question.id, exactText(value), 0, {}});
+}
+
 void questions(InstrumentDesk& desk, const std::string& language) {
   ImGui::BeginDisabled(desk.ended());
   for (const auto& q : desk.rehearsal->exercise().questions) {
     ui::wrapped(q.text.in(language));
     const auto answer = desk.rehearsal->fact("answer." + q.id)->text;
+    if (q.number) typedAnswer(desk, q, answer);
     for (std::size_t i = 0; i < q.choices.size(); ++i)
       if (ui::radioButton((q.choice_texts[i].in(language) + "###" + q.id + q.choices[i]).c_str(),
                           answer == q.choices[i]))

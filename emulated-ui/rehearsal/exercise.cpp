@@ -10,7 +10,9 @@
 #include "core/data_folder.h"
 #include "core/json_fields.h"
 #include "core/json_file.h"
+#include "core/nearest_name.h"
 #include "core/random.h"
+#include "emulated-ui/device/numbers.h"
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/events.h"
 #include "emulated-ui/rehearsal/exercise_words.h"
@@ -156,6 +158,22 @@ const std::string& Spoken::in(const std::string& language) const {
   if (found != texts.end()) return found->second;
   const auto fallback = texts.find("en");
   return fallback == texts.end() ? kNothing : fallback->second;
+}
+
+const ExerciseQuestion* findQuestion(const std::vector<ExerciseQuestion>& questions, std::string_view id) {
+  const auto found =
+      std::find_if(questions.begin(), questions.end(), [&](const ExerciseQuestion& q) { return q.id == id; });
+  return found == questions.end() ? nullptr : &*found;
+}
+
+std::optional<std::string> wrongAnswer(const ExerciseQuestion& question, const std::string& value) {
+  if (question.number) {
+    const auto number = numberIn(value);
+    if (number && *number >= question.number->minimum && *number <= question.number->maximum) return std::nullopt;
+    return fmt::format("'{}' is not a number from {} to {}", value, question.number->minimum, question.number->maximum);
+  }
+  if (std::find(question.choices.begin(), question.choices.end(), value) != question.choices.end()) return std::nullopt;
+  return fmt::format("'{}' is not one of the choices; {}", value, knownInstead(value, question.choices));
 }
 
 void eachText(Exercise& e, const std::function<void(Spoken& text, const std::string& place)>& visit) {
@@ -318,6 +336,11 @@ Result<Exercise> exerciseFrom(const nlohmann::json& json, const fs::path& file, 
     one.list("choices", [&](JsonFields& c) {
       q.choices.push_back(c.text("value"));
       q.choice_texts.push_back(spoken(c, "text", true));
+    });
+    one.object("number", [&](JsonFields& n) {
+      q.number =
+          AnswerNumber{n.number("minimum", -1e9, 1e9), n.number("maximum", -1e9, 1e9), n.textOr("unit", "", "mm")};
+      if (q.number->minimum >= q.number->maximum) n.wrong("maximum", "must be above the minimum");
     });
     e.questions.push_back(std::move(q));
   });

@@ -90,12 +90,20 @@ struct ExerciseRule {
 
 inline constexpr const char* kNowhere = "nowhere";
 
+struct AnswerNumber {
+  double minimum = 0, maximum = 0;
+  std::string unit;  // beside it
+};
 struct ExerciseQuestion {
   std::string id;
   Spoken text;
   std::vector<std::string> choices;
   std::vector<Spoken> choice_texts;
+  std::optional<AnswerNumber> number;  // is typed: then there are no choices
 };
+const ExerciseQuestion* findQuestion(const std::vector<ExerciseQuestion>& questions, std::string_view id);
+// Nothing where it is an answer to the question.
+std::optional<std::string> wrongAnswer(const ExerciseQuestion& question, const std::string& value);
 
 // A part of the environment that facts part.NAME.* are of; what is left out is anything.
 struct ExercisePart {

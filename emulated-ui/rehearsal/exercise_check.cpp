@@ -281,14 +281,11 @@ class Checker {
   }
 
   void checkAnswer(const RehearsalAction& action, const std::string& place) {
-    const auto question = std::find_if(e_.questions.begin(), e_.questions.end(),
-                                       [&](const ExerciseQuestion& q) { return q.id == action.name; });
-    if (question == e_.questions.end())
+    const auto* question = findQuestion(e_.questions, action.name);
+    if (question == nullptr)
       return fault(place + "/answer", fmt::format("unknown question '{}'; {}", action.name,
                                                   knownInstead(action.name, idsOf(e_.questions))));
-    if (!among(question->choices, action.value))
-      fault(place + "/value", fmt::format("'{}' is not one of the choices; {}", action.value,
-                                          knownInstead(action.value, question->choices)));
+    if (const auto wrong = wrongAnswer(*question, action.value)) fault(place + "/value", *wrong);
   }
 
   void checkTrouble(const std::string& id, const std::string& place) {
@@ -318,7 +315,8 @@ class Checker {
   void checkQuestions() {
     for (std::size_t i = 0; i < e_.questions.size(); ++i) {
       const auto& choices = e_.questions[i].choices;
-      if (choices.empty()) fault(fmt::format("/questions/{}/choices", i), "a question requires choices");
+      if (choices.empty() != e_.questions[i].number.has_value())
+        fault(fmt::format("/questions/{}/choices", i), "a question requires choices, or else a number");
       for (std::size_t k = 0; k < choices.size(); ++k)
         if (std::count(choices.begin(), choices.begin() + static_cast<std::ptrdiff_t>(k), choices[k]) > 0)
           fault(fmt::format("/questions/{}/choices/{}/value", i, k), fmt::format("duplicate '{}'", choices[k]));

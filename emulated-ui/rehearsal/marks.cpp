@@ -44,12 +44,12 @@ std::string percentText(double fraction) { return roundedText(fraction * 100) + 
 
 namespace {
 
-// The choice in words; nothing where the question is not answered.
+// The choice in words, a number with its unit; nothing where the question is not answered.
 std::string answerText(const ExerciseQuestion& question, const std::string& value, const std::string& language) {
   for (std::size_t i = 0; i < question.choices.size(); ++i)
     if (question.choices[i] == value && !question.choice_texts[i].texts.empty())
       return question.choice_texts[i].in(language);
-  return value;
+  return question.number && !value.empty() ? withUnit(value, question.number->unit) : value;
 }
 
 FactLookup factsIn(const std::map<std::string, Fact>& facts) {

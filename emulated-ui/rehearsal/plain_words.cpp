@@ -182,6 +182,10 @@ const FactLookup kNoFacts = [](const std::string&) { return std::optional<Fact>(
 
 }  // namespace
 
+std::string withUnit(const std::string& number, const std::string& unit) {
+  return number + (unit.empty() || unit == "°" ? unit : " " + unit);
+}
+
 std::string unitOf(const Device& device, const std::string& fact) {
   if (const auto* row = proofRow(fact)) return row->unit;
   const auto unit = deviceUnit(device, fact);
@@ -303,11 +307,14 @@ std::string PlainWords::figure(const std::string& fact, double value, const std:
                                                                    : fmt::format("{:.3g}", shown);
   for (int digits = 4; digits <= 15 && !sided(numberIn(text).value_or(shown) / factor); ++digits)
     text = fmt::format("{:.{}g}", shown, digits);
+  const auto* asked = fact.starts_with("answer.") ? findQuestion(exercise.questions, fact.substr(7)) : nullptr;
+  const auto* question = asked != nullptr && asked->number ? asked : nullptr;
   const auto name = fraction         ? std::string("%")
                     : fact == "time" ? std::string("s")
                     : part           ? std::string(part->unit)
+                    : question       ? question->number->unit
                                      : unitOf(device, fact);
-  return text + (name.empty() || name == "°" ? name : " " + name);
+  return withUnit(text, name);
 }
 
 // By its label where it has one.

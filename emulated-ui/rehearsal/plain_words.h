@@ -37,6 +37,7 @@ struct PlainWords {
 
 // Of a fact: "mm", "°"; empty: it has none.
 std::string unitOf(const Device& device, const std::string& fact);
+std::string withUnit(const std::string& number, const std::string& unit);  // "2.7°", "6 mm"
 // The numbers that the condition compares the fact with.
 std::vector<double> limitsOf(const Condition& condition, const std::string& fact);
 

@@ -11,6 +11,7 @@
 #include "core/nearest_name.h"
 #include "core/number_text.h"
 #include "emulated-ui/device/format.h"
+#include "emulated-ui/device/numbers.h"
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/field_proofs.h"
 #include "emulated-ui/rehearsal/part_proofs.h"
@@ -211,14 +212,11 @@ Result<void> Rehearsal::apply(const RehearsalAction& action, Progress& progress)
     case Kind::finish: return finish(progress);
     case Kind::verb: return runFieldVerb(action, progress);
     case Kind::answer: {
-      const auto question = std::find_if(exercise_.questions.begin(), exercise_.questions.end(),
-                                         [&](const ExerciseQuestion& q) { return q.id == action.name; });
-      if (question == exercise_.questions.end())
+      const auto* question = findQuestion(exercise_.questions, action.name);
+      if (question == nullptr)
         return failure(ErrorKind::usage, fmt::format("unknown question '{}'", action.name), exercise_.id);
-      if (std::find(question->choices.begin(), question->choices.end(), action.value) == question->choices.end())
-        return failure(ErrorKind::usage,
-                       fmt::format("'{}' is not one of {}", action.value, fmt::join(question->choices, ", ")),
-                       action.name);
+      if (const auto wrong = wrongAnswer(*question, action.value))
+        return failure(ErrorKind::usage, *wrong, action.name);
       answers_[action.name] = action.value;
       return {};
     }
@@ -349,7 +347,9 @@ std::optional<Fact> Rehearsal::fact(const std::string& name) const {
   }
   if (name.starts_with("answer.")) {
     const auto found = answers_.find(name.substr(7));
-    return wordFact(found == answers_.end() ? "" : found->second);
+    if (found == answers_.end()) return wordFact("");
+    const auto* question = findQuestion(exercise_.questions, found->first);
+    return Fact{found->second, question->number ? numberIn(found->second) : std::nullopt};
   }
   if (auto planned = walkProof(name, exercise_, walk_, device())) return planned;
   if (auto shown = proofs_.fact(name, exercise_, device(), document_, folder_)) return shown;
@@ -524,9 +524,10 @@ std::vector<std::string> factNames(const Exercise& exercise, const Device& devic
 std::optional<FactDomain> rehearsalDomain(const Exercise& exercise, const std::string& name) {
   if (name == "time" || name == "hints" || name.starts_with("count.")) return FactDomain{{}, true, 0, 1e9};
   if (name.starts_with("answer.")) {
-    for (const auto& q : exercise.questions)
-      if (q.id == name.substr(7)) return FactDomain{q.choices};
-    return std::nullopt;
+    const auto* question = findQuestion(exercise.questions, name.substr(7));
+    if (question == nullptr) return std::nullopt;
+    if (const auto& number = question->number) return FactDomain{{}, true, number->minimum, number->maximum};
+    return FactDomain{question->choices};
   }
   if (auto own = namedProofDomain(name, exercise)) return own;
   if (const auto part = partFigure(name, exercise)) return part->domain;

@@ -92,6 +92,8 @@ TEST_F(BadExercise, EachMistakeIsNamedWithItsPlace) {
       {"/id", 5, "x.json /id", "in quotes, not the number 5; write it like \"E99\""},
       {"/id", "../../etc/passwd", "x.json /id", "can contain only letters"},
       {"/questions/0/choices", json::array(), "x.json /questions/0/choices", "requires choices"},
+      {"/questions/0/number", {{"minimum", 0}, {"maximum", 9}}, "x.json /questions/0/choices", "or else a number"},
+      {"/questions/0/number", {{"minimum", 9}, {"maximum", 0}}, "x.json /questions/0/number/maximum", "above the"},
       {"/questions/0/choices/1",
        {{"value", "yes"}, {"text", text}},
        "x.json /questions/0/choices/1/value",

@@ -121,6 +121,28 @@ TEST_F(RehearsalTest, ARuleThatNothingAskedSaysSoAndClaimsNoConsequence) {
   }
 }
 
+TEST_F(RehearsalTest, ANumberThatIsTypedIsComparedAsOneAndHasItsUnitInTheMarks) {
+  auto text = shortLesson();
+  text["questions"] = json::parse(R"([{"id": "width", "text": {"en": "How wide?", "de": "Wie breit?"},
+    "number": {"minimum": 0, "maximum": 5, "unit": "m"}}])");
+  text["steps"][0]["done"] = "answer.width >= 0.85 and answer.width <= 0.95";
+  const auto rehearsal = start(text);
+  ASSERT_TRUE(rehearsal);
+  EXPECT_FALSE(rehearsal->steps()[0].done);
+  for (const char* wrong : {"9", "wide", ""}) {
+    const auto refused = act(*rehearsal, {{"answer", "width"}, {"value", wrong}});
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(describe(refused.error()), HasSubstr("is not a number from 0 to 5"));
+  }
+  ASSERT_TRUE(act(*rehearsal, {{"answer", "width"}, {"value", "0.7"}}));
+  EXPECT_FALSE(rehearsal->steps()[0].done);
+  ASSERT_TRUE(act(*rehearsal, {{"answer", "width"}, {"value", "0.9"}}));
+  EXPECT_TRUE(rehearsal->steps()[0].done);
+  const auto marks = marked(*rehearsal);
+  EXPECT_EQ(marks.answers[0].value, "0.9");
+  EXPECT_EQ(marks.answers[0].answer, "0.9 m");
+}
+
 TEST_F(RehearsalTest, MarkingStopsWhenItIsCancelled) {
   const auto rehearsal = start(shortLesson());
   ASSERT_TRUE(rehearsal);
