@@ -9,31 +9,19 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <stb/stb_image_write.h>
 
-#include "core/base64.h"
 #include "core/number_text.h"
 #include "core/report_html.h"
 #include "pointclouds/scores/error_places.h"
-#include "pointclouds/scores/error_view.h"
-#include "project/dataset/svg_parts.h"
+#include "project/dataset/error_drawing.h"
 
 namespace standpoint {
 
 namespace {
 
 constexpr std::size_t kScenes = 4, kConfusions = 6, kInstances = 4;  // that are shown at most
-constexpr double kPictureWidth = 720;                                // of the pictures, in their own units
-constexpr std::array kViews = {ViewFrom::above, ViewFrom::south, ViewFrom::east};
-
-// Okabe and Ito's colours, which people with any colour vision tell apart, without the yellow, which paper hides. The
-// last one is of all other classes.
-constexpr std::array<Rgb, 7> kInks = {
-    {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {86, 180, 233}, {230, 159, 0}, {0, 0, 0}}};
 // Of a missed instance: points that its best prediction has, too; those that it lacks; those that it has beyond.
 constexpr std::size_t kBoth = 0, kLacking = 1, kBeyond = 5;
-
-std::string hexOf(const Rgb& colour) { return fmt::format("#{:02X}{:02X}{:02X}", colour[0], colour[1], colour[2]); }
 
 struct Confusion {
   std::size_t truth = 0, predicted = 0;  // slots
@@ -52,141 +40,6 @@ struct Scene {
   std::string name;
   std::vector<std::size_t> pairs;
   std::uint64_t wrong = 0;
-};
-
-void appendBytes(void* context, void* bytes, int count) {
-  auto& out = *static_cast<std::vector<std::uint8_t>*>(context);
-  const auto* from = static_cast<const std::uint8_t*>(bytes);
-  out.insert(out.end(), from, from + count);
-}
-
-std::string imageOf(const ErrorView& view) {
-  const auto rgb = view.pixels();
-  std::vector<std::uint8_t> png;
-  constexpr int kChannels = 3;
-  stbi_write_png_to_func(appendBytes, &png, view.width(), view.height(), kChannels, rgb.data(),
-                         view.width() * kChannels);
-  return "data:image/png;base64," + base64Of(png);
-}
-
-// Whole steps in a picture, with the digits that tell them apart.
-std::string stepText(double at, double step) {
-  int digits = 0;
-  for (double shown = step; shown < 1 - 1e-9; shown *= 10) ++digits;
-  return fmt::format("{:.{}f}", at, digits);
-}
-
-struct Place {
-  double x = 0, y = 0;  // the upper left corner of the image in the drawing
-  double units_per_m = 1;
-};
-
-// The picture in a frame with coordinates along its lower and its left edge.
-std::string framed(const ErrorView& view, const Place& place) {
-  const auto axes = axesOf(view.from());
-  const auto& box = view.box();
-  const double width = view.width() * view.pixel_m() * place.units_per_m,
-               height = view.height() * view.pixel_m() * place.units_per_m, below = place.y + height;
-  std::string text = fmt::format(
-      "<image x=\"{0:.2f}\" y=\"{1:.2f}\" width=\"{2:.2f}\" height=\"{3:.2f}\" preserveAspectRatio=\"none\" "
-      "style=\"image-rendering:pixelated\" href=\"{4}\"/>\n"
-      "<rect x=\"{0:.2f}\" y=\"{1:.2f}\" width=\"{2:.2f}\" height=\"{3:.2f}\" fill=\"none\" stroke=\"{5}\" "
-      "stroke-width=\"0.7\"/>\n",
-      place.x, place.y, width, height, imageOf(view), kSvgInk);
-  const double step = scaleBar(std::max(width, height) / place.units_per_m);
-  const auto each = [&](int axis, double length, const auto& draw) {
-    const double low = box.min[axis];
-    for (double k = std::ceil(low / step); (k * step - low) * place.units_per_m <= length; ++k)
-      draw((k * step - low) * place.units_per_m, stepText(k * step + 0.0, step));  // no −0
-  };
-  each(axes[0], width, [&](double at, const std::string& number) {
-    text += fmt::format("<path stroke=\"{}\" d=\"M{:.1f} {:.1f}v4\"/>\n", kSvgInk, place.x + at, below);
-    text += textAt(place.x + at, below + 14, 9, "middle", number);
-  });
-  each(axes[1], height, [&](double at, const std::string& number) {
-    text += fmt::format("<path stroke=\"{}\" d=\"M{:.1f} {:.1f}h-4\"/>\n", kSvgInk, place.x, below - at);
-    text += textAt(place.x - 6, below - at + 3, 9, "end", number);
-  });
-  return text;
-}
-
-std::string viewTitle(ViewFrom from) {
-  return printed(from == ViewFrom::above   ? "From above: x to the right, y up"
-                 : from == ViewFrom::south ? "From the south: x to the right, z up"
-                                           : "From the east: y to the right, z up");
-}
-
-std::string drawing(double height, const std::string& content) {
-  return fmt::format("<svg class=\"e\" viewBox=\"0 0 {:.0f} {:.0f}\">\n{}</svg>\n", kPictureWidth, height, content);
-}
-
-// A mark of a place that is shown closer, readable on any colour.
-std::string markAt(double x, double y, const std::string& mark) {
-  return fmt::format(
-      "<text x=\"{:.1f}\" y=\"{:.1f}\" font-family=\"sans-serif\" font-size=\"14\" font-weight=\"bold\" "
-      "text-anchor=\"middle\" fill=\"#111\" stroke=\"#fff\" stroke-width=\"4\" paint-order=\"stroke\">{}</text>\n",
-      x, y + 5, htmlText(mark));
-}
-
-std::string smallText(const std::string& text) { return "<p><small>" + htmlText(text) + "</small></p>\n"; }
-
-std::string legendOf(const std::vector<std::pair<Rgb, std::string>>& entries) {
-  constexpr double kEntry = 180, kLine = 20;
-  std::string content;
-  double x = 0, y = 4;
-  for (const auto& [colour, name] : entries) {
-    if (x + kEntry > kPictureWidth) x = 0, y += kLine;
-    content += fmt::format("<rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"12\" height=\"12\" fill=\"{}\"/>\n", x + 4, y,
-                           hexOf(colour));
-    content += textAt(x + 22, y + 10, 12, "start", name);
-    x += kEntry;
-  }
-  return drawing(y + kLine, content);
-}
-
-// Three views of a box, of pixels that its points fill, at most `most` a side.
-std::vector<ErrorView> viewsOf(const Bounds& box, std::uint64_t points, double most) {
-  constexpr double kFewest = 40;
-  const double pixels = std::clamp(std::sqrt(static_cast<double>(points)), kFewest, most);
-  std::vector<ErrorView> views;
-  for (const auto from : kViews)
-    views.emplace_back(from, box, (box.max - box.min).maxCoeff() / pixels,
-                       std::vector<Rgb>(kInks.begin(), kInks.end()));
-  return views;
-}
-
-Bounds cubeAround(const Eigen::Vector3d& middle, double edge_m) {
-  const Eigen::Vector3d half = Eigen::Vector3d::Constant(edge_m / 2);
-  return {middle - half, middle + half};
-}
-
-// A box that is looked at closer.
-struct CloseUp {
-  Bounds box;
-  std::vector<ErrorView> views;
-  std::uint64_t shown = 0;  // points of what it is of
-
-  explicit CloseUp(const Bounds& cube, std::uint64_t points) : box(cube), views(viewsOf(cube, points, 240)) {}
-  bool has(const Eigen::Vector3d& at) const {
-    return (at.array() >= box.min.array()).all() && (at.array() <= box.max.array()).all();
-  }
-  // Where `ink` is nothing, the point is right.
-  void add(const Eigen::Vector3d& at, std::optional<std::size_t> ink) {
-    for (auto& view : views) ink ? view.addWrong(at, *ink) : view.addRight(at);
-  }
-  std::string svg() const {
-    constexpr double kSide = 190, kGap = 50, kTop = 20, kBelow = 44;
-    const double units_per_m = kSide / (views.front().width() * views.front().pixel_m());
-    std::string content;
-    double x = kGap;
-    for (const auto& view : views) {
-      content += textAt(x, kTop - 6, 10, "start", viewTitle(view.from()));
-      content += framed(view, {x, kTop, units_per_m});
-      x += kSide + kGap;
-    }
-    const double bar = scaleBar(kSide / units_per_m);
-    return drawing(kTop + kSide + kBelow, content + scaleBarAt(kGap, kTop + kSide + 32, bar, units_per_m));
-  }
 };
 
 class ErrorPictures {
@@ -243,7 +96,7 @@ class ErrorPictures {
       if (points > 0) wrong.emplace_back(points, column);
     }
     std::stable_sort(wrong.begin(), wrong.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    ink_of_slot_.assign(others_ + 1, kInks.size() - 1);
+    ink_of_slot_.assign(others_ + 1, kInks.size() - 1);  // the last one is of all other classes
     const auto own = wrong.size() <= kInks.size() ? wrong.size() : kInks.size() - 1;
     for (std::size_t k = 0; k < own; ++k) {
       ink_of_slot_[wrong[k].second] = k;
@@ -370,13 +223,10 @@ class ErrorPictures {
   }
 
   Result<std::string> draw(std::size_t scene, Progress& progress) {
-    constexpr double kFar = 0.001, kMargin = 0.1, kLeast_m = 4;
+    constexpr double kLeast_m = 4;
     const auto& spread = spreads_[scene];
     if (spread.points() == 0) return std::string();
-    Bounds box = spread.without(kFar);
-    const Eigen::Vector3d margin = kMargin * (box.max - box.min) + Eigen::Vector3d::Constant(0.05);
-    box.min = (box.min - margin).cwiseMax(spread.bounds().min - Eigen::Vector3d::Constant(0.05));
-    box.max = (box.max + margin).cwiseMin(spread.bounds().max + Eigen::Vector3d::Constant(0.05));
+    const Bounds box = boxAround(spread);
     auto views = viewsOf(box, spread.points(), 480);
     std::vector<std::optional<CloseUp>> closer(confusions_.size()), of_missed(missed_.size());
     for (std::size_t c = 0; c < confusions_.size(); ++c)
@@ -397,8 +247,7 @@ class ErrorPictures {
           [&](const Judged& point) {
             const auto ink = point.isWrong() ? std::optional(ink_of_slot_[point.predicted]) : std::nullopt;
             for (auto& view : views) ink ? view.addWrong(point.at, *ink) : view.addRight(point.at);
-            const bool is_outside =
-                !((point.at.array() >= box.min.array()).all() && (point.at.array() <= box.max.array()).all());
+            const bool is_outside = !isIn(box, point.at);
             outside += is_outside ? 1 : 0;
             wrong_outside += is_outside && point.isWrong() ? 1 : 0;
             for (std::size_t c = 0; c < closer.size(); ++c) {
@@ -430,7 +279,7 @@ class ErrorPictures {
   }
 
   std::string legend() const {
-    std::vector<std::pair<Rgb, std::string>> entries = {{Rgb{190, 190, 190}, printed("right")}};
+    std::vector<std::pair<Rgb, std::string>> entries = {{kInkOfRight, printed("right")}};
     for (const auto& [colour, name] : inks_) entries.emplace_back(colour, printedf("taken for {}", name));
     return legendOf(entries) +
            smallText(
@@ -445,26 +294,12 @@ class ErrorPictures {
 
   std::string sceneHtml(std::size_t scene, const std::vector<ErrorView>& views, std::uint64_t outside,
                         std::uint64_t wrong_outside) const {
-    constexpr double kLeft = 60, kTop = 22, kBelow = 44, kTallest = 640;
-    const Eigen::Vector3d size = views.front().box().max - views.front().box().min;
-    const double units_per_m =
-        std::min((kPictureWidth - kLeft - 10) / std::max(size.x(), size.y()), kTallest / std::max(size.y(), size.z()));
     std::string text = scenes_[scene].name.empty() ? "" : "<h3>" + htmlText(scenes_[scene].name) + "</h3>\n";
-    const double bar = scaleBar(size.maxCoeff());
-    for (const auto& view : views) {
-      const double height = view.height() * view.pixel_m() * units_per_m;
-      std::string content = textAt(kLeft, kTop - 8, 12, "start", viewTitle(view.from()));
-      content += framed(view, {kLeft, kTop, units_per_m});
-      content += scaleBarAt(kLeft, kTop + height + 32, bar, units_per_m);
-      const auto axes = axesOf(view.from());
-      for (std::size_t c = 0; c < confusions_.size(); ++c) {
-        const auto& one = confusions_[c];
-        if (!one.place || one.scene != scene) continue;
-        const Eigen::Vector3d off = (one.place->at_m - view.box().min) * units_per_m;
-        content += markAt(kLeft + off[axes[0]], kTop + height - off[axes[1]], std::to_string(c + 1));
-      }
-      text += drawing(kTop + height + kBelow, content);
-    }
+    std::vector<PlaceMark> marks;
+    for (std::size_t c = 0; c < confusions_.size(); ++c)
+      if (confusions_[c].place && confusions_[c].scene == scene)
+        marks.push_back({std::to_string(c + 1), confusions_[c].place->at_m});
+    text += largeViews(views, marks);
     if (outside > 0)
       text += smallText(printedf("{} of {} points lie far off and are not in these pictures; {} of them are wrong.",
                                  groupedDigits(outside), groupedDigits(spreads_[scene].points()),
