@@ -12,9 +12,6 @@
 namespace standpoint {
 namespace {
 
-constexpr std::uint8_t kFlawed =
-    point_flag::kMixed | point_flag::kMirrored | point_flag::kWeather | point_flag::kMoving | point_flag::kNoise;
-
 // Shows a filter the whole file.
 class PassSink final : public PointSink {
  public:
@@ -29,7 +26,7 @@ class PassSink final : public PointSink {
   }
   Result<void> end() override { return filter_.endScan(remaining_); }
   Result<void> close() override { return {}; }
-  bool again() { return filter_.endPass(remaining_); }
+  Result<bool> again() { return filter_.endPass(remaining_); }
 
  private:
   PointFilter& filter_;
@@ -149,15 +146,19 @@ Error placed(Error error, const std::filesystem::path& in, const ChosenFilter& f
   return error;
 }
 
-Result<void> apply(const CloudFormat& format, const std::filesystem::path& in, const std::vector<FilterScan>& scans,
+Result<void> apply(const CloudFormat& format, const std::filesystem::path& in, FilterCloud& cloud,
                    const ChosenFilter& chosen, std::uint8_t number, Fates& fates, Progress& progress) {
   auto filter = chosen.make();
   if (!filter) return failure(placed(filter.error(), in, chosen));
-  if (auto known = (*filter)->know(scans); !known) return failure(placed(known.error(), in, chosen));
+  cloud.carrier = chosen.carrier;
+  cloud.progress = &progress;
+  if (auto known = (*filter)->know(cloud); !known) return failure(placed(known.error(), in, chosen));
   for (bool again = true; again;) {
     PassSink pass(**filter, fates, number);
     if (const auto read = format.read(in, pass, progress); !read) return failure(placed(read.error(), in, chosen));
-    again = pass.again();
+    const auto more = pass.again();
+    if (!more) return failure(placed(more.error(), in, chosen));
+    again = *more;
   }
   return {};
 }
@@ -183,15 +184,15 @@ Result<Cleaning> cleanCloud(const std::filesystem::path& in, const std::filesyst
     if (auto made = chosen.make(); !made)
       return failure(ErrorKind::usage, made.error().message, "--filters " + chosen.text);
   TRY_ASSIGN(const auto info, format->info(in));
-  std::vector<FilterScan> scans;
-  for (const ScanInfo& scan : info.scans) scans.push_back({scan.header.name, stationOf(scan.header)});
+  FilterCloud cloud;
+  for (const ScanInfo& scan : info.scans) cloud.scans.push_back({scan.header.name, stationOf(scan.header)});
 
   Cleaning cleaning;
   Fates fates;
   const double each = 1.0 / static_cast<double>(filters.size() + 1);
   for (std::size_t k = 0; k < filters.size(); ++k) {
     progress.stage(filters[k].text, static_cast<double>(k) * each, static_cast<double>(k + 1) * each);
-    TRY(apply(*format, in, scans, filters[k], static_cast<std::uint8_t>(k + 1), fates, progress));
+    TRY(apply(*format, in, cloud, filters[k], static_cast<std::uint8_t>(k + 1), fates, progress));
     cleaning.filters.emplace_back().filter = filters[k].text;
   }
   progress.stage("Write " + out.filename().string(), 1 - each, 1);

@@ -17,6 +17,9 @@
 namespace standpoint {
 
 constexpr double kPlainly_m = 0.01;
+// What is not where a surface is, or was gone when others were measured: a cleaning should take it.
+constexpr std::uint8_t kFlawed =
+    point_flag::kMixed | point_flag::kMirrored | point_flag::kWeather | point_flag::kMoving | point_flag::kNoise;
 
 // How many points of a kind a filter saw, and how many of them it took.
 struct Taken {

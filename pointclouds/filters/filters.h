@@ -48,6 +48,20 @@ struct MovingOptions {
 };
 MadeFilter makeMovingFilter(const MovingOptions& options);
 
+// What rays of other scans, of the same file and of another, or of another time of a carried one went through.
+struct SeenThroughOptions {
+  std::optional<std::string> against;     // a file
+  std::optional<std::string> trajectory;  // a file
+  Eigen::Vector3d lever_m{0, 0, 0};       // of the scanner on what carries it
+  double cell_m = 0.1;
+  double distance_m = 0.05;  // that a ray must go on behind the surface
+  std::uint64_t rays = 1;    // at least, through a cell
+  std::uint64_t votes = 1;   // of so many scans, or slices of a carried one
+  double share = 0.5;        // of the scans or slices that saw the cell
+  double slice_s = 1;        // of a carried scan
+};
+MadeFilter makeSeenThroughFilter(const SeenThroughOptions& options);
+
 struct GateOptions {
   std::optional<double> from, to;  // m, degrees, or as intensities are stored in the file
 };

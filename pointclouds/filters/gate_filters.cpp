@@ -18,8 +18,8 @@ template <class Judge>
 class Gate final : public PointFilter {
  public:
   explicit Gate(Judge judge) : judge_(std::move(judge)) {}
-  Result<void> know(const std::vector<FilterScan>& scans) override {
-    if constexpr (requires { judge_.know(scans); }) return judge_.know(scans);
+  Result<void> know(const FilterCloud& cloud) override {
+    if constexpr (requires { judge_.know(cloud); }) return judge_.know(cloud);
     return {};
   }
   Result<void> beginScan(const ScanHeader& header) override {
@@ -115,10 +115,10 @@ struct SphereJudge {
   std::string station;                    // looked for …
   std::optional<Eigen::Vector3d> centre;  // … unless the place is given
   Pose pose{};
-  Result<void> know(const std::vector<FilterScan>& scans) {
+  Result<void> know(const FilterCloud& cloud) {
     if (centre) return {};
     std::string names;
-    for (const FilterScan& scan : scans) {
+    for (const FilterScan& scan : cloud.scans) {
       if (scan.name == station && scan.station) return centre = scan.station, Result<void>{};
       if (scan.station) names += (names.empty() ? "" : ", ") + scan.name;
     }

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "core/portable_math.h"
-#include "core/progress.h"
 #include "core/units.h"
 #include "pointclouds/filters/filters.h"
 #include "pointclouds/formats.h"
@@ -109,9 +108,9 @@ class MovingFilter final : public PointFilter {
     if (options.cell_deg) cell_rad_ = *options.cell_deg * kRadPerDeg;
   }
 
-  Result<void> know(const std::vector<FilterScan>& scans) override {
+  Result<void> know(const FilterCloud& cloud) override {
     if (!options_.against) {
-      if (scans.size() < 2)
+      if (cloud.scans.size() < 2)
         return failure(ErrorKind::unusable,
                        "one scan alone says nothing of what moved; name another with moving:against=FILE");
       return {};
@@ -119,8 +118,7 @@ class MovingFilter final : public PointFilter {
     const CloudFormat* format = cloudFormatFor(*options_.against);
     if (format == nullptr) return failure(ErrorKind::usage, "unknown cloud format", *options_.against);
     ImageSink sink(cell_rad_);
-    Progress progress;
-    TRY(format->read(*options_.against, sink, progress));
+    TRY(format->read(*options_.against, sink, *cloud.progress));
     images_ = std::move(sink.images_);
     if (images_.empty())
       return failure(ErrorKind::unusable, "no scanner position: what it saw past is unknown", *options_.against);
@@ -152,7 +150,7 @@ class MovingFilter final : public PointFilter {
     ++scan_;
     return {};
   }
-  bool endPass(Remaining&) override {
+  Result<bool> endPass(Remaining&) override {
     scan_ = 0;
     return !options_.against && !std::exchange(judges_, true);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -10,7 +11,9 @@
 
 #include <Eigen/Core>
 
+#include "core/motion/pose_function.h"
 #include "core/points.h"
+#include "core/progress.h"
 #include "core/result.h"
 
 namespace standpoint {
@@ -35,16 +38,23 @@ struct FilterScan {
   std::optional<Eigen::Vector3d> station;  // where its scanner stood, file frame, if the file says so
 };
 
+// What is known of a cloud before its first point.
+struct FilterCloud {
+  std::vector<FilterScan> scans;
+  PoseFunctionPtr carrier;       // ChosenFilter::carrier
+  Progress* progress = nullptr;  // for other files that a filter reads
+};
+
 // One filter at work: it sees the file's points as often as it asks for, and takes what it does not want. What it takes
 // it must not look at again; points keep their numbers in every pass.
 class PointFilter {
  public:
   virtual ~PointFilter() = default;
-  virtual Result<void> know(const std::vector<FilterScan>& /*scans of the file*/) { return {}; }
+  virtual Result<void> know(const FilterCloud&) { return {}; }
   virtual Result<void> beginScan(const ScanHeader&) { return {}; }  // an error where the filter does not apply
   virtual Result<void> see(const PointBlock& block, std::uint64_t first, Remaining& remaining) = 0;
   virtual Result<void> endScan(Remaining&) { return {}; }
-  virtual bool endPass(Remaining&) { return false; }  // true: another pass, please
+  virtual Result<bool> endPass(Remaining&) { return false; }  // true: another pass, please
 };
 
 using MadeFilter = Result<std::unique_ptr<PointFilter>>;
@@ -55,6 +65,9 @@ std::string filterList();  // of point_filters.cpp: names and keys, for help
 struct ChosenFilter {
   std::string text;
   std::function<MadeFilter()> make;
+  // The file that its key `trajectory` names; and what it says, file frame, from whoever can read it.
+  std::filesystem::path trajectory = {};
+  PoseFunctionPtr carrier = {};
 };
 Result<ChosenFilter> filterFrom(const std::string& text);
 

@@ -157,6 +157,19 @@ const std::vector<FilterKind>& filterKinds() {
                      {"votes", &MovingOptions::votes, {.minimum = 1, .maximum = 1000}},
                      {"cell", &MovingOptions::cell_deg, {.minimum = 0.01, .maximum = 5}}},
                  makeMovingFilter),
+      // points in cells that rays of other scans, or of another time of a carried scan, went through
+      FilterKind("seen-through",
+                 std::vector<FilterField<SeenThroughOptions>>{
+                     {"against", &SeenThroughOptions::against},
+                     {"trajectory", &SeenThroughOptions::trajectory},
+                     {"lever", &SeenThroughOptions::lever_m},
+                     {"cell", &SeenThroughOptions::cell_m, {.minimum = 0.01, .maximum = 10}},
+                     {"distance", &SeenThroughOptions::distance_m, {.minimum = 1e-4, .maximum = 100}},
+                     {"rays", &SeenThroughOptions::rays, {.minimum = 1, .maximum = 1000}},
+                     {"votes", &SeenThroughOptions::votes, {.minimum = 1, .maximum = 1000}},
+                     {"share", &SeenThroughOptions::share, {.minimum = 0.01, .maximum = 1}},
+                     {"slice", &SeenThroughOptions::slice_s, {.minimum = 0.01, .maximum = 3600}}},
+                 makeSeenThroughFilter),
       FilterKind("range",
                  std::vector<FilterField<GateOptions>>{{"from", &GateOptions::from, {.minimum = 0, .maximum = kFar}},
                                                        {"to", &GateOptions::to, {.minimum = 0, .maximum = kFar}}},
@@ -237,7 +250,10 @@ Result<ChosenFilter> filterFrom(const std::string& text) {
   auto texts = colon < text.size() ? keyTexts(*kind, text.substr(colon + 1)) : KeyTexts();
   auto make = texts ? kind->read(*texts) : failure(texts.error());
   if (!make) return failure(ErrorKind::usage, make.error().message, "--filters " + text);
-  return ChosenFilter{text, *std::move(make)};
+  ChosenFilter chosen{text, *std::move(make)};
+  for (const auto& [key, value] : *texts)
+    if (key == "trajectory") chosen.trajectory = value;
+  return chosen;
 }
 
 }  // namespace standpoint

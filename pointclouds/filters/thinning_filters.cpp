@@ -104,7 +104,7 @@ class DuplicateFilter final : public PointFilter {
     }
     return {};
   }
-  bool endPass(Remaining& remaining) override {
+  Result<bool> endPass(Remaining& remaining) override {
     counting_ = false;
     std::sort(shell_.begin(), shell_.end(),
               [](const Seen& a, const Seen& b) { return std::tie(a.range_m, a.point) < std::tie(b.range_m, b.point); });

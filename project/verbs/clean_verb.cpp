@@ -5,6 +5,7 @@
 #include "core/part_file.h"
 #include "pointclouds/filters/cleaning.h"
 #include "project/verbs/file_verbs.h"
+#include "survey/trajectories/trajectory_file.h"
 
 namespace standpoint {
 
@@ -167,8 +168,15 @@ Result<Answered<CleanAnswer>> runClean(const Document& document, const CleanOpti
     return failure(ErrorKind::usage, "unsupported report format: use .json or .csv", "--report");
   TRY(checkFolderOf(options.output, "--output"));
   if (!report.empty()) TRY(checkFolderOf(report, "--report"));
-  TRY_ASSIGN(auto cleaning, cleanCloud(in, options.output, options.filters, progress));
-  Answered<CleanAnswer> outcome{document, {}, std::move(cleaning.report)};
+  Answered<CleanAnswer> outcome{document};
+  auto filters = options.filters;
+  for (auto& filter : filters) {
+    if (filter.trajectory.empty()) continue;
+    TRY_ASSIGN(auto poses, cloudPoses(filter.trajectory, outcome.report, progress));
+    filter.carrier = std::make_shared<const PoseSpline>(std::move(poses));
+  }
+  TRY_ASSIGN(const auto cleaning, cleanCloud(in, options.output, filters, progress));
+  outcome.report.append(cleaning.report);
   auto& answer = outcome.answer;
   answer.points_in = cleaning.points_in;
   answer.points_out = cleaning.points_out;

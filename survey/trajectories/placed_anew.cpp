@@ -18,19 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr double kTooEarly_s = 1e-3;  // that a trajectory may begin or end before the points do
 
-Result<PoseSpline> splineOf(const fs::path& file, Report& report, Progress& progress) {
-  TRY_ASSIGN(const TrajectoryFormat* format, trajectoryFormatOf(file));
-  if (format == nullptr) return failure(ErrorKind::usage, "the format of this trajectory is not known", file.string());
-  TRY_ASSIGN(const auto frame, fileFrame(Georeference(), format->id));
-  TRY_ASSIGN(auto read, format->read(file, frame, progress));
-  report.append(read.report);
-  if (read.file_from_local)
-    for (Pose& pose : read.samples.pose) pose = *read.file_from_local * pose;
-  auto spline = PoseSpline::through(read.samples, read.gap_s);
-  if (!spline) return failure(spline.error().kind, spline.error().message, file.string());
-  return spline;
-}
-
 class AnewSink final : public PointSink {
  public:
   AnewSink(PointSink& to, const PoseSpline& was, const PoseSpline& is, const fs::path& by)
@@ -88,8 +75,8 @@ class AnewSink final : public PointSink {
 
 Result<std::vector<fs::path>> placeAnew(const fs::path& in, const fs::path& out, const std::string& as,
                                         const fs::path& was, const fs::path& is, Report& report, Progress& progress) {
-  TRY_ASSIGN(const auto before, splineOf(was, report, progress));
-  TRY_ASSIGN(const auto after, splineOf(is, report, progress));
+  TRY_ASSIGN(const auto before, cloudPoses(was, report, progress));
+  TRY_ASSIGN(const auto after, cloudPoses(is, report, progress));
   const auto anew = [&](PointSink& writer) { return std::make_unique<AnewSink>(writer, before, after, is); };
   return convertCloud(in, out, as, report, progress, anew);
 }

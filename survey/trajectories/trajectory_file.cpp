@@ -107,4 +107,17 @@ Result<const TrajectoryFormat*> trajectoryFormatOf(const std::filesystem::path& 
   return formatOfText(file);
 }
 
+Result<PoseSpline> cloudPoses(const std::filesystem::path& file, Report& report, Progress& progress) {
+  TRY_ASSIGN(const TrajectoryFormat* format, trajectoryFormatOf(file));
+  if (format == nullptr) return failure(ErrorKind::usage, "the format of this trajectory is not known", file.string());
+  TRY_ASSIGN(const auto frame, fileFrame(Georeference(), format->id));
+  TRY_ASSIGN(auto read, format->read(file, frame, progress));
+  report.append(read.report);
+  if (read.file_from_local)
+    for (Pose& pose : read.samples.pose) pose = *read.file_from_local * pose;
+  auto spline = PoseSpline::through(read.samples, read.gap_s);
+  if (!spline) return failure(spline.error().kind, spline.error().message, file.string());
+  return spline;
+}
+
 }  // namespace standpoint

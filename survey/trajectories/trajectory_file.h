@@ -57,4 +57,7 @@ Result<const TrajectoryFormat*> trajectoryFormatOf(const std::filesystem::path& 
 // Of a file to be written, by its extension alone.
 const TrajectoryFormat* trajectoryFormatFor(const std::filesystem::path& file);
 
+// As a function of time, in the coordinates of the clouds that it belongs to: a file of any format but SBET.
+Result<PoseSpline> cloudPoses(const std::filesystem::path& file, Report& report, Progress& progress);
+
 }  // namespace standpoint
