@@ -12,6 +12,7 @@
 #include "core/output_place.h"
 #include "pointclouds/scores/class_scores.h"
 #include "pointclouds/scores/instance_scores.h"
+#include "project/dataset/cleaning_score.h"
 #include "project/dataset/score_pictures.h"
 #include "project/dataset/scored_labels.h"
 #include "project/dataset/set_scans.h"
@@ -257,11 +258,24 @@ const Fields<ScoreOptions>& scoreFields() {
        {.positional = true, .required = true}},
       {"predicted",
        &O::predicted,
-       "file with a label for each point of the truth, in its order; for a set, a folder with one for each scan",
-       {.positional = true, .required = true, .label = "Labels to score"}},
+       "file with a label for each point of the truth, in its order; for a set, a folder with one for each scan; with "
+       "--cleaning, the cleaned cloud",
+       {.positional = true, .required = true, .label = "Labels or cleaned cloud"}},
       {"classes", &O::classes, "classes of the labels, by name or file (.json); of a set, one of its own"},
       {"split", &O::split, "score only this split of a set", {.choices = {"train", "validation", "test"}}},
-      {"output", &O::output, "report to write (.html to print, .json, .csv)"}};
+      {"output", &O::output, "report to write (.html to print, .json, .csv)"},
+      {"cleaning", &O::cleaning,
+       "score what somebody removed from a scan with true values in any program: what was found, what good was lost"},
+      {"tolerance",
+       &O::tolerance_m,
+       "of a cleaned cloud: how far its program may have rounded a point (0.001 m unless given)",
+       {.unit = "m", .minimum = 1e-6, .maximum = 0.02}},
+      {"shift", &O::shift_m,
+       "of a cleaned cloud: what its program took off the coordinates; found by itself where it is whole metres"},
+      {"spacing",
+       &O::spacing_m,
+       "of a cleaned cloud that was also thinned: a point is removed where none of its kind is left within this",
+       {.unit = "m", .minimum = 1e-4, .maximum = 1}}};
   return fields;
 }
 
@@ -304,8 +318,9 @@ const AnswerFields<ScoreAnswer>& answerFields(const ScoreAnswer*) {
   return fields;
 }
 
-Result<Answered<ScoreAnswer>> runScore(const Document& document, const ScoreOptions& options, Progress& progress) {
-  TRY(checkScoreOutput(options.output));
+namespace {
+
+Result<Answered<ScoreAnswer>> scoreLabels(const Document& document, const ScoreOptions& options, Progress& progress) {
   Answered<ScoreAnswer> outcome{document};
   std::error_code error;
   progress.stage("Score the labels");
@@ -334,6 +349,31 @@ Result<Answered<ScoreAnswer>> runScore(const Document& document, const ScoreOpti
                                     shareText(answer.mean_iou), answer.classes_in_mean, shareText(answer.accuracy));
   outcome.text = scoreText(answer);
   return outcome;
+}
+
+// An answer as one of those that the verb can give.
+template <class A>
+Answered<ScoredAnswer> oneOf(Answered<A> of) {
+  return {std::move(of.document), std::move(of.answer), std::move(of.report), std::move(of.description),
+          std::move(of.text)};
+}
+
+}  // namespace
+
+Result<Answered<ScoredAnswer>> runScore(const Document& document, const ScoreOptions& options, Progress& progress) {
+  TRY(checkScoreOutput(options.output));
+  if (options.cleaning) {
+    if (!options.classes.empty()) return failure(ErrorKind::usage, "belongs to labels, not to a cleaning", "--classes");
+    if (!options.split.empty()) return failure(ErrorKind::usage, "belongs to labels, not to a cleaning", "--split");
+    TRY_ASSIGN(auto outcome, scoreCleaning(document, options, progress));
+    return oneOf(std::move(outcome));
+  }
+  for (const auto& [is_given, option] :
+       {std::pair(options.tolerance_m.has_value(), "--tolerance"),
+        std::pair(options.spacing_m.has_value(), "--spacing"), std::pair(options.shift_m.has_value(), "--shift")})
+    if (is_given) return failure(ErrorKind::usage, "belongs to a cleaning; add --cleaning", option);
+  TRY_ASSIGN(auto outcome, scoreLabels(document, options, progress));
+  return oneOf(std::move(outcome));
 }
 
 }  // namespace standpoint

@@ -5,20 +5,27 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "project/answers.h"
+#include "project/dataset/cleaning_answer.h"
 #include "project/fields.h"
 
 namespace standpoint {
 
-// Scores anybody's labels of points against the truth.
+// Scores anybody's labels of points, or what somebody's cleaning removed, against the truth.
 struct ScoreOptions {
-  std::filesystem::path truth;      // a cloud with labels, a file of labels, or the folder of a set
-  std::filesystem::path predicted;  // a file of labels; for a set, a folder of them
-  std::string classes;              // a shipped map or a file; empty: the only one of the set
-  std::string split;                // of a set; empty: all
-  std::filesystem::path output;     // .html, .json or .csv
+  std::filesystem::path truth;                   // a cloud with labels, a file of labels, or the folder of a set
+  std::filesystem::path predicted;               // a file of labels; for a set, a folder of them; or a cleaned cloud
+  std::string classes;                           // a shipped map or a file; empty: the only one of the set
+  std::string split;                             // of a set; empty: all
+  std::filesystem::path output;                  // .html, .json or .csv
+  bool cleaning = false;                         // the next three are of such
+  std::optional<double> tolerance_m, spacing_m;  // of rounding; of a cloud that was thinned, too
+  std::optional<Eigen::Vector3d> shift_m;        // that the program took off; nothing: found
 };
 const Fields<ScoreOptions>& scoreFields();
 
@@ -53,7 +60,8 @@ struct ScoreAnswer {
   std::vector<InstanceRow> instances;  // of the classes that are scored, by id
 };
 const AnswerFields<ScoreAnswer>& answerFields(const ScoreAnswer*);
-Result<Answered<ScoreAnswer>> runScore(const Document& document, const ScoreOptions& options, Progress& progress);
+using ScoredAnswer = std::variant<ScoreAnswer, CleaningAnswer>;
+Result<Answered<ScoredAnswer>> runScore(const Document& document, const ScoreOptions& options, Progress& progress);
 
 // .html (one page without anything from elsewhere, at its end `pictures`, a part of it), .json (the answer) or .csv (a
 // class a line).

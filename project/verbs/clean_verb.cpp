@@ -124,19 +124,6 @@ const Fields<CleanOptions>& cleanFields() {
   return fields;
 }
 
-const AnswerFields<CleanCount>& answerFields(const CleanCount*) {
-  using A = CleanCount;
-  static const AnswerFields<A> fields = {{"in", &A::in}, {"removed", &A::removed}, {"share", &A::fraction}};
-  return fields;
-}
-
-const AnswerFields<CleanCause>& answerFields(const CleanCause*) {
-  using A = CleanCause;
-  static const AnswerFields<A> fields = {
-      {"in", &A::in}, {"removed", &A::removed}, {"recall", &A::recall}, {"precision", &A::precision}};
-  return fields;
-}
-
 const AnswerFields<CleanFilter>& answerFields(const CleanFilter*) {
   using A = CleanFilter;
   static const AnswerFields<A> fields = {

@@ -16,6 +16,7 @@
 #include "pointclouds/filters/point_filter.h"
 #include "pointclouds/statistics/statistics.h"
 #include "project/answers.h"
+#include "project/dataset/cleaning_answer.h"
 #include "project/fields.h"
 
 namespace standpoint {
@@ -76,16 +77,6 @@ struct CleanOptions {
 };
 const Fields<CleanOptions>& cleanFields();
 
-struct CleanCount {  // of points of a kind
-  std::uint64_t in = 0, removed = 0;
-  std::optional<double> fraction;  // of those there were
-};
-const AnswerFields<CleanCount>& answerFields(const CleanCount*);
-struct CleanCause {  // of points by what is wrong with them in truth
-  std::uint64_t in = 0, removed = 0;
-  std::optional<double> recall, precision;
-};
-const AnswerFields<CleanCause>& answerFields(const CleanCause*);
 struct CleanFilter {
   std::string filter;  // as it was written
   std::uint64_t in = 0, removed = 0, out = 0;

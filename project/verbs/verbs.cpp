@@ -111,8 +111,9 @@ const std::vector<Verb>& table() {
              instrumentsFields(), runInstruments),
       verbOf("dataset", "Make a set of labelled scans from a recipe, forecast it, verify it, describe it", S::files,
              datasetFields(), runDataset),
-      verbOf("score", "Score labels of points against the truth: IoU, precision, recall, confusion matrix", S::files,
-             scoreFields(), runScore),
+      verbOf("score",
+             "Score labels of points, or what somebody's cleaning removed, against the truth: IoU, precision, recall",
+             S::files, scoreFields(), runScore),
       verbOf("run", "Replay a job: a list of verbs with their options", S::files, jobFields(), runJob),
   };
   return verbs;
