@@ -10,7 +10,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr std::size_t kTextPiece = 4U << 20U;
+constexpr std::size_t kStlTextPiece = 4U << 20U;
 constexpr double kLargestInText = 1e13;
 
 class TextReader {
@@ -141,8 +141,8 @@ Result<void> readStlText(const FileBytes& bytes, const std::string& name, StlSou
                          Progress& progress) {
   TextReader reader(name, out);
   std::size_t line = 1;
-  for (std::uint64_t from = 0; from < bytes.size(); from += kTextPiece) {
-    TRY_ASSIGN(const auto text, textPiece(bytes, from, kTextPiece));
+  for (std::uint64_t from = 0; from < bytes.size(); from += kStlTextPiece) {
+    TRY_ASSIGN(const auto text, textPiece(bytes, from, kStlTextPiece));
     if (auto ok = reader.piece(text, line); !ok) return ok;
     progress.advance(0.6 * static_cast<double>(from) / static_cast<double>(bytes.size()));
     if (auto ok = progress.check(); !ok) return ok;
