@@ -204,7 +204,7 @@ std::vector<Eigen::Vector3d> possibleShifts(const Bounds& truth, const Bounds& c
                           Eigen::Vector3d((truth.min + truth.max - cleaned.min - cleaned.max) / 2)};
   for (const double step_m : {1000.0, 100.0, 10.0, 1.0})
     for (const auto& one : off) {
-      const Eigen::Vector3d shift = (one / step_m).array().round() * step_m;
+      const Eigen::Vector3d shift = (one / step_m).array().round() * step_m + 0.0;  // no -0
       if (std::find(all.begin(), all.end(), shift) == all.end()) all.push_back(shift);
     }
   return all;
