@@ -15,6 +15,7 @@
 #include "emulated-ui/preview.h"
 #include "emulated-ui/sensors.h"
 #include "emulated-ui/sighting.h"
+#include "emulated-ui/walk_motion.h"
 #include "emulated-ui/walk_scan.h"
 #include "pointclouds/filters/cleaning.h"
 #include "project/survey/register_verb.h"
@@ -249,7 +250,7 @@ Result<void> DeviceHost::hand(const std::string& id, const std::string& value) {
 }
 
 void DeviceHost::startWalk(const ScanOrder& order, const Document& document) {
-  const WalkScanOptions options{file_, seed, truth};
+  const WalkScanOptions options{file_, seed, truth, device_.type().instrument.moving->mount};
   startTask(fmt::format("{}: {}", device_.type().definition.title, order.name),
             [order, options, document](Progress& p) -> Result<Delivery> {
               auto scanned = scanWalk(document, order, options, p);
@@ -321,7 +322,8 @@ void DeviceHost::start(const Order& order, const Document& document, const fs::p
     startTask("Surroundings", [document](Progress& p) -> Result<Delivery> {
       TRY_ASSIGN(auto scene, RayScene::build(document.environment(), p));
       return [scene = std::move(scene), g = *document.georeference](DeviceHost& host, const Document&) {
-        host.map_.begin(scene, g);
+        const auto& moving = host.device_.type().instrument.moving;
+        host.map_.begin(scene, g, carrierOf(moving ? moving->mount : "").limits.height_m);
         host.device_.sceneDone();
       };
     });

@@ -7,7 +7,6 @@
 #include "core/number_text.h"
 #include "core/portable_math.h"
 #include "core/units.h"
-#include "emulated-ui/walk_motion.h"
 #include "project/survey/clicked_places.h"
 
 namespace standpoint {
@@ -16,7 +15,7 @@ namespace {
 
 constexpr double kEvery_m = 0.3, kHalf_m = 40, kReach_m = 15;
 constexpr int kAround = 72;
-constexpr double kElevations_deg[] = {-65, -50, -38, -28, -20, -12, -4, 4, 20, 45, 70};
+constexpr double kElevations_deg[] = {-65, -50, -38, -28, -20, -12, -4, 4, 10, 20, 32, 45, 58, 70};
 constexpr double kLevel = 0.7;  // of a normal's upward part: floors and ceilings, with stairs and slopes
 
 bool isPaused(const WalkState& walk, double after_s) {
@@ -27,9 +26,10 @@ bool isPaused(const WalkState& walk, double after_s) {
 
 }  // namespace
 
-void WalkMap::begin(std::shared_ptr<const RayScene> scene, const Georeference& georeference) {
+void WalkMap::begin(std::shared_ptr<const RayScene> scene, const Georeference& georeference, double height_m) {
   scene_ = std::move(scene);
   shift_m_ = georeference.shift_m;
+  height_m_ = height_m;
   map_ = {};
   looked_m_ = -1;
 }
@@ -37,16 +37,16 @@ void WalkMap::begin(std::shared_ptr<const RayScene> scene, const Georeference& g
 bool WalkMap::look(double x_m, double y_m) {
   if (map_.cells.empty()) {
     const auto floor =
-        waypointsOf({exactText(x_m) + "," + exactText(y_m)}, *scene_, {.shift_m = shift_m_}, carriedHeight_m(), "walk");
+        waypointsOf({exactText(x_m) + "," + exactText(y_m)}, *scene_, {.shift_m = shift_m_}, height_m_, "walk");
     if (!floor) return false;
-    eye_m_ = floor->front().floor_m.z() + carriedHeight_m();
+    eye_m_ = floor->front().floor_m.z() + height_m_;
     map_.x_m = x_m - kHalf_m, map_.y_m = y_m - kHalf_m;
     map_.columns = map_.rows = static_cast<int>(2 * kHalf_m / map_.cell_m);
     map_.cells.assign(static_cast<std::size_t>(map_.columns) * map_.rows, 0);
   }
   Eigen::Vector3d eye(x_m - shift_m_.x(), y_m - shift_m_.y(), eye_m_);
-  if (const auto below = scene_->intersect(eye, -Eigen::Vector3d::UnitZ(), 2 * carriedHeight_m()))
-    eye.z() = eye_m_ = below->position.z() + carriedHeight_m();
+  if (const auto below = scene_->intersect(eye, -Eigen::Vector3d::UnitZ(), 2 * height_m_))
+    eye.z() = eye_m_ = below->position.z() + height_m_;
   for (const double elevation_deg : kElevations_deg)
     for (int k = 0; k < kAround; ++k) {
       double up = 0, along = 1, s = 0, c = 1;
@@ -57,7 +57,7 @@ bool WalkMap::look(double x_m, double y_m) {
       const int column = static_cast<int>(std::floor((hit->position.x() + shift_m_.x() - map_.x_m) / map_.cell_m));
       const int row = static_cast<int>(std::floor((hit->position.y() + shift_m_.y() - map_.y_m) / map_.cell_m));
       if (column < 0 || row < 0 || column >= map_.columns || row >= map_.rows) continue;
-      const double rise = hit->position.z() - (eye_m_ - carriedHeight_m());
+      const double rise = hit->position.z() - (eye_m_ - height_m_);
       const std::uint8_t what = hit->normal.z() > kLevel    ? (rise < 0.3 ? SeenMap::kFloor : 0)
                                 : hit->normal.z() < -kLevel ? SeenMap::kCeiling
                                                             : SeenMap::kWall;

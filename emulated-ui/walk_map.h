@@ -13,7 +13,8 @@ namespace standpoint {
 // seen from there. By the way alone, however long the steps of the clock are.
 class WalkMap {
  public:
-  void begin(std::shared_ptr<const RayScene> scene, const Georeference& georeference);
+  // Carried so high above the floor.
+  void begin(std::shared_ptr<const RayScene> scene, const Georeference& georeference, double height_m);
   bool ready() const { return scene_ != nullptr; }
   // What of the walk is new since the last call. Null: nothing is.
   std::shared_ptr<const SeenMap> grow(const WalkState& walk);
@@ -28,6 +29,7 @@ class WalkMap {
   Eigen::Vector3d shift_m_ = Eigen::Vector3d::Zero();
   SeenMap map_;
   double looked_m_ = -1;  // of the way, at the last look; before the first: less than nothing
+  double height_m_ = 0;   // above the floor
   double eye_m_ = 0;      // local height
 };
 

@@ -75,17 +75,21 @@ Pose rounded(const std::vector<Stand>& stands, double time_s, double end_s) {
 
 }  // namespace
 
-double carriedHeight_m() { return kCarriers.front().limits.height_m; }
+const Carrier& carrierOf(const std::string& mount) {
+  const std::string_view id = mount == "body" ? "backpack" : "hand";
+  return *std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == id; });
+}
 
 Result<CarriedMotion> motionOf(const WalkedWay& way, const RayScene& scene, const Georeference& georeference,
-                               const std::string& name, std::uint64_t seed) {
+                               const Carrier& carrier, const std::string& name, std::uint64_t seed) {
   if (way.size() < 2) return failure(ErrorKind::usage, "the scanner did not move", name);
   std::vector<std::string> texts;
   for (const auto& place : way) texts.push_back(exactText(place[0]) + "," + exactText(place[1]));
-  TRY_ASSIGN(const auto floor, waypointsOf(texts, scene, georeference, carriedHeight_m(), "walk"));
+  const double height_m = carrier.limits.height_m;
+  TRY_ASSIGN(const auto floor, waypointsOf(texts, scene, georeference, height_m, "walk"));
   std::vector<Stand> stands;
   for (std::size_t i = 0; i < way.size(); ++i)
-    stands.push_back({way[i][2] - way.front()[2], floor[i].floor_m + Eigen::Vector3d(0, 0, carriedHeight_m()), 0});
+    stands.push_back({way[i][2] - way.front()[2], floor[i].floor_m + Eigen::Vector3d(0, 0, height_m), 0});
   lookAhead(stands);
   const double end_s = stands.back().time_s;
   Trajectory knots;
@@ -98,7 +102,7 @@ Result<CarriedMotion> motionOf(const WalkedWay& way, const RayScene& scene, cons
   CarriedMotion carried;
   carried.length_m = lengthOf(way);
   carried.path = std::make_shared<const PoseSpline>(std::move(spline));
-  const CarriedPose pose(carried.path, kCarriers.front(), seed, static_cast<std::uint32_t>(stableHash(name.c_str())));
+  const CarriedPose pose(carried.path, carrier, seed, static_cast<std::uint32_t>(stableHash(name.c_str())));
   TRY_ASSIGN(auto truth, sampled(pose, kSampled_hz));
   carried.truth = std::make_shared<const PoseSpline>(std::move(truth));
   return carried;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/georeference.h"
+#include "core/motion/carriers.h"
 #include "core/result.h"
 #include "emulated-ui/device/walk.h"
 #include "scanners/engine/ray_engine.h"
@@ -12,13 +13,13 @@
 
 namespace standpoint {
 
-// How far above the floor a hand carries a scanner.
-double carriedHeight_m();
+// What carries a scanner that is mounted so: the hand, or the back where it is worn ("body").
+const Carrier& carrierOf(const std::string& mount);
 
-// The way as a body goes it with a scanner in its hand: on the floor of the scene, starts and turns rounded as nobody
-// moves by jerks, gait and shaking added, from 0 s on. The same for the same seed and name. An error says at which
-// place nobody can walk.
+// The way as a body goes it with a scanner: on the floor of the scene, starts and turns rounded as nobody moves by
+// jerks, gait and shaking of what carries it added, from 0 s on. The same for the same seed and name. An error says at
+// which place nobody can walk.
 Result<CarriedMotion> motionOf(const WalkedWay& way, const RayScene& scene, const Georeference& georeference,
-                               const std::string& name, std::uint64_t seed);
+                               const Carrier& carrier, const std::string& name, std::uint64_t seed);
 
 }  // namespace standpoint

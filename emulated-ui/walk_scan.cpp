@@ -70,8 +70,10 @@ Result<ScannedWalk> scanWalk(const Document& document, const ScanOrder& order, c
   trajectory.name = order.project + " " + order.name;
   trajectory.file = fs::path(wanted.file).replace_extension(".way.csv").string();
   trajectory.format = "csv";
+  const Carrier& carrier = carrierOf(wanted.mount);
+  trajectory.carrier = carrier.id;
   TRY_ASSIGN(const auto scene, RayScene::build(document.environment(), progress));
-  TRY_ASSIGN(const auto carried, motionOf(walk.way, *scene, georeference, trajectory.name, wanted.seed));
+  TRY_ASSIGN(const auto carried, motionOf(walk.way, *scene, georeference, carrier, trajectory.name, wanted.seed));
   const auto* format = trajectoryFormat(trajectory.format);
   TRY_ASSIGN(const auto frame, fileFrame(georeference, format->id));
   TRY(format->write(trajectory.file, evenSamples(*carried.truth, kWritten_hz), frame));

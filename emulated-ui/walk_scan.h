@@ -19,6 +19,7 @@ struct WalkScanOptions {
   std::filesystem::path file;
   std::uint64_t seed = 1;
   bool truth = false;
+  std::string mount = "hand";  // of the scanner
 };
 
 // What the office makes of a walk: the real scan along it, one of 16 pulses of the scanner and without the width of its

@@ -97,6 +97,18 @@ void readBody(JsonFields& root, BodyRow& body) {
   f.close();
 }
 
+// "walk": {"reminders_min": [45, 60], "rest_s": 10}
+void readWalk(JsonFields& f, WalkRow& walk) {
+  walk.rest_s = f.numberOr("rest_s", 0, 0, 3600);
+  if (const auto* times = f.raw("reminders_min"); times != nullptr) {
+    if (!times->is_array()) return f.wrong("reminders_min", "must be a list of minutes, such as [45, 60]");
+    for (std::size_t i = 0; i < times->size(); ++i)
+      walk.reminders_min.push_back(
+          numberAt(f.fault(), (*times)[i], fmt::format("{}/{}", f.pointer("reminders_min"), i), 0.1, 1440));
+  }
+  f.skip("sources");
+}
+
 PhaseRow phaseRow(JsonFields& f) {
   PhaseRow p;
   p.id = f.text("id");
@@ -325,6 +337,7 @@ Result<DeviceDefinition> readDefinition(const std::filesystem::path& file) {
   d.instruments = root.texts("instruments");
   d.about = root.text("about");
   readBody(root, d.body);
+  root.object("walk", [&](JsonFields& f) { readWalk(f, d.walk); });
   root.list("phases", [&](JsonFields& f) { d.phases.push_back(phaseRow(f)); });
   root.list("values", [&](JsonFields& f) { d.values.push_back(valueRow(f)); });
   root.list("sensors", [&](JsonFields& f) { d.sensors.push_back(sensorRow(f)); });

@@ -120,6 +120,12 @@ struct BodyRow {
   std::map<std::string, double> sleeps_after_min;
 };
 
+// What a scanner that is carried tells by itself while it records.
+struct WalkRow {
+  std::vector<double> reminders_min;  // of the walk: the event "reminder" comes then
+  double rest_s = 0;                  // after standing still for so long the event "rested" comes; 0: never
+};
+
 // How it looks: our own colours, 0xRRGGBB, and proportions. What a file leaves out is plain.
 struct SkinRow {
   std::uint32_t body = 0x3A3A3A, body_edge = 0x545454, display = 0xF5F5F5, title_bar = 0x34495E, title_text = 0xFFFFFF,
@@ -142,6 +148,7 @@ struct DeviceDefinition {
   std::vector<std::string> instruments;  // ids of the scanners that it drives; the first is the standard
   std::string about;                     // where its facts come from
   BodyRow body;
+  WalkRow walk;
   SkinRow skin;
   ScanRow scan;
   std::vector<PhaseRow> phases;  // the first is where it starts

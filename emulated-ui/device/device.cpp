@@ -326,11 +326,24 @@ void Device::watchBattery(double before) {
   }
 }
 
+void Device::watchWalk(double before_s) {
+  auto& walk = state_.walk;
+  if (!walk.recording) return;
+  const auto& told = type_->definition.walk;
+  for (const double minutes : told.reminders_min)
+    if (before_s < 60 * minutes && walk.recorded_s >= 60 * minutes) fire(Event::reminder);
+  if (told.rest_s <= 0 || walk.rest_told || walk.rested_s < told.rest_s) return;
+  walk.rest_told = true;
+  fire(Event::rested);
+}
+
 void Device::tick(double seconds) {
   if (!(seconds > 0)) return;
   const double before = state_.around.battery;
+  const double recorded_s = state_.walk.recording ? state_.walk.recorded_s : 0;
   run(seconds);
   watchBattery(before);
+  watchWalk(recorded_s);
 }
 
 // --- orders ---

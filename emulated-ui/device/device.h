@@ -139,6 +139,7 @@ class Device {
   void wake() { state_.untouched_s = 0; }
   void run(double seconds);
   void watchBattery(double before);
+  void watchWalk(double before_s);
 
   std::shared_ptr<const DeviceType> type_;
   DeviceState state_;

@@ -190,10 +190,12 @@ Result<void> walkTo(Device& d, const std::string& value) {
                    fmt::format("must be a place, and a speed of {:g} to {:g} m/s behind it: 4.5,3,0.8", kSlowest_mps,
                                kFastest_mps));
   auto& walk = d.change().walk;
-  if (!walk.at)
+  if (!walk.at) {
     walk.at = {numbers->at(0), numbers->at(1)};
-  else
+  } else {
     walk.legs.push_back({numbers->at(0), numbers->at(1), speed_mps});
+    walk.put_down = false;
+  }
   if (d.in(PhaseId{"initialising"})) d.fire(Event::tripod_moved);
   return {};
 }
@@ -201,6 +203,13 @@ Result<void> walkTo(Device& d, const std::string& value) {
 Result<void> standStill(Device& d, const std::string&) {
   if (!isCarried(d)) return failure(ErrorKind::usage, d.word("not_carried"));
   d.change().walk.legs.clear();
+  return {};
+}
+
+// On the floor, a table or its stand: stiller than any hand.
+Result<void> putDown(Device& d, const std::string&) {
+  if (auto stands = standStill(d, {}); !stands) return stands;
+  d.change().walk.put_down = true;
   return {};
 }
 
@@ -243,6 +252,7 @@ const std::vector<HandRow>& handRows() {
       {"tripod_moved", "tripod", "", moveTripod},
       {"walk_to", "walk", "x,y in metres, and the speed in m/s behind a comma; or nothing", walkTo},
       {"stand_still", "walk", "", standStill},
+      {"put_down", "walk", "", putDown},
       {"open_doors", "walk", "", openDoors},
       {"wipe_optics", "around", "", wipeOptics},
       {"close_cover", "around", "", closeCover},

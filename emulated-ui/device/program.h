@@ -43,13 +43,16 @@ enum class EngineEvent {
   wlan_lost,
   set_down,  // the tripod, at a station
   sighted,
-  not_sighted
+  not_sighted,
+  reminder,  // a walk has lasted so long
+  rested     // on a walk they have stood still for so long
 };
 inline constexpr const char* kEngineEventNames[] = {
     "elapsed",       "data",         "linked",           "targets_measured", "transferred",
     "failed",        "battery_low",  "battery_critical", "battery_empty",    "card_inserted",
     "card_removed",  "tripod_moved", "blocked",          "temperature",      "tilted",
-    "tracking_lost", "wlan_lost",    "set_down",         "sighted",          "not_sighted"};
+    "tracking_lost", "wlan_lost",    "set_down",         "sighted",          "not_sighted",
+    "reminder",      "rested"};
 
 // One of these, or the name that a widget or a dialog's button of the device sends: loading a device refuses an event
 // that nothing sends or no phase handles.

@@ -16,6 +16,12 @@ namespace {
 constexpr double kReach_m = 0.5;   // from a known point: nearer than anybody misses it [P]
 constexpr double kNothing = 1e-9;  // metres, seconds, radians
 
+double cells_m2(const SeenMap& map, std::uint8_t what) {
+  const auto seen =
+      std::count_if(map.cells.begin(), map.cells.end(), [&](std::uint8_t cell) { return (cell & what) == what; });
+  return static_cast<double>(seen) * map.cell_m * map.cell_m;
+}
+
 // The place is part of the way that is recorded.
 void markPlace(WalkState& walk) {
   if (!walk.recording || !walk.at) return;
@@ -46,6 +52,8 @@ void turnBy(WalkState& walk, double angle_rad) {
 // A part of the first leg; gives what it took.
 double stepOn(WalkState& walk, double seconds) {
   const WalkLeg leg = walk.legs.front();
+  walk.rested_s = 0;
+  walk.rest_told = false;
   auto& [x, y] = *walk.at;
   const double dx = leg.x_m - x, dy = leg.y_m - y, length = std::sqrt(dx * dx + dy * dy);
   if (length < kNothing) {
@@ -92,9 +100,12 @@ void forget(WalkState& walk) {
 
 }  // namespace
 
-double SeenMap::floor_m2() const {
-  const auto seen = std::count_if(cells.begin(), cells.end(), [](std::uint8_t cell) { return (cell & kFloor) != 0; });
-  return static_cast<double>(seen) * cell_m * cell_m;
+double SeenMap::floor_m2() const { return cells_m2(*this, kFloor); }
+double SeenMap::ceiling_m2() const { return cells_m2(*this, kCeiling); }
+
+double SeenMap::bothShare() const {
+  const double both = cells_m2(*this, kFloor | kCeiling), any = floor_m2() + ceiling_m2() - both;
+  return any > 0 ? both / any : 0;
 }
 
 bool isHurried(const WalkState& walk) { return walk.speed_mps > kHurried_mps || walk.turn_radps > kHurried_radps; }
@@ -103,6 +114,7 @@ void walkOn(WalkState& walk, double seconds) {
   while (seconds > kNothing && !walk.legs.empty() && walk.at) seconds -= stepOn(walk, seconds);
   if (!walk.legs.empty()) return;
   walk.speed_mps = walk.turn_radps = 0;
+  walk.rested_s += std::max(0.0, seconds);
   passTime(walk, std::max(0.0, seconds));
 }
 
@@ -117,6 +129,8 @@ void beginWalk(Device& device) {
   auto& walk = device.change().walk;
   forget(walk);
   walk.recording = true;
+  walk.rested_s = 0;
+  walk.rest_told = false;
   markPlace(walk);
   device.note("walk_started");
 }
@@ -151,6 +165,18 @@ std::string pointInReach(const Device& device) {
     if (std::hypot(place.x() - at->front(), place.y() - at->back()) <= kReach_m) return point.name;
   }
   return {};
+}
+
+std::optional<double> nearestFix_m(const Device& device) {
+  const auto here = pointInReach(device);
+  std::optional<double> nearest;
+  if (here.empty()) return nearest;
+  const auto& walk = device.state().walk;
+  for (const auto& fix : walk.fixes) {
+    const double away = std::hypot(fix.x_m - walk.at->front(), fix.y_m - walk.at->back());
+    if (fix.point != here) nearest = std::min(nearest.value_or(away), away);
+  }
+  return nearest;
 }
 
 void fixWalk(Device& device) {

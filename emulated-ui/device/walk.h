@@ -32,6 +32,8 @@ struct SeenMap {
   std::vector<std::uint8_t> cells;  // what was seen in each, row by row
 
   double floor_m2() const;
+  double ceiling_m2() const;
+  double bothShare() const;  // of what is floor or ceiling: where both were seen
 };
 
 struct WalkLeg {
@@ -44,6 +46,9 @@ struct WalkState {
   std::array<double, 2> ahead_of = {1, 0};  // unit: where they look
   std::vector<WalkLeg> legs;                // before them
   double speed_mps = 0, turn_radps = 0;     // just now
+  bool put_down = false;                    // the scanner is on something flat, until they walk
+  double rested_s = 0;                      // they stand, for so long
+  bool rest_told = false;                   // the event of it came
   bool doors_open = false;                  // they were opened before
   bool scene = false;                       // what can be seen from there is known
   // Of the walk that is recorded, or was recorded last and is not processed.
@@ -92,5 +97,7 @@ const std::vector<FactRow>& walkFacts();
 
 // The known point within reach of who carries the scanner; empty: none.
 std::string pointInReach(const Device& device);
+// From there to the nearest other one that was measured, in metres; nothing where there are not both.
+std::optional<double> nearestFix_m(const Device& device);
 
 }  // namespace standpoint

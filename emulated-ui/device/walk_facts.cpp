@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kTransfer_bytes_per_s = 60e6;  // [P] by cable
 constexpr double kProcessing = 1;               // [P] of the walk's own time
+constexpr double kNoFix_m = 1e6;
 
 const WalkState& walk(const Device& d) { return d.state().walk; }
 const WalkResult* result(const Device& d) {
@@ -64,6 +65,15 @@ const std::vector<FactRow>& walkFacts() {
        .domain = kEither,
        .value = [](const Device& d) { return yesNo(!walk(d).legs.empty()); },
        .about = "who carries the scanner is on the way"},
+      {.name = "carried.put_down",
+       .domain = kEither,
+       .value = [](const Device& d) { return yesNo(walk(d).put_down); },
+       .about = "the scanner is on something flat"},
+      {.name = "carried.rested",
+       .unit = FactUnit::seconds,
+       .domain = atMost(1e9),
+       .value = [](const Device& d) { return numberFact(walk(d).rested_s); },
+       .about = "how long who carries the scanner has been standing still"},
       {.name = "carried.hurried",
        .domain = kEither,
        .value = [](const Device& d) { return yesNo(isHurried(walk(d))); },
@@ -110,6 +120,15 @@ const std::vector<FactRow>& walkFacts() {
        .domain = atMost(1e6),
        .value = [](const Device& d) { return numberFact(walk(d).seen ? std::round(walk(d).seen->floor_m2()) : 0); },
        .about = "floor seen in the live map, in m²"},
+      {.name = "carried.ceiling",
+       .domain = atMost(1e6),
+       .value = [](const Device& d) { return numberFact(walk(d).seen ? std::round(walk(d).seen->ceiling_m2()) : 0); },
+       .about = "ceiling seen in the live map, in m²"},
+      {.name = "carried.both",
+       .unit = FactUnit::fraction,
+       .domain = atMost(1),
+       .value = [](const Device& d) { return numberFact(walk(d).seen ? walk(d).seen->bothShare() : 0); },
+       .about = "share of the live map's floors and ceilings where both were seen"},
       {.name = "carried.fixes",
        .domain = atMost(1e4),
        .value = [](const Device& d) { return numberFact(static_cast<double>(walk(d).fixes.size())); },
@@ -118,6 +137,11 @@ const std::vector<FactRow>& walkFacts() {
        .domain = kEither,
        .value = [](const Device& d) { return yesNo(!pointInReach(d).empty()); },
        .about = "a known point is within reach"},
+      {.name = "carried.nearest_fix",
+       .unit = FactUnit::metres,
+       .domain = atMost(kNoFix_m),
+       .value = [](const Device& d) { return numberFact(nearestFix_m(d).value_or(kNoFix_m)); },
+       .about = "from the known point within reach to the nearest other one measured; 1000000: there is none"},
       {.name = "carried.doors",
        .domain = {{"open", "closed"}},
        .value = [](const Device& d) { return wordFact(walk(d).doors_open ? "open" : "closed"); },

@@ -7,31 +7,13 @@
 #include "emulated-ui/walk_motion.h"
 #include "emulated-ui/walk_scan.h"
 #include "project/verb.h"
-#include "tests/emulated-ui/support.h"
+#include "tests/emulated-ui/on_foot.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
 namespace {
 
-// On, with an open project, in the hands of somebody at (0, 0).
-TestDevice held() {
-  TestDevice d("leica-blk2go");
-  EXPECT_TRUE(d.press({"key"}));
-  d->tick(30);
-  EXPECT_TRUE(d.press({"project", "new_project", "name=House", "create"}));
-  EXPECT_TRUE(d->hand("walk_to", "0,0"));
-  return d;
-}
-
-// From there on it records.
-void begin(TestDevice& d) {
-  ASSERT_TRUE(d.press({"start"}));
-  const auto order = d->takeOrder();
-  ASSERT_TRUE(order && std::holds_alternative<SceneOrder>(*order));
-  d->sceneDone();
-  d->tick(12);
-  ASSERT_EQ(d.phase(), "recording");
-}
+TestDevice inHand() { return withWalker("leica-blk2go"); }
 
 TEST(Blk2go, LightsItsRingByWhatItDoes) {
   TestDevice d("leica-blk2go");
@@ -55,7 +37,7 @@ TEST(Blk2go, StartsWithAProjectAndInSomebodysHandsOnly) {
 }
 
 TEST(Blk2go, InitialisesAgainWhereSomebodyWalksMeanwhile) {
-  auto d = held();
+  auto d = inHand();
   ASSERT_TRUE(d.press({"start"}));
   d->sceneDone();
   d->tick(8);
@@ -69,8 +51,8 @@ TEST(Blk2go, InitialisesAgainWhereSomebodyWalksMeanwhile) {
 }
 
 TEST(Blk2go, WalksStraightAndTurnsOnTheSpot) {
-  auto d = held();
-  begin(d);
+  auto d = inHand();
+  beginToRecord(d);
   ASSERT_TRUE(d->hand("walk_to", "4,0,0.8"));
   ASSERT_TRUE(d->hand("walk_to", "4,2,0.5"));
   d->tick(5);
@@ -86,9 +68,9 @@ TEST(Blk2go, WalksStraightAndTurnsOnTheSpot) {
 }
 
 TEST(Blk2go, IsWhereItWouldBeHoweverLongTheStepsOfItsClockAre) {
-  auto a = held(), b = held();
+  auto a = inHand(), b = inHand();
   for (auto* d : {&a, &b}) {
-    begin(*d);
+    beginToRecord(*d);
     ASSERT_TRUE((*d)->hand("walk_to", "4,0,0.8"));
     ASSERT_TRUE((*d)->hand("walk_to", "1,3,0.5"));
   }
@@ -101,8 +83,8 @@ TEST(Blk2go, IsWhereItWouldBeHoweverLongTheStepsOfItsClockAre) {
 }
 
 TEST(Blk2go, TurnsRedWhileSomebodyIsTooFast) {
-  auto d = held();
-  begin(d);
+  auto d = inHand();
+  beginToRecord(d);
   EXPECT_EQ(d.fact("carried.light"), "green spinning");
   ASSERT_TRUE(d->hand("walk_to", "15,0,1.5"));
   d->tick(2);
@@ -114,8 +96,8 @@ TEST(Blk2go, TurnsRedWhileSomebodyIsTooFast) {
 }
 
 TEST(Blk2go, KeepsItsWayAndNoPointsInAPause) {
-  auto d = held();
-  begin(d);
+  auto d = inHand();
+  beginToRecord(d);
   const double begun_s = d->number("carried.time");
   d->tick(3);
   ASSERT_TRUE(d.press({"pause"}));
@@ -132,9 +114,9 @@ TEST(Blk2go, KeepsItsWayAndNoPointsInAPause) {
 }
 
 TEST(Blk2go, MeasuresAControlPointOnlyWhereThereIsOneAndOnlyAtRest) {
-  auto d = held();
+  auto d = inHand();
   d->change().control.targets.push_back({"P1", {2.2, 0, 0}});
-  begin(d);
+  beginToRecord(d);
   EXPECT_TRUE(d.refuses("point")) << "too far away";
   ASSERT_TRUE(d->hand("walk_to", "2,0,1"));
   d->tick(1.8);
@@ -150,8 +132,8 @@ TEST(Blk2go, MeasuresAControlPointOnlyWhereThereIsOneAndOnlyAtRest) {
 }
 
 TEST(Blk2go, RecordsAWalkAndGivesItToTheOffice) {
-  auto d = held();
-  begin(d);
+  auto d = inHand();
+  beginToRecord(d);
   ASSERT_TRUE(d->hand("walk_to", "4,0,0.8"));
   d->tick(10);
   ASSERT_TRUE(d.press({"stop"}));
@@ -174,8 +156,8 @@ TEST(Blk2go, RecordsAWalkAndGivesItToTheOffice) {
 }
 
 TEST(Blk2go, AWalkThatIsDiscardedIsGone) {
-  auto d = held();
-  begin(d);
+  auto d = inHand();
+  beginToRecord(d);
   d->tick(10);
   ASSERT_TRUE(d.press({"stop"}));
   d->tick(10);
@@ -187,12 +169,12 @@ TEST(Blk2go, AWalkThatIsDiscardedIsGone) {
 }
 
 TEST(Blk2go, DoorsAreOpenedBeforeOrOnTheWay) {
-  auto d = held();
+  auto d = inHand();
   EXPECT_EQ(d.fact("carried.doors"), "closed");
   ASSERT_TRUE(d->hand("open_doors"));
   EXPECT_EQ(d.fact("carried.doors"), "open");
-  auto late = held();
-  begin(late);
+  auto late = inHand();
+  beginToRecord(late);
   EXPECT_FALSE(late->hand("open_doors"));
 }
 
@@ -202,12 +184,72 @@ TEST(OnFoot, ATripodIsNotCarriedAbout) {
 }
 
 TEST(OnFoot, WhereTheyGoIsTyped) {
-  auto d = held();
+  auto d = inHand();
   for (const char* wrong : {"", "1", "1,2,0", "1,2,9", "a,b", "1,2,0.5,4"})
     EXPECT_FALSE(d->hand("walk_to", wrong)) << wrong;
   ASSERT_TRUE(d->hand("walk_to", "1,2"));
   ASSERT_TRUE(d->hand("stand_still"));
   EXPECT_TRUE(d->state().walk.legs.empty());
+}
+
+TEST(OnFoot, WhatIsPutDownIsTakenUpByWhoWalks) {
+  auto d = inHand();
+  EXPECT_EQ(d.fact("carried.put_down"), "no");
+  ASSERT_TRUE(d->hand("walk_to", "5,0,1"));
+  d->tick(2);
+  ASSERT_TRUE(d->hand("put_down"));
+  d->tick(2);
+  EXPECT_EQ(d.fact("carried.put_down"), "yes");
+  EXPECT_NEAR(d->state().walk.at->front(), 2, 1e-9) << "it is not carried on";
+  ASSERT_TRUE(d->hand("walk_to", "3,0,1"));
+  EXPECT_EQ(d.fact("carried.put_down"), "no");
+}
+
+TEST(OnFoot, AnyDeviceMayRemindOfTimeAndNoticeRest) {
+  auto definition = loadDevice(*findDevice("leica-blk2go")).value()->definition;
+  definition.walk = {.reminders_min = {1}, .rest_s = 20};
+  definition.transitions.insert(definition.transitions.begin(),
+                                {{.from = {PhaseId{"recording"}}, .event = EngineEvent::reminder, .ask = "battery_low"},
+                                 {.from = {PhaseId{"recording"}}, .event = EngineEvent::rested, .ask = "hold_still"}});
+  const auto whole = loadDevice(*findDevice("leica-blk2go")).value();
+  const auto type = makeDeviceType(definition, {}, whole->instrument, whole->words);
+  ASSERT_TRUE(type) << describe(type.error());
+  for (const double step_s : {0.5, 7.0, 30.0}) {
+    TestDevice d(*type);
+    ASSERT_TRUE(d.press({"key"}));
+    d->tick(30);
+    ASSERT_TRUE(d.press({"project", "new_project", "create"}));
+    ASSERT_TRUE(d->hand("walk_to", "0,0"));
+    beginToRecord(d);
+    const double begun_s = d->number("carried.time");
+    int rests = 0, reminders = 0;
+    ASSERT_TRUE(d->hand("walk_to", "10,0,1"));
+    for (double t = begun_s; t < 90; t += step_s) {
+      d->tick(step_s);
+      rests += d.dialog() == "hold_still" ? 1 : 0;
+      reminders += d.dialog() == "battery_low" ? 1 : 0;
+      if (!d.dialog().empty()) d->change().dialog.clear();
+    }
+    EXPECT_EQ(rests, 1) << step_s << ": once for each rest";
+    EXPECT_EQ(reminders, 1) << step_s;
+  }
+}
+
+TEST(OnFoot, TheMapCountsFloorsCeilingsAndWhereBothWereSeen) {
+  SeenMap map;
+  map.columns = 4, map.rows = 2;
+  map.cells = {SeenMap::kFloor,
+               SeenMap::kFloor | SeenMap::kCeiling,
+               SeenMap::kCeiling,
+               0,
+               SeenMap::kWall,
+               SeenMap::kFloor | SeenMap::kWall,
+               0,
+               0};
+  EXPECT_DOUBLE_EQ(map.floor_m2(), 3 * 0.0625);
+  EXPECT_DOUBLE_EQ(map.ceiling_m2(), 2 * 0.0625);
+  EXPECT_DOUBLE_EQ(map.bothShare(), 0.25);
+  EXPECT_DOUBLE_EQ(SeenMap().bothShare(), 0);
 }
 
 // The sample house, and a walk of 11 s in its living room.
@@ -242,17 +284,20 @@ class OnFootInTheHouse : public testing::Test {
 };
 
 TEST_F(OnFootInTheHouse, ABodyIsNearTheStraightWayAndAtTheHeightOfAHand) {
-  const auto carried = motionOf(shortWalk(), *scene(), *house().georeference, "w", 1);
+  const Carrier& hand = carrierOf("hand");
+  const double height_m = hand.limits.height_m;
+  const auto carried = motionOf(shortWalk(), *scene(), *house().georeference, hand, "w", 1);
   ASSERT_TRUE(carried) << describe(carried.error());
   EXPECT_NEAR(carried->seconds(), 10, 1e-6);
   const Eigen::Vector3d shift = house().georeference->shift_m;
   const auto at = [&](double t) { return Eigen::Vector3d(carried->path->pose(t).translation + shift); };
-  EXPECT_LT((at(0) - Eigen::Vector3d(4, 1.6, carriedHeight_m())).norm(), 0.05);
-  EXPECT_LT((at(2.5) - Eigen::Vector3d(4.75, 1.6, carriedHeight_m())).norm(), 0.05);
-  EXPECT_LT((at(10) - Eigen::Vector3d(5.5, 3.2, carriedHeight_m())).norm(), 0.2);
+  EXPECT_LT((at(0) - Eigen::Vector3d(4, 1.6, height_m)).norm(), 0.05);
+  EXPECT_LT((at(2.5) - Eigen::Vector3d(4.75, 1.6, height_m)).norm(), 0.05);
+  EXPECT_LT((at(10) - Eigen::Vector3d(5.5, 3.2, height_m)).norm(), 0.2);
   const Eigen::Vector3d ahead = carried->path->pose(9).rotation * Eigen::Vector3d::UnitX();
   EXPECT_GT(ahead.y(), 0.99) << "it looks where it goes";
-  EXPECT_FALSE(motionOf({{4, 1.6, 0}, {500, 500, 9}}, *scene(), *house().georeference, "w", 1)) << "no floor there";
+  EXPECT_FALSE(motionOf({{4, 1.6, 0}, {500, 500, 9}}, *scene(), *house().georeference, hand, "w", 1))
+      << "no floor there";
 }
 
 TEST_F(OnFootInTheHouse, TheMapGrowsByTheWayAlone) {
@@ -260,7 +305,7 @@ TEST_F(OnFootInTheHouse, TheMapGrowsByTheWayAlone) {
   walk.recording = true;
   const auto grown = [&](int steps) {
     WalkMap map;
-    map.begin(scene(), *house().georeference);
+    map.begin(scene(), *house().georeference, carrierOf("hand").limits.height_m);
     std::shared_ptr<const SeenMap> seen;
     for (int i = 0; i <= steps; ++i) {
       walk.way = {{4, 1.6, 0}};
@@ -277,13 +322,46 @@ TEST_F(OnFootInTheHouse, TheMapGrowsByTheWayAlone) {
   EXPECT_LT(few->floor_m2(), 60) << "of a room with open doors and windows";
 }
 
+TEST_F(OnFootInTheHouse, ARoomHasACeilingAndTheStreetHasNone) {
+  const auto seenFrom = [&](double x_m, double y_m) {
+    WalkState walk;
+    walk.recording = true;
+    walk.way = {{x_m, y_m, 0}};
+    walk.at = {x_m, y_m};
+    WalkMap map;
+    map.begin(scene(), *house().georeference, carrierOf("body").limits.height_m);
+    return map.grow(walk);
+  };
+  const auto room = seenFrom(4, 1.6), street = seenFrom(7.5, -12);
+  ASSERT_TRUE(room && street);
+  EXPECT_GT(room->ceiling_m2(), 3);
+  EXPECT_LT(street->ceiling_m2(), 0.1 * street->floor_m2());
+  EXPECT_GT(room->bothShare(), 5 * street->bothShare());
+}
+
+TEST_F(OnFootInTheHouse, WhatIsWornIsHigherAndSteadierThanWhatIsHeld) {
+  const Carrier &hand = carrierOf("hand"), &back = carrierOf("body");
+  const auto held = motionOf(shortWalk(), *scene(), *house().georeference, hand, "w", 1);
+  const auto worn = motionOf(shortWalk(), *scene(), *house().georeference, back, "w", 1);
+  ASSERT_TRUE(held && worn);
+  const auto turns = [](const CarriedMotion& motion) {
+    double sum = 0;
+    for (double t = 0.5; t < 9.5; t += 0.05)
+      sum += motion.truth->pose(t).rotation.angularDistance(motion.path->pose(t).rotation);
+    return sum;
+  };
+  EXPECT_NEAR((worn->path->pose(5).translation - held->path->pose(5).translation).z(),
+              back.limits.height_m - hand.limits.height_m, 1e-6);
+  EXPECT_LT(turns(*worn), turns(*held));
+}
+
 TEST_F(OnFootInTheHouse, AWallIsInTheWayAndADoorIsNot) {
   WalkState walk;
   walk.recording = true;
   walk.way = {{4, 1.6, 0}};
   walk.at = {4, 1.6};
   WalkMap map;
-  map.begin(scene(), *house().georeference);
+  map.begin(scene(), *house().georeference, carrierOf("hand").limits.height_m);
   EXPECT_EQ(map.between({4, 1.6}, {4, 6}), "") << "nothing is known before the first look";
   ASSERT_TRUE(map.grow(walk));
   EXPECT_EQ(map.between({4, 1.6}, {5.5, 1.6}), "");
