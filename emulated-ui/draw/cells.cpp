@@ -276,6 +276,14 @@ void asInForm(Pen& pen, const Widget& w, const Box& box) {
   pen.height = 0;
 }
 
+void qualityMap(Pen& pen, const Widget& w, const Box& box) {
+  pen.left = 0;
+  pen.width = box.width;
+  pen.height = box.height;
+  drawSeen(pen, w, true);
+  pen.height = 0;
+}
+
 }  // namespace
 
 void drawCell(Pen& pen, const Widget& w, const Region& region, const Box& box) {
@@ -291,6 +299,7 @@ void drawCell(Pen& pen, const Widget& w, const Region& region, const Box& box) {
     case Look::sweep: sweep(pen, w, box); break;
     case Look::thumbs: thumbs(pen, w, box); break;
     case Look::cross: drawCross(pen, w, box); break;
+    case Look::quality: qualityMap(pen, w, box); break;
     case Look::normal:
       if (w.kind == WidgetKind::key) {
         block(pen, w, box);

@@ -89,7 +89,7 @@ void drawLevel(Pen& pen, const Widget& w);
 void drawArea(Pen& pen, const Widget& w);
 void drawPreview(Pen& pen, const Widget& w);
 void drawPlan(Pen& pen, const Widget& w);
-void drawSeen(Pen& pen, const Widget& w);
+void drawSeen(Pen& pen, const Widget& w, bool quality = false);
 // A preview that fills the box and is moved under a cross-hair by drag, arrow keys and the keys at its edges.
 void drawCross(Pen& pen, const Widget& w, const Box& box);
 // The picture of a scan where there is one, else a grid of the sphere; false then.

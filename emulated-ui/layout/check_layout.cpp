@@ -36,6 +36,7 @@ std::set<WidgetKind> kindsFor(Look as) {
     case Look::sweep: return {WidgetKind::progress};
     case Look::thumbs: return {WidgetKind::list};
     case Look::cross: return {WidgetKind::preview};
+    case Look::quality: return {WidgetKind::seen};
   }
   return {};
 }

@@ -38,20 +38,21 @@ enum class RegionKind {
 // How a widget is drawn; `normal` is what its kind is drawn as in a form.
 enum class Look : std::uint8_t {
   normal,
-  tile,    // icon, label, value; a choice goes on to its next option when it is pressed
-  block,   // a large key, its label beside its icon
-  round,   // the same as a disc, with its label below
-  icon,    // the icon alone
-  pair,    // a small caption above the value
-  figure,  // the value alone, large
-  slider,  // a choice as a slider with a stop for each option
-  ring,    // progress as a ring with its value inside
-  sweep,   // progress as a picture that grows from the left
-  thumbs,  // a list as pictures beside one another
-  cross,   // a preview that is moved under a cross-hair
+  tile,     // icon, label, value; a choice goes on to its next option when it is pressed
+  block,    // a large key, its label beside its icon
+  round,    // the same as a disc, with its label below
+  icon,     // the icon alone
+  pair,     // a small caption above the value
+  figure,   // the value alone, large
+  slider,   // a choice as a slider with a stop for each option
+  ring,     // progress as a ring with its value inside
+  sweep,    // progress as a picture that grows from the left
+  thumbs,   // a list as pictures beside one another
+  cross,    // a preview that is moved under a cross-hair
+  quality,  // a live map by what was seen of each place: floor, ceiling or both
 };
-inline constexpr const char* kLookNames[] = {"normal", "tile",   "block", "round", "icon",   "pair",
-                                             "figure", "slider", "ring",  "sweep", "thumbs", "cross"};
+inline constexpr const char* kLookNames[] = {"normal", "tile", "block", "round",  "icon",  "pair",   "figure",
+                                             "slider", "ring", "sweep", "thumbs", "cross", "quality"};
 
 struct Region {
   RegionKind kind = RegionKind::empty;
