@@ -75,7 +75,7 @@ void MistakeView::show(const Rehearsal& rehearsal, const MarkedRule& rule, Edito
     solving_ = std::make_unique<Task<Solution>>(
         "Carry out the sample solution",
         [exercise](Progress& progress) -> Result<Solution> {
-          TRY_ASSIGN(auto carried, carryOutSolution(exercise, progress));
+          TRY_ASSIGN(auto carried, carryOutSolution(exercise, {}, progress));
           return std::make_shared<const CarriedOutSolution>(std::move(carried));
         },
         editor.wake);

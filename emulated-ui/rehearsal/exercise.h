@@ -180,8 +180,8 @@ std::vector<Error> checkExercise(const Exercise& exercise);
 // Brings it to its start on each of its devices, as for a student. What cannot be prepared is an error, and so is a
 // step that is done before the student comes; a later step that holds already is a warning in `report`.
 Result<void> checkStart(const Exercise& exercise, Report& report, Progress& progress);
-// Carries its solution out on its first device. An outcome other than what its author expects is an error that says
-// which steps and rules it is about; that there is no solution is a warning.
+// Carries its solution out on each device that it names. An outcome other than what its author expects is an error that
+// says which steps and rules it is about; that there is no solution is a warning.
 Result<void> checkSolution(const Exercise& exercise, Report& report, Progress& progress);
 
 struct KnownExercise {

@@ -387,12 +387,15 @@ Result<void> checkSolution(const Exercise& exercise, Report& report, Progress& p
     report.warn(exercise.file + " /solution", "there is no solution to carry out");
     return {};
   }
-  TRY_ASSIGN(const auto carried, carryOutSolution(exercise, progress));
-  TRY_ASSIGN(const auto marks, marksOf(*carried.rehearsal, {}, "en", progress));
-  const auto text = unexpected(exercise.expect, marks, carried.refused);
-  if (!text.empty())
-    return failure(ErrorKind::unusable, "the solution does not do what is expected of it: " + text,
-                   exercise.file + " /solution");
+  for (const auto& device : exercise.devices) {
+    TRY_ASSIGN(const auto carried, carryOutSolution(exercise, device, progress));
+    TRY_ASSIGN(const auto marks, marksOf(*carried.rehearsal, {}, "en", progress));
+    const auto text = unexpected(exercise.expect, marks, carried.refused);
+    const auto on_which = exercise.devices.size() > 1 ? fmt::format(" ({})", device) : "";
+    if (!text.empty())
+      return failure(ErrorKind::unusable, "the solution does not do what is expected of it: " + text,
+                     exercise.file + " /solution" + on_which);
+  }
   return {};
 }
 

@@ -5,7 +5,7 @@
 
 namespace standpoint {
 
-Result<CarriedOutSolution> carryOutSolution(const Exercise& exercise, Progress& progress) {
+Result<CarriedOutSolution> carryOutSolution(const Exercise& exercise, const std::string& device, Progress& progress) {
   constexpr double kPrepared = 0.2;  // of the whole, once it is prepared
   const auto& actions = exercise.solution;
   if (actions.empty()) return failure(ErrorKind::unusable, "there is no solution", exercise.file + " /solution");
@@ -15,7 +15,7 @@ Result<CarriedOutSolution> carryOutSolution(const Exercise& exercise, Progress& 
   own.onChange([&] {
     if (progress.cancelled()) own.cancel();
   });
-  TRY_ASSIGN(auto rehearsal, Rehearsal::start(exercise, {}, folder.path(), {}, own));
+  TRY_ASSIGN(auto rehearsal, Rehearsal::start(exercise, device, folder.path(), {}, own));
   CarriedOutSolution carried{std::move(folder), std::move(rehearsal), {}};
   const auto done_at = [&](std::size_t count) {
     return kPrepared + (1 - kPrepared) * static_cast<double>(count) / static_cast<double>(actions.size());

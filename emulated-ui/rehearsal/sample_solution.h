@@ -17,7 +17,8 @@ struct CarriedOutSolution {
   std::unique_ptr<Rehearsal> rehearsal;
   std::string refused;  // the first action that the device refused, and why; empty: none
 };
-// On its first device. Progress is by actions. Errors: it has no solution, cannot be prepared, or was cancelled.
-Result<CarriedOutSolution> carryOutSolution(const Exercise& exercise, Progress& progress);
+// On this one of its devices; empty: the first. Progress is by actions. Errors: it has no solution, cannot be prepared,
+// or was cancelled.
+Result<CarriedOutSolution> carryOutSolution(const Exercise& exercise, const std::string& device, Progress& progress);
 
 }  // namespace standpoint

@@ -104,7 +104,7 @@ std::unique_ptr<Pair> carriedOut(const std::string& id, const std::function<void
       ADD_FAILURE() << toJson(action).dump() << ": " << describe(done.error());
   pair->marks = marked(*pair->mistaken);
   if (!compare) return pair;
-  auto good = carryOutSolution(pair->exercise, quiet);
+  auto good = carryOutSolution(pair->exercise, {}, quiet);
   EXPECT_TRUE(good) << describe(good.error());
   pair->good = std::make_unique<CarriedOutSolution>(*std::move(good));
   EXPECT_TRUE(pair->good->refused.empty()) << pair->good->refused;
