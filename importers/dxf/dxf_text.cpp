@@ -8,6 +8,8 @@
 #include <memory>
 #include <type_traits>
 
+#include "importers/files/utf8.h"
+
 namespace standpoint {
 
 namespace {
@@ -43,13 +45,6 @@ std::string encodingOf(const std::string& code_page) {
   if (digits == std::string::npos) return "CP1252";
   if (code_page.starts_with("iso") || code_page.starts_with("ISO")) return "ISO" + code_page.substr(digits);
   return "CP" + code_page.substr(digits);
-}
-
-void appendUtf8(std::string& text, std::uint32_t c) {
-  const unsigned more = c < 0x80 ? 0 : c < 0x800 ? 1 : 2;
-  const unsigned lead = more == 0 ? 0 : more == 1 ? 0xC0 : 0xE0;
-  text += static_cast<char>(lead | c >> 6U * more);
-  for (unsigned i = more; i-- > 0;) text += static_cast<char>(0x80U | (c >> 6U * i & 0x3FU));
 }
 
 // \U+00E4, the way of files before 2007 to have any character.
