@@ -143,6 +143,8 @@ struct MovingHead {
   std::vector<double> tilts_rad;            // of each head about the device's y: forward; empty = upright
   std::vector<double> forward_m, up_m;      // of each head in the device; empty = 0
   double cloud_accuracy_m = 0;              // of a whole cloud with the maker's trajectory, 1 σ; 0 = not stated
+  // Above which the device tells whoever carries it to slow down; 0 = it does not.
+  double most_speed_mps = 0, most_turn_radps = 0;
 };
 
 // An instrument from scanners/instruments/<id>.json: data, no code.

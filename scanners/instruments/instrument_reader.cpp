@@ -127,6 +127,9 @@ class InstrumentReader : FigureReader {
     readFirings(group, head);
     readHeads(group, head);
     head.cloud_accuracy_m = figure(group, "cloud_accuracy_mm", {0, 10000, 1e-3});
+    if (group.fields.has("most_speed_mps")) head.most_speed_mps = figure(group, "most_speed_mps", {0.1, 100});
+    if (group.fields.has("most_turn_deg_per_s"))
+      head.most_turn_radps = figure(group, "most_turn_deg_per_s", {1, 3600, kRadPerDeg});
     group.fields.close();
     if (head.min_rotation_hz > head.max_rotation_hz)
       fail("/moving/most_rotation_hz", "must not be below least_rotation_hz");

@@ -298,6 +298,9 @@ TEST(MovingInstruments, HaveTheFiguresOfTheirSheets) {
   EXPECT_EQ(testing::instrument("leica-blk2go").max_range_m, 25);
   EXPECT_EQ(testing::instrument("geoslam-zeb-horizon").evidence.at("/moving/points_per_s").mark, "S42");
   EXPECT_EQ(testing::instrument("faro-orbis").evidence.at("/moving/mount").mark, "unsourced");
+  EXPECT_NEAR(moving("leica-blk2go").most_turn_radps, 69 * kRadPerDeg, 1e-12);
+  EXPECT_EQ(moving("navvis-vlx3").most_speed_mps, 1.2);
+  EXPECT_EQ(vlp.most_speed_mps, 0) << "nobody carries it";
 }
 
 TEST(MovingInstruments, ThatAreAskedToScanFromAStationSayWhatTheyNeed) {
@@ -424,6 +427,9 @@ TEST_F(ChangedInstrument, ThatMovesIsRefusedWithItsPlaceWhenItCannotBe) {
   EXPECT_EQ(vlp("\"most_rotation_hz\": { \"value\": 20", "\"most_rotation_hz\": { \"value\": 2"),
             "velodyne-vlp-16.json /moving/most_rotation_hz");
   EXPECT_EQ(vlp("\"rotation_hz\": 5.0", "\"rotation_hz\": 50"), "velodyne-vlp-16.json /settings");
+  EXPECT_EQ(
+      errorOf("\"most_speed_mps\": { \"value\": 1.05", "\"most_speed_mps\": { \"value\": 0.01", "leica-blk2go").source,
+      "leica-blk2go.json /moving/most_speed_mps/value");
   EXPECT_EQ(vlp("\"value\": \"any\"", "\"value\": \"mast\""), "velodyne-vlp-16.json /moving/mount/value");
   EXPECT_EQ(vlp("\"moving\"", "\"stand\": {}, \"moving\""), "velodyne-vlp-16.json /stand");
   EXPECT_EQ(vlp("\"moving\"", "\"moves\""), "velodyne-vlp-16.json /mirror");
