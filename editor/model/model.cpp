@@ -6,6 +6,7 @@
 
 #include "editor/model/station_steps.h"
 #include "editor/model/trajectory_steps.h"
+#include "editor/model/walk_recording_steps.h"
 #include "editor/words/words.h"
 #include "project/model/import_verb.h"
 #include "project/model/product_match.h"
@@ -343,6 +344,7 @@ void Model::adoptDocument() {
   wanted_walk = nullptr;
   // A changed model in place of the one before keeps what is hidden, chosen and looked at.
   if (before && imported_ && followModel(*before, *imported_)) return;
+  forgetRecord(*this);
   selection.clear();
   proof.reset();
   views = {};
@@ -412,6 +414,9 @@ ViewState Model::viewState() const {
     state.cloud_paint = painted->paint;
   if (!visibility.alone()) state.underlays = underlays.shown(document);
   state.underlays.insert(state.underlays.end(), growing.begin(), growing.end());
+  const auto& walked = recording.live.shown();
+  state.underlays.insert(state.underlays.end(), walked.begin(), walked.end());
+  state.quick_points = recording.live.active();
   if (document.job && !visibility.alone()) {
     // Of one that stands on a storey which is cut open, all is shown.
     const auto kept = [&](const Station& s) {

@@ -57,7 +57,7 @@
 #include "editor/trajectories/carried_scan.h"
 #include "editor/trajectories/trajectory_draft.h"
 #include "editor/trajectories/trajectory_ways.h"
-#include "editor/trajectories/walk_record.h"
+#include "editor/trajectories/walk_recording.h"
 #include "project/survey/station_row.h"
 #include "survey/stations/levelling.h"
 
@@ -240,7 +240,7 @@ struct Model : Style {
   ScanOutlookView scan_outlook;
   ScanReadiness scan_readiness;
   TrajectoryWays trajectory_ways;
-  WalkRecord walk_record;
+  WalkRecording recording;
   TargetList target_list;
   bool wants_deviation = false;                      // a panel shows it
   std::deque<std::filesystem::path> waiting_clouds;  // dropped, to become underlays when the document is free, or

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "editor/words/words.h"
+#include "project/survey/scan_request.h"
 
 namespace standpoint {
 
@@ -22,6 +23,16 @@ void chooseInstrument(ScanChoice& asked, const Instrument& instrument) {
   asked.instrument = instrument.id;
   asked.settings.clear();
   for (const auto& setting : instrument.settings) asked.settings.emplace_back(setting.key, setting.default_value);
+}
+
+ScanVerbOptions optionsAlong(const CarriedScan& carried, const std::string& trajectory) {
+  auto options = optionsOf(carried.choice);
+  options.trajectory = trajectory;
+  options.trajectory_error = carried.error;
+  options.closures = carried.closures ? Switch::on : Switch::off;
+  options.anchors = carried.anchors ? Switch::on : Switch::off;
+  options.deskew = carried.deskew;
+  return options;
 }
 
 std::string effectsSummary(Effects effects, ScanQuality quality) {

@@ -2,7 +2,6 @@
 #include "editor/model/trajectory_steps.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "core/motion/carriers.h"
@@ -132,51 +131,6 @@ void endTrajectory(Model& model) {
   model.trajectory_wanted = trajectory.name;
   model.view.tool = Tool::select;
   draft.waypoints.clear();
-}
-
-namespace {
-
-constexpr double kLeastWalk_m = 0.5;
-
-double clock_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-void addRecorded(Model& model) {
-  const WalkRecord& record = model.walk_record;
-  if (record.length_m() < kLeastWalk_m) {
-    model.say(trf("Nothing was recorded: walk at least {:.1f} m", kLeastWalk_m));
-    return;
-  }
-  CarriedTrajectory walked;
-  walked.name = freeTrajectoryName(*model.session.document().job);
-  walked.waypoints = record.waypoints();
-  walked.speed_mps = std::max(0.1, std::round(100 * record.speed_mps()) / 100);
-  auto options = changeTo(walked, *model.session.document().georeference);
-  options.add = std::exchange(options.change, std::nullopt);
-  if (model.session.start(options, trf("Add trajectory {}", walked.name))) model.trajectory_wanted = walked.name;
-}
-
-}  // namespace
-
-std::string whyNotRecordWalk(const Model& model) {
-  if (!model.walk.active()) return "Walk first: what somebody walks is recorded";
-  return model.session.whyNot("trajectory");
-}
-
-void recordWalk(Model& model) {
-  if (!model.walk_record.active()) {
-    model.walk_record.begin();
-    return;
-  }
-  model.walk_record.end();
-  addRecorded(model);
-}
-
-void followRecord(Model& model) {
-  auto& record = model.walk_record;
-  if (!record.active()) return;
-  if (model.walk.active() && record.follow(clock_s(), model.walk.feet())) return;
-  record.end();
-  addRecorded(model);
 }
 
 std::optional<CarriedTrajectory> draggedTrajectory(const Model& model) {

@@ -36,11 +36,6 @@ std::string whyNotTakeBack(const Model& model);
 void takeBackWaypoint(Model& model);
 std::string whyNotEndTrajectory(const Model& model);
 void endTrajectory(Model& model);  // adds it to the job
-// Recording a walk: while somebody walks, their way becomes a trajectory of the job; it ends when they stop walking, or
-// jump.
-std::string whyNotRecordWalk(const Model& model);
-void recordWalk(Model& model);    // begins, or ends and adds it
-void followRecord(Model& model);  // once a frame
 // Keeps the way of what is laid, or of the chosen one as a waypoint of it is dragged, up to date. Once a frame.
 void followDraft(Model& model);
 // The chosen trajectory with the dragged waypoint at the pointer; nothing: none is dragged, or nothing is there.

@@ -79,6 +79,7 @@ struct ViewState {
   std::shared_ptr<const Cloud> cloud;             // a scan instead of the model; null: none
   std::shared_ptr<const CloudPaint> cloud_paint;  // null: its own colours
   std::vector<ShownUnderlay> underlays;
+  bool quick_points = false;  // they come while the camera moves: while it does, half as fine and in half the time
   std::shared_ptr<const InstrumentsInScene> instruments;  // on their tripods; null: none
   std::optional<WorkingInstrument> working;               // that of the desk, besides those
   std::shared_ptr<const PixelPicture> display;            // what its display shows; null: it is dark

@@ -270,16 +270,6 @@ std::string whyNotScan(const Model& model, const ScanChoice& asked, const ScanSe
   return whyNotConditions(asked, settings);
 }
 
-ScanVerbOptions optionsAlong(const CarriedScan& carried, const std::string& trajectory) {
-  auto options = optionsOf(carried.choice);
-  options.trajectory = trajectory;
-  options.trajectory_error = carried.error;
-  options.closures = carried.closures ? Switch::on : Switch::off;
-  options.anchors = carried.anchors ? Switch::on : Switch::off;
-  options.deskew = carried.deskew;
-  return options;
-}
-
 void start(const Model& model, ScanState& state, const ScanChoice& asked, const CarriedScan& carried, Actions& actions,
            const std::filesystem::path& folder, const CloudFormat* format) {
   const auto& job = *model.session.document().job;

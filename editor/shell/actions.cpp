@@ -11,6 +11,7 @@
 #include "editor/desktop/user_folders.h"
 #include "editor/model/station_steps.h"
 #include "editor/model/trajectory_steps.h"
+#include "editor/model/walk_recording_steps.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/escape.h"
@@ -234,7 +235,27 @@ const std::array kOwn = {
            ICON_CIRCLE,
            {'R', true, true},
            [](Editor& e) { recordWalk(e); },
-           [](const Editor& e) { return whyNotRecordWalk(e); }},
+           [](const Editor& e) { return whyNotRecordWalk(e); },
+           [](const Editor& e) { return e.recording.record.active() && !scansWalk(e); }},
+    Action{"scan-walk",
+           "Scan while walking, or end the scan",
+           ICON_FEED,
+           {'L', true, true},
+           [](Editor& e) { scanWalk(e); },
+           [](const Editor& e) { return whyNotScanWalk(e); },
+           [](const Editor& e) { return scansWalk(e); }},
+    Action{"scan-walked",
+           "Scan along the walk that was scanned live",
+           ICON_PLAY,
+           {},
+           [](Editor& e) { scanWalked(e); },
+           [](const Editor& e) { return whyNotScanWalked(e); }},
+    Action{"drop-live-points",
+           "Remove the live points",
+           ICON_CLOSE,
+           {},
+           [](Editor& e) { dropLivePoints(e); },
+           [](const Editor& e) { return whyNoLivePoints(e); }},
     Action{"end-trajectory",
            "Finish the trajectory at its last waypoint",
            ICON_CHECK,
@@ -457,6 +478,7 @@ void openVerbForm(Editor& editor, const char* verb) {
 }
 
 void whenSaved(Editor& editor, std::function<void()> then) {
+  finishRecord(editor);
   if (!editor.session.modified()) {
     then();
     return;

@@ -10,6 +10,7 @@
 #include "editor/shell/editor.h"
 #include "editor/shell/holes_overlay.h"
 #include "editor/shell/label_board.h"
+#include "editor/shell/live_overlay.h"
 #include "editor/shell/overlay.h"
 #include "editor/shell/trajectory_overlay.h"
 #include "editor/widgets/icons.h"
@@ -217,6 +218,7 @@ void drawMarkers(Editor& editor, ImVec2 origin) {
   drawHoles(editor, state, origin);
   drawWay(editor, pen);
   drawTrajectories(editor, state, origin, pen.labels);
+  drawWalkedRibbon(editor, state, origin);
   drawPreview(editor, pen);
   drawStations(editor, pen, state);
   drawTargets(editor, pen, state);

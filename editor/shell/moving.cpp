@@ -12,6 +12,7 @@
 
 #include "editor/shell/actions.h"
 #include "editor/shell/editor.h"
+#include "editor/shell/live_overlay.h"
 #include "editor/shell/overlay.h"
 #include "editor/shell/view_pen.h"
 #include "editor/widgets/keyboard.h"
@@ -49,7 +50,7 @@ std::string walkLine(const Editor& editor) {
   std::string line = placeText(editor, walk.feet());
   if (const auto name = walkPlaceName(editor); !name.empty()) line += "   " + name;
   line += trf("   eye {:.2f} m   {:.1f} m/s", walk.eyeHeight_m(), walk.speed_mps(false));
-  if (const auto& record = editor.walk_record; record.active())
+  if (const auto& record = editor.recording.record; record.active())
     line += "   " + trf("recording {}, {:.1f} m", durationText(record.seconds()), record.length_m());
   if (const auto note = walk.note(); !note.empty()) line += "   " + note;
   return line;
@@ -166,7 +167,7 @@ void movingChips(Editor& editor) {
   if (field("###view-angle", angle, {.kind = kAngle, .decimals = 0, .drag = 0.5}, "Vertical angle of view"))
     editor.walk.setViewAngle(angle, editor.view.camera);
   ImGui::SameLine();
-  actionToolButton(editor, "record-walk");
+  walkingChips(editor);
   if (editor.held.instrument.empty()) return;
   ImGui::SameLine();
   const float side = ImGui::GetFrameHeight();
@@ -193,13 +194,13 @@ const char* movingHint(const Editor& editor) {
              : "W A S D to walk, drag to look, Shift to run, C to crouch, T to teleport, B: sphere   Esc to leave";
 }
 
-void drawMovingLine(const Editor& editor, ImVec2 origin, ImVec2 size, float above_pt) {
+float drawMovingLine(const Editor& editor, ImVec2 origin, ImVec2 size, float above_pt) {
   std::string words;
   if (editor.walk.active())
     words = walkLine(editor);
   else if (editor.view.tool == Tool::fly)
     words = placeText(editor, editor.view.camera.eye()) + fmt::format("   {:.1f} m/s", editor.fly.speed_mps(false));
-  if (!words.empty()) drawBanner(editor, origin, size, words, above_pt, IM_COL32(24, 26, 30, 220));
+  return words.empty() ? 0 : drawBanner(editor, origin, size, words, above_pt, IM_COL32(24, 26, 30, 220));
 }
 
 void drawTightPlaces(const Editor& editor, ImVec2 origin) {

@@ -17,11 +17,11 @@ bool movesByKey(const Editor& editor, int key);
 
 // While one walks: how high the eyes are, and how wide they see.
 void movingChips(Editor& editor);
-// Where whoever walks or flies is, in the frame of the file, and what stops them; "" when nobody does.
 // What whoever walks clicks on.
 void clickWalking(Editor& editor);
 const char* movingHint(const Editor& editor);  // the keys; null when nobody does
-void drawMovingLine(const Editor& editor, ImVec2 origin, ImVec2 size, float above_pt);
+// Where whoever walks or flies is, in the frame of the file, and what stops them; its height, px, 0: nobody does.
+float drawMovingLine(const Editor& editor, ImVec2 origin, ImVec2 size, float above_pt);
 // What keeps the agent out of rooms, as long as the walkable area is shown or one of them was flown to.
 void drawTightPlaces(const Editor& editor, ImVec2 origin);
 

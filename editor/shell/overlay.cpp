@@ -13,6 +13,7 @@
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/expected_overlay.h"
+#include "editor/shell/live_overlay.h"
 #include "editor/shell/moving.h"
 #include "editor/shell/navigation_cube_view.h"
 #include "editor/shell/row_overlay.h"
@@ -270,8 +271,12 @@ void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
   const auto hint = toolHint(editor);
   float height = ImGui::GetTextLineHeight();
   if (!hint.empty()) height = drawBanner(editor, origin, size, hint, kBannerAbove_pt, IM_COL32(38, 84, 148, 235));
-  if (!editor.walk_ground.preparing())
-    drawMovingLine(editor, origin, size, kBannerAbove_pt + height / editor.px(1) + 1.5F * kBannerPad_pt);
+  if (editor.walk_ground.preparing()) return;
+  const auto above = [&](float height_px) {
+    return height_px > 0 ? height_px / editor.px(1) + 1.5F * kBannerPad_pt : 0;
+  };
+  const float line = kBannerAbove_pt + above(height);
+  drawLiveReadout(editor, origin, size, line + above(drawMovingLine(editor, origin, size, line)));
 }
 
 void drawReflectanceLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
@@ -406,6 +411,7 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   trajectoryChips(editor);
   targetChip(editor);
   movingChips(editor);
+  livePointChips(editor);
   ImGui::EndGroup();
   const ImVec2 drawn = ImGui::GetItemRectSize();
   editor.overlay_size = {drawn.x, drawn.y};
@@ -414,6 +420,7 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   drawReflectanceLegend(editor, origin, size);
   drawConfidenceLegend(editor, origin, size);
   drawDeviationLegend(editor, origin, size);
+  drawLiveLegend(editor, origin);
   drawToolHint(editor, origin, size);
   drawCloudTrouble(editor, origin, size);
 }

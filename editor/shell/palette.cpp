@@ -50,6 +50,8 @@ std::string otherWords(std::string_view action) {
       Called{"export", "save model as glTF OBJ"},
       Called{"export-points", "save scan point cloud as E57 LAS PTX PLY"},
       Called{"walk", "first person"},
+      Called{"scan-walk", "live carried mobile handheld SLAM BLK2GO"},
+      Called{"record-walk", "path trajectory"},
       Called{"shortcuts", "keys help"},
   };
   const auto* found = std::find_if(kCalled.begin(), kCalled.end(), [&](const auto& c) { return c.action == action; });

@@ -120,7 +120,7 @@ void viewMenu(Editor& editor) {
   submenu(editor, "", "More labels###menu-labels", {"room-names", "labels-through-walls"});
   items(editor, {"", "walk", "teleport", "look-from-station"});
   submenu(editor, "", "More moves###menu-moves",
-          {"fly", "door", "step-out-of-sight", "return-to-instrument", "add-bookmark"});
+          {"fly", "door", "record-walk", "scan-walk", "step-out-of-sight", "return-to-instrument", "add-bookmark"});
   ImGui::Separator();
   submenu(editor, ICON_PAINT, "Colour by###menu-colour",
           {"colour-model", "colour-material", "colour-reflectance", "colour-confidence", "colour-intensity",

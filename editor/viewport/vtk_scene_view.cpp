@@ -301,7 +301,7 @@ class VtkSceneView : public SceneView {
     if (!parts || !still_ || !still_->kept()) updateCamera(state.camera);
     updateBackdrop(state);
     if (!points_.empty()) {
-      points_.draw(state, pointLens(state.camera), width_, height_);
+      points_.draw(state, pointLens(state.camera), width_, height_, state.quick_points && !fine);
       takePoints();
     }
     if (!parts && still_) still_->drop();

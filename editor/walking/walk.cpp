@@ -72,6 +72,7 @@ void Walk::changeSpeed(double steps) {
 
 void Walk::go(const WalkKeys& keys, double seconds, Camera& camera) {
   if (!walker_) return;
+  clock_s_ += seconds;
   const Eigen::Vector2d right(std::cos(camera.azimuth_rad), std::sin(camera.azimuth_rad)), ahead(-right.y(), right.x());
   WalkWish wish{Eigen::Vector2d::Zero(), keys.crouch};
   if (!keys.way.isZero()) {

@@ -38,6 +38,8 @@ class Walk {
   bool isIn(const std::shared_ptr<const WalkedGround>& ground) const { return ground == ground_; }
 
   void go(const WalkKeys& keys, double seconds, Camera& camera);
+  // Seconds that were walked or stood, of go(): what is walked in them is as fast as it says.
+  double clock_s() const { return clock_s_; }
   // Faster (> 0) or slower, from a quarter to four times a walk.
   void changeSpeed(double steps);
   double speed_mps(bool fast) const;
@@ -70,6 +72,7 @@ class Walk {
   std::optional<double> chosen_eyes_m_;
   double view_angle_rad_ = kUsualViewAngle_rad;
   double factor_ = 1;  // of the usual speed
+  double clock_s_ = 0;
   double view_angle_before_rad_ = 0;
 };
 

@@ -24,6 +24,7 @@
 #define ICON_EXPORT "\xef\x82\x8e"
 #define ICON_EYE "\xef\x81\xae"
 #define ICON_EYE_OFF "\xef\x81\xb0"
+#define ICON_FEED "\xef\x82\x9e"
 #define ICON_FILE "\xef\x80\x96"
 #define ICON_FILE_NEW "\xef\x85\x9b"
 #define ICON_FILTER "\xef\x82\xb0"

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/shell/live_overlay.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/number_text.h"
+#include "core/units.h"
+#include "editor/colours/colour_scale.h"
+#include "editor/model/scan_form.h"
+#include "editor/model/walk_recording_steps.h"
+#include "editor/shell/actions.h"
+#include "editor/shell/editor.h"
+#include "editor/shell/overlay.h"
+#include "editor/shell/view_pen.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
+#include "editor/words/words.h"
+
+namespace standpoint {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr ImU32 kReadoutGround = IM_COL32(24, 26, 30, 220), kTooFastGround = IM_COL32(176, 42, 36, 240);
+constexpr float kLineGap_pt = 12;
+
+std::string paceText(const WalkPace& pace) {
+  return fmt::format("{:.1f} m/s   {:.0f}°/s", pace.speed_mps(), pace.turn_radps() / kRadPerDeg);
+}
+
+std::string scanningText(const Editor& editor) {
+  const auto& recording = editor.recording;
+  const LiveFigures& figures = recording.live.figures();
+  if (!figures.problem.empty()) return trf("No live points: {}. The walk is recorded.", figures.problem);
+  std::string text =
+      trf("Live preview   {}   {} points, {} shown   {} per second", durationText(recording.record.seconds()),
+          groupedDigits(figures.points), groupedDigits(figures.shown),
+          groupedDigits(1000 * static_cast<std::uint64_t>(figures.points_per_s / 1000 + 0.5)));
+  if (figures.one_pulse_in > 1) text += "   " + trf("1 pulse in {}", figures.one_pulse_in);
+  return text + "   " + paceText(recording.pace);
+}
+
+std::string readoutText(const Editor& editor) {
+  const auto& recording = editor.recording;
+  if (recording.scan_wanted) return tr("Preparing the scan …");
+  if (recording.live.active()) return scanningText(editor);
+  if (recording.record.active()) return paceText(recording.pace);
+  if (recording.live.empty()) return {};
+  return trf("Live preview, {} points: no noise and no trajectory error in it",
+             groupedDigits(recording.live.figures().shown));
+}
+
+// As devices say it: what to do, and by how much.
+std::string warningText(const Editor& editor) {
+  const auto& recording = editor.recording;
+  const WalkPace& pace = recording.pace;
+  if (!recording.record.active()) return {};
+  std::string text;
+  if (pace.tooFast()) text = trf("Slow down: {:.1f} m/s, at most {:.3g}", pace.speed_mps(), pace.limits().speed_mps);
+  if (!pace.turnsTooFast()) return text;
+  if (!text.empty()) text += "   ";
+  return text + trf("Turn more slowly: {:.0f}°/s, at most {:.0f}", pace.turn_radps() / kRadPerDeg,
+                    pace.limits().turn_radps / kRadPerDeg);
+}
+
+void instrumentChip(Editor& editor) {
+  const Instrument* const chosen = carriedOnFoot(editor);
+  const std::string label =
+      chosen == nullptr ? tr("Choose a scanner…") : fmt::format("{} {}", chosen->maker, chosen->model);
+  ImGui::SetNextItemWidth(chipWidth(editor, label, 120));
+  ImGui::BeginDisabled(scansWalk(editor));
+  if (ImGui::BeginCombo("###live-instrument", label.c_str(),
+                        ImGuiComboFlags_NoArrowButton | ImGuiComboFlags_HeightLarge)) {
+    for (const auto& i : editor.catalogue().instruments)
+      if (i.moving && carrierOnFoot(i.moving->mount) != nullptr &&
+          ImGui::Selectable(fmt::format("{} {}###live-{}", i.maker, i.model, i.id).c_str(), chosen == &i))
+        chooseInstrument(editor.carried_scan.choice, i);
+    ImGui::EndCombo();
+  } else {
+    ui::tooltip("Scanner to carry");
+  }
+  ImGui::EndDisabled();
+}
+
+void litButton(Editor& editor, const char* id) {
+  const Action& action = *findAction(id);
+  const bool lit = action.on != nullptr && action.on(editor);
+  const std::string tip = tr(action.title) + "  (" + shortcutText(action.shortcut) + ")";
+  const char* const icon = lit ? ICON_STOP : action.icon;
+  if (ui::iconButton(fmt::format("{}###tool_{}", icon, id).c_str(), tip.c_str(), whyNot(action, editor), lit))
+    action.run(editor);
+  ImGui::SameLine();
+}
+
+const char* liveColourName(LiveColour colour) {
+  return colour == LiveColour::height ? "Height above the feet" : "Range";
+}
+
+}  // namespace
+
+void drawWalkedRibbon(const Editor& editor, const ViewState& state, ImVec2 origin) {
+  constexpr double kHalf_m = 0.12, kAbove_m = 0.03;
+  constexpr std::size_t kMostPlaces = 400;
+  if (!editor.recording.record.active()) return;
+  const auto& places = editor.recording.pace.places();
+  const ViewPen pen(editor, origin);
+  auto& list = *ImGui::GetWindowDrawList();
+  const auto flags = list.Flags;
+  list.Flags &= ~ImDrawListFlags_AntiAliasedFill;  // no seams between the parts
+  const std::size_t first = places.size() > kMostPlaces ? places.size() - kMostPlaces : 0;
+  for (std::size_t i = first + 1; i < places.size(); ++i) {
+    const Vector3d up(0, 0, kAbove_m), from = places[i - 1].feet + up, to = places[i].feet + up, leg = to - from;
+    Vector3d side(-leg.y(), leg.x(), 0);
+    if (side.norm() < 1e-6 || !editor.picker.sees(editor.view.camera.eyeOf(to), to, state)) continue;
+    side *= kHalf_m / side.norm();
+    const auto a = pen.at(from + side), b = pen.at(to + side), c = pen.at(to - side), d = pen.at(from - side);
+    const ImU32 tone = (places[i].hurried ? ImU32(tone::kBad) : ImU32(tone::kAccent)) & ~IM_COL32_A_MASK;
+    if (a && b && c && d) list.AddQuadFilled(*a, *b, *c, *d, tone | (170U << IM_COL32_A_SHIFT));
+  }
+  list.Flags = flags;
+}
+
+void drawLiveReadout(const Editor& editor, ImVec2 origin, ImVec2 size, float above_pt) {
+  if (const auto text = readoutText(editor); !text.empty())
+    above_pt += drawBanner(editor, origin, size, text, above_pt, kReadoutGround) / editor.px(1) + kLineGap_pt;
+  if (const auto text = warningText(editor); !text.empty())
+    drawBanner(editor, origin, size, ICON_WARNING "  " + text, above_pt, kTooFastGround);
+}
+
+void drawLiveLegend(const Editor& editor, ImVec2 origin) {
+  const LiveScan& live = editor.recording.live;
+  if (live.empty()) return;
+  constexpr int kSteps = 32;
+  const double most_m = liveScale_m(live.colour());
+  auto& list = *ImGui::GetWindowDrawList();
+  const float width = editor.px(160), height = editor.px(8), line = ImGui::GetTextLineHeight();
+  const float x = origin.x + editor.px(14);
+  const float y = origin.y + static_cast<float>(editor.view.size.y()) - editor.px(116);
+  drawPlate(editor, {x, y}, {width, height + 2 * line + editor.px(4)});
+  list.AddText({x, y}, tone::kText, tr(liveColourName(live.colour())).c_str());
+  const float bar = y + line + editor.px(2);
+  for (int i = 0; i < kSteps; ++i)
+    list.AddRectFilled({x + width * static_cast<float>(i) / kSteps, bar},
+                       {x + width * static_cast<float>(i + 1) / kSteps, bar + height},
+                       packed(viridis((i + 0.5) / kSteps)));
+  list.AddText({x, bar + height + editor.px(2)}, tone::kDim, "0");
+  const std::string most = trf("{:.0f} m or more", most_m);
+  list.AddText({x + width - ImGui::CalcTextSize(most.c_str()).x, bar + height + editor.px(2)}, tone::kDim,
+               most.c_str());
+}
+
+void walkingChips(Editor& editor) {
+  litButton(editor, "record-walk");
+  litButton(editor, "scan-walk");
+  instrumentChip(editor);
+}
+
+void livePointChips(Editor& editor) {
+  auto& live = editor.recording.live;
+  if (live.empty()) return;
+  ImGui::NewLine();
+  const std::string label = ICON_PAINT "  " + tr(liveColourName(live.colour()));
+  ImGui::SetNextItemWidth(chipWidth(editor, label, 120));
+  if (ImGui::BeginCombo("###live-colour", label.c_str(), ImGuiComboFlags_NoArrowButton)) {
+    for (const auto colour : {LiveColour::height, LiveColour::range})
+      if (ImGui::Selectable(ui::Label(liveColourName(colour)), live.colour() == colour)) live.colourBy(colour);
+    ImGui::EndCombo();
+  } else {
+    ui::tooltip("By what live points are coloured");
+  }
+  if (live.active()) return;
+  const auto& name = editor.recording.scanned;
+  if (!name.empty()) {
+    ImGui::SameLine();
+    const auto& scan = *findAction("scan-walked");
+    if (ui::button((std::string(ICON_PLAY "  ") + trf("Scan along {}", name) + "###scan-walked").c_str(),
+                   whyNot(scan, editor), {0, 0}, "The real scan of this walk, with noise and trajectory error"))
+      scan.run(editor);
+  }
+  ImGui::SameLine();
+  const auto& drop = *findAction("drop-live-points");
+  if (ui::iconButton(ICON_CLOSE "###drop-live-points", drop.title, whyNot(drop, editor))) drop.run(editor);
+}
+
+}  // namespace standpoint
