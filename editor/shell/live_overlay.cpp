@@ -141,7 +141,7 @@ void drawLiveLegend(const Editor& editor, ImVec2 origin) {
   auto& list = *ImGui::GetWindowDrawList();
   const float width = editor.px(160), height = editor.px(8), line = ImGui::GetTextLineHeight();
   const float x = origin.x + editor.px(14);
-  const float y = origin.y + static_cast<float>(editor.view.size.y()) - editor.px(116);
+  const float y = origin.y + static_cast<float>(editor.view.size.y()) - editor.px(220);  // over all that is said below
   drawPlate(editor, {x, y}, {width, height + 2 * line + editor.px(4)});
   list.AddText({x, y}, tone::kText, tr(liveColourName(live.colour())).c_str());
   const float bar = y + line + editor.px(2);
@@ -164,7 +164,7 @@ void walkingChips(Editor& editor) {
 void livePointChips(Editor& editor) {
   auto& live = editor.recording.live;
   if (live.empty()) return;
-  ImGui::NewLine();
+  if (!editor.walk.active()) ImGui::NewLine();
   const std::string label = ICON_PAINT "  " + tr(liveColourName(live.colour()));
   ImGui::SetNextItemWidth(chipWidth(editor, label, 120));
   if (ImGui::BeginCombo("###live-colour", label.c_str(), ImGuiComboFlags_NoArrowButton)) {
