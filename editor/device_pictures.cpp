@@ -14,6 +14,7 @@
 #include "emulated-ui/menus.h"
 #include "emulated-ui/preview.h"
 #include "emulated-ui/walk_map.h"
+#include "emulated-ui/walk_motion.h"
 
 namespace standpoint {
 
@@ -41,7 +42,7 @@ Result<WalkState> walkedHouse(const Document& document) {
   Progress quiet;
   TRY_ASSIGN(auto scene, RayScene::build(document.environment(), quiet));
   WalkMap map;
-  map.begin(std::move(scene), *document.georeference);
+  map.begin(std::move(scene), *document.georeference, carrierOf("hand").limits.height_m);
   WalkState walk;
   walk.recording = walk.scene = true;
   for (const auto& [x, y] : kWay) {
