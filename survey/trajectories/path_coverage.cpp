@@ -126,16 +126,11 @@ class Prediction {
   double least_cosine_ = std::cos(wanted_.max_incidence_rad);
 };
 
-// Stretches of places: each short where things move, so that all threads ask of about the same time.
+// All at once; where things move one by one, so that a thread asks where they are at one time, and not to and fro.
 std::vector<std::span<const TimedPlace>> stretchesOf(const std::vector<TimedPlace>& along, bool things_move) {
-  constexpr double kStretch_s = 0.5;
   std::vector<std::span<const TimedPlace>> stretches;
-  for (std::size_t begin = 0; begin < along.size();) {
-    std::size_t end = things_move ? begin + 1 : along.size();
-    while (end < along.size() && along[end].after_s < along[begin].after_s + kStretch_s) ++end;
-    stretches.emplace_back(&along[begin], end - begin);
-    begin = end;
-  }
+  const std::size_t step = things_move ? 1 : along.size();
+  for (std::size_t begin = 0; begin < along.size(); begin += step) stretches.emplace_back(&along[begin], step);
   return stretches;
 }
 
