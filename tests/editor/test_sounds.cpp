@@ -13,6 +13,7 @@
 #include "editor/instrument/instrument.h"
 #include "editor/instrument/speaker.h"
 #include "editor/instrument/tones.h"
+#include "editor/shell/actions.h"
 #include "item_probe.h"
 #include "tests/project/support.h"
 
