@@ -28,7 +28,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_HOMEPAGE ${STANDPOINT_HOMEPAGE})
 set(CPACK_DEBIAN_STANDPOINT_DESCRIPTION
 "rehearse laser scanning in building models
-Standpoint turns a building model (IFC, glTF, CityGML, OBJ, DXF and others) into
+Standpoint turns a building model (IFC, glTF, CityGML, OBJ, DXF and more) into
 an environment in which laser scanning can be rehearsed. It brings the model to
 a polygon budget, makes collision shapes, assigns physical materials, and
 scans it through emulated instrument menus into E57, LAS, PTX and other
