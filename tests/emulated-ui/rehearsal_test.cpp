@@ -129,11 +129,12 @@ TEST_F(RehearsalTest, ANumberThatIsTypedIsComparedAsOneAndHasItsUnitInTheMarks) 
   const auto rehearsal = start(text);
   ASSERT_TRUE(rehearsal);
   EXPECT_FALSE(rehearsal->steps()[0].done);
-  for (const char* wrong : {"9", "wide", ""}) {
+  for (const char* wrong : {"9", "wide"}) {
     const auto refused = act(*rehearsal, {{"answer", "width"}, {"value", wrong}});
     ASSERT_FALSE(refused);
     EXPECT_THAT(describe(refused.error()), HasSubstr("is not a number from 0 to 5"));
   }
+  EXPECT_FALSE(actionFrom({{"answer", "width"}, {"value", ""}}, "test", "")) << "nothing was typed";
   ASSERT_TRUE(act(*rehearsal, {{"answer", "width"}, {"value", "0.7"}}));
   EXPECT_FALSE(rehearsal->steps()[0].done);
   ASSERT_TRUE(act(*rehearsal, {{"answer", "width"}, {"value", "0.9"}}));

@@ -107,7 +107,7 @@ TEST(CoverageVerb, CountsWhatMoversHide) {
   auto crowded = run("mover", withWalks(),
                      {{"add", "guard"}, {"kind", "person"}, {"through", {"500003,5600002:3600", "500003.3,5600002"}}});
   ASSERT_TRUE(crowded) << describe(crowded.error());
-  json asked = {{"instrument", "leica-blk2go"}, {"samples", 8000}, {"trajectories", {"short"}}, {"density", 2000}};
+  json asked = {{"instrument", "leica-blk2go"}, {"samples", 40000}, {"trajectories", {"short"}}, {"density", 2000}};
   const auto hidden = run("coverage", crowded->document, asked);
   ASSERT_TRUE(hidden) << describe(hidden.error());
   EXPECT_GT(hidden->answer["passed_by_m2"].get<double>(), 0.5);
