@@ -345,7 +345,7 @@ void drawTrajectoryButtons(const Model& model, Actions& actions, const CarriedTr
 }
 
 CoverageOptions coverageOf(const Model& model, const CarriedTrajectory& trajectory) {
-  constexpr std::size_t kSamples = 100000;  // so that blind spots are drawn by squares of some 30 cm in a house
+  constexpr std::size_t kSamples = 60000;  // so that blind spots are drawn by squares of some 40 cm in a house
   const CarriedScan& scan = model.carried_scan;
   return {.trajectories = {trajectory.name},
           .instrument = scan.choice.instrument,
