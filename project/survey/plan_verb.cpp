@@ -189,8 +189,9 @@ const AnswerFields<PlanHole>& answerFields(const PlanHole* hole) {
 
 const AnswerFields<PlanPatch>& answerFields(const PlanPatch* patch) {
   using A = PlanPatch;
-  static const auto fields = withBases<A>({{"area_m2", &A::area_m2}, {"spacing_m", &A::spacing_m}, {"at", &A::at}},
-                                          answerFields(static_cast<const ProductIdentity*>(patch)));
+  static const auto fields = withBases<A>(
+      {{"area_m2", &A::area_m2}, {"spacing_m", &A::spacing_m}, {"at", &A::at}, {"reason", &A::reason, kLeftOut}},
+      answerFields(static_cast<const ProductIdentity*>(patch)));
   return fields;
 }
 
