@@ -22,7 +22,7 @@ import sys
 import numpy as np
 from scipy.spatial import cKDTree
 
-from own_points import read_ply, run
+from own_points import boxes_as_obj, read_ply, run
 
 MOVING = 32
 FLAWED = 1 | 2 | 8 | 32 | 64
@@ -33,16 +33,7 @@ RANGES = [0, 3, 6, 10, 20, 1e9]
 def corridor():
     """Walls at y = ±5 m, 60 m long and 3 m high, and a floor."""
     boxes = [("Wall", (-30, 5, 0), (30, 5.2, 3)), ("Wall", (-30, -5.2, 0), (30, -5, 3)), ("Floor", (-30, -5.2, -0.2), (30, 5.2, 0))]
-    text = []
-    for number, (name, a, b) in enumerate(boxes):
-        text.append(f"o {name}{number}")
-        for z in (a[2], b[2]):
-            for x, y in ((a[0], a[1]), (b[0], a[1]), (b[0], b[1]), (a[0], b[1])):
-                text.append(f"v {x:.6f} {y:.6f} {z:.6f}")
-        at = 8 * number + 1
-        for face in ((3, 2, 1, 0), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)):
-            text.append("f " + " ".join(str(at + v) for v in face))
-    return "\n".join(text) + "\n"
+    return boxes_as_obj(boxes)
 
 
 class Bench:

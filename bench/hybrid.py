@@ -18,7 +18,7 @@ import sys
 
 import numpy as np
 
-from own_points import read_ply, run
+from own_points import boxes_as_obj, read_ply, run
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 MODEL = os.path.join(HERE, "..", "scanners", "instruments", "leica-blk2go.json")
@@ -47,16 +47,7 @@ def building():
             for _ in range(3):
                 x, y = (i + rng.uniform(0.1, 0.3)) * ROOM[0], (k + rng.uniform(0.1, 0.3)) * ROOM[1]
                 boxes.append(("Cabinet", (x, y, 0), (x + rng.uniform(0.5, 1.5), y + 0.6, rng.uniform(0.8, 2.2))))
-    text = ["mtllib hybrid.mtl"]
-    for number, (name, a, b) in enumerate(boxes):
-        text.append(f"o {name}{number}\nusemtl Plaster")
-        for z in (a[2], b[2]):
-            for x, y in ((a[0], a[1]), (b[0], a[1]), (b[0], b[1]), (a[0], b[1])):
-                text.append(f"v {x:.6f} {y:.6f} {z:.6f}")
-        at = 8 * number + 1
-        for face in ((3, 2, 1, 0), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)):
-            text.append("f " + " ".join(str(at + v) for v in face))
-    return "\n".join(text) + "\n"
+    return "mtllib hybrid.mtl\n" + boxes_as_obj(boxes, "Plaster")
 
 
 def middle(room):

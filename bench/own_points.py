@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What scripts of this folder share: running the program, and the points that it writes."""
+"""What scripts of this folder share: running the program, boxes to scan, and the points that it writes."""
 import subprocess
 import sys
 
@@ -14,6 +14,22 @@ def run(*words, losing=False, folder=None):
     if done.returncode != 0 and not (losing and done.returncode == 3):
         sys.exit(f"{' '.join(words)}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
     return done.stdout
+
+
+def boxes_as_obj(boxes, material=None):
+    """An OBJ of upright boxes, each with a name and two corners: the least and the greatest x, y and z."""
+    text = []
+    for number, (name, a, b) in enumerate(boxes):
+        text.append(f"o {name}{number}")
+        if material:
+            text.append(f"usemtl {material}")
+        for z in (a[2], b[2]):
+            for x, y in ((a[0], a[1]), (b[0], a[1]), (b[0], b[1]), (a[0], b[1])):
+                text.append(f"v {x:.6f} {y:.6f} {z:.6f}")
+        at = 8 * number + 1
+        for face in ((3, 2, 1, 0), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)):
+            text.append("f " + " ".join(str(at + v) for v in face))
+    return "\n".join(text) + "\n"
 
 
 def read_ply(file):
