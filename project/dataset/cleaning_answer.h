@@ -14,16 +14,20 @@
 
 namespace standpoint {
 
+struct Taken;  // pointclouds/filters/cleaning.h
+
 struct CleanCount {  // of points of a kind
   std::uint64_t in = 0, removed = 0;
   std::optional<double> fraction;  // of those there were
 };
 const AnswerFields<CleanCount>& answerFields(const CleanCount*);
+CleanCount countOf(const Taken& taken);
 struct CleanCause {  // of points by what is wrong with them in truth
   std::uint64_t in = 0, removed = 0;
   std::optional<double> recall, precision;
 };
 const AnswerFields<CleanCause>& answerFields(const CleanCause*);
+CleanCause causeOf(const Taken& taken, std::uint64_t removed);  // `removed`: all that was, whatever is wrong with it
 struct CleanedClassRow {
   std::string name;
   CleanCount good, flawed;

@@ -12,12 +12,9 @@ namespace standpoint {
 
 namespace {
 
-std::optional<double> shareOf(std::uint64_t part, std::uint64_t whole) {
+// A fraction that is not asked of nothing.
+std::optional<double> fractionOf(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? std::nullopt : std::optional(static_cast<double>(part) / static_cast<double>(whole));
-}
-CleanCount countOf(const Taken& t) { return {t.in, t.taken, shareOf(t.taken, t.in)}; }
-CleanCause causeOf(const Taken& t, std::uint64_t removed) {
-  return {t.in, t.taken, shareOf(t.taken, t.in), shareOf(t.taken, removed)};
 }
 
 void takeScores(const CleaningScores& scores, CleaningAnswer& answer) {
@@ -72,6 +69,12 @@ void reportMatching(const CleaningAnswer& answer, const KeptPoints& points, Repo
 }
 
 }  // namespace
+
+CleanCount countOf(const Taken& taken) { return {taken.in, taken.taken, fractionOf(taken.taken, taken.in)}; }
+
+CleanCause causeOf(const Taken& taken, std::uint64_t removed) {
+  return {taken.in, taken.taken, fractionOf(taken.taken, taken.in), fractionOf(taken.taken, removed)};
+}
 
 const AnswerFields<CleanCount>& answerFields(const CleanCount*) {
   using A = CleanCount;

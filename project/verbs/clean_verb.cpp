@@ -14,21 +14,12 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-// A fraction that is not asked of nothing.
-std::optional<double> fractionOf(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? std::nullopt : std::optional(static_cast<double>(part) / static_cast<double>(whole));
-}
-
-CleanCount countOf(const Taken& t) { return {t.in, t.taken, fractionOf(t.taken, t.in)}; }
-
 CleanFilter filterRow(const FilterFigures& f) {
   CleanFilter row{f.filter, f.points.in, f.points.taken, f.points.in - f.points.taken, {}, {}, {}, {}};
   if (f.has_truth) {
     row.truth.emplace();
-    for (std::size_t bit = 0; bit < f.flags.size(); ++bit) {
-      const auto& [in, taken] = f.flags[bit];
-      (*row.truth)[flagNames()[bit]] = {in, taken, fractionOf(taken, in), fractionOf(taken, f.with_truth.taken)};
-    }
+    for (std::size_t bit = 0; bit < f.flags.size(); ++bit)
+      (*row.truth)[flagNames()[bit]] = causeOf(f.flags[bit], f.with_truth.taken);
     row.plainly_mixed = countOf(f.plainly_mixed);
     row.good = countOf(f.good);
   }
