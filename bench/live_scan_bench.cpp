@@ -60,8 +60,10 @@ Frames walk(Editor& editor, Offscreen& offscreen, double seconds) {
     camera.elevation_rad = 0.3 * std::sin(now_s);
     camera.target = eye + camera.forward() * camera.distance_m;
     ImGui::GetIO().DeltaTime = static_cast<float>(frame_s);
+    const auto moved_before = offscreen.scene().movedPictures();
     offscreen.frame(editor);
     frames.ms.push_back(1000 * secondsSince(from));
+    if (offscreen.scene().movedPictures() != moved_before) editor.graphics.moved(frames.ms.back() / 1000);
   }
   keyboard::change('W', false);
   keyboard::change('S', false);

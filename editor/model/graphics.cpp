@@ -2,6 +2,7 @@
 #include "editor/model/graphics.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,10 @@ constexpr double kSlow_s = 1.0 / 25, kQuick_s = 1.0 / 50;
 constexpr double kSustained_s = 1.5;  // of drawing: a stall of one frame says nothing
 constexpr std::size_t kFewestFrames = 8;
 constexpr double kCalm_s = 5;
+
+constexpr std::array kMotionSizes = {1.0, 0.75, 0.5};
+constexpr double kFluid_s = 1.0 / 30;
+constexpr double kSmallerAfter_s = 0.4, kLargerAfter_s = 1;
 
 std::size_t index(GraphicsLevel level) { return static_cast<std::size_t>(level); }
 GraphicsLevel levelOf(GraphicsChoice choice) {
@@ -86,32 +91,60 @@ GraphicsLevel GraphicsPace::most() const {
 
 void GraphicsPace::start() {
   level_ = choice_ == GraphicsChoice::automatic ? most() : levelOf(choice_);
-  frames_s_.clear();
-  sum_s_ = calm_s_ = 0;
+  at_level_.clear();
+  at_size_.clear();
+  size_ = 0;
+  calm_s_ = 0;
   taken_back_ = {};
 }
 
-double GraphicsPace::median_s() const {
-  std::vector<double> sorted(frames_s_.begin(), frames_s_.end());
+void GraphicsPace::Recent::add(double frame_s, double at_most_s) {
+  frames_s.push_back(frame_s);
+  sum_s += frame_s;
+  while (frames_s.size() > kFewestFrames && sum_s - frames_s.front() >= at_most_s) {
+    sum_s -= frames_s.front();
+    frames_s.pop_front();
+  }
+}
+
+bool GraphicsPace::Recent::has(double seconds) const { return frames_s.size() >= kFewestFrames && sum_s >= seconds; }
+
+double GraphicsPace::Recent::median_s() const {
+  std::vector<double> sorted(frames_s.begin(), frames_s.end());
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
   return *middle;
+}
+
+double GraphicsPace::motionSize() const { return kMotionSizes[size_]; }
+
+void GraphicsPace::resize(double frame_s) {
+  if (!means_->by_processor) return;
+  at_size_.add(frame_s, kLargerAfter_s);
+  if (!at_size_.has(kSmallerAfter_s)) return;
+  const double usual_s = at_size_.median_s();
+  const auto become = [&](std::size_t size) {
+    size_ = size;
+    at_size_.clear();
+    at_level_.clear();  // they were other pictures
+  };
+  if (usual_s > kFluid_s && size_ + 1 < kMotionSizes.size()) return become(size_ + 1);
+  if (size_ == 0 || !at_size_.has(kLargerAfter_s)) return;
+  const double larger = kMotionSizes[size_ - 1] / kMotionSizes[size_];
+  if (usual_s * larger * larger < kFluid_s) become(size_ - 1);
 }
 
 std::string GraphicsPace::moved(double frame_s) { return take(frame_s, true); }
 std::string GraphicsPace::worked(double frame_s) { return take(frame_s, false); }
 
 std::string GraphicsPace::take(double frame_s, bool whole) {
-  if (!means_ || choice_ != GraphicsChoice::automatic || !(frame_s >= 0)) return {};
-  frames_s_.push_back(frame_s);
-  sum_s_ += frame_s;
-  while (frames_s_.size() > kFewestFrames && sum_s_ - frames_s_.front() >= kSustained_s) {
-    sum_s_ -= frames_s_.front();
-    frames_s_.pop_front();
-  }
-  if (frames_s_.size() < kFewestFrames || sum_s_ < kSustained_s) return {};
-  const double usual_s = median_s();
-  if (whole) calm_s_ = usual_s < kQuick_s ? calm_s_ + frame_s : 0;
+  if (!means_ || !(frame_s >= 0)) return {};
+  if (whole) resize(frame_s);
+  if (choice_ != GraphicsChoice::automatic) return {};
+  at_level_.add(frame_s, kSustained_s);
+  if (!at_level_.has(kSustained_s)) return {};
+  const double usual_s = at_level_.median_s();
+  if (whole) calm_s_ = usual_s < kQuick_s && size_ == 0 ? calm_s_ + frame_s : 0;
   if (usual_s > kSlow_s && level_ > GraphicsLevel::low) return change(-1, usual_s);
   if (whole && calm_s_ >= kCalm_s && mayRise(usual_s)) return change(1, usual_s);
   return {};
@@ -129,8 +162,9 @@ bool GraphicsPace::mayRise(double frame_s) const {
 std::string GraphicsPace::change(int steps, double frame_s) {
   level_ = static_cast<GraphicsLevel>(static_cast<int>(level_) + steps);
   if (steps > 0) taken_back_[index(level_)] = true;
-  frames_s_.clear();
-  sum_s_ = calm_s_ = 0;
+  at_level_.clear();
+  at_size_.clear();
+  calm_s_ = 0;
   const auto name = tr(graphicsName(level_));
   return steps < 0 ? trf("Graphics lowered to {}: {:.0f} frames per second", name, 1 / frame_s)
                    : trf("Graphics raised to {}: {:.0f} frames per second", name, 1 / frame_s);

@@ -31,6 +31,7 @@ std::optional<Theme> themeOf(std::string_view key);
 struct GraphicsLook {
   GraphicsLevel level = GraphicsLevel::low;
   Theme theme = Theme::dark;
+  double motion_size = 1;  // of the picture while the camera moves: the share of its pixels that are drawn, each way
   bool operator==(const GraphicsLook&) const = default;
 };
 
@@ -40,15 +41,19 @@ struct GraphicsMeans {
   std::string no_sky, no_smoothing, no_shading;  // why
 };
 
-// The level that is drawn. Automatic begins with what suits the machine and lowers it where moving pictures stay below
-// 25 frames a second. It takes a level back only after a long time far above that, and no level more than once, so it
-// never goes to and fro between two.
+// The level that is drawn, and how large while the camera moves. Automatic begins with what suits the machine and
+// lowers it where moving pictures stay below 25 frames a second. It takes a level back only after a long time far above
+// that, and no level more than once, so it never goes to and fro between two.
+// Before a level is lowered, and at a level that was chosen, a processor that stays below 30 frames a second draws
+// moving pictures smaller, as far as half each way; larger again once that many pixels would keep 30 frames if the
+// whole frame were pixels. That is more than they take, so sizes do not go to and fro, either.
 class GraphicsPace {
  public:
   void begin(GraphicsMeans means);  // until then, Low is drawn
   void choose(GraphicsChoice choice);
   void showAnother();  // model: what has been measured does not hold any more
   GraphicsLevel level() const { return means_ ? level_ : GraphicsLevel::low; }
+  double motionSize() const;
   const std::optional<GraphicsMeans>& means() const { return means_; }
 
   // A whole frame while the camera moved. What is to be said of it: the level has changed; mostly "".
@@ -69,16 +74,24 @@ class GraphicsPace {
   GraphicsLevel most() const;
   void start();
   std::string take(double frame_s, bool whole);
-  double median_s() const;
+  void resize(double frame_s);
   bool mayRise(double frame_s) const;
   std::string change(int steps, double frame_s);
 
   std::optional<GraphicsMeans> means_;
   GraphicsChoice choice_ = GraphicsChoice::automatic;
   GraphicsLevel level_ = GraphicsLevel::low;
-  std::deque<double> frames_s_;  // the last ones at this level
-  double sum_s_ = 0;             // of these
-  double calm_s_ = 0;            // drawn far above the limit, without a break
+  struct Recent {
+    std::deque<double> frames_s;
+    double sum_s = 0;
+    void add(double frame_s, double at_most_s);  // forgets what is older
+    bool has(double seconds) const;              // of drawing, in frames enough to judge by
+    double median_s() const;
+    void clear() { *this = {}; }
+  };
+  Recent at_level_, at_size_;
+  std::size_t size_ = 0;  // of the moving picture, in steps below the whole
+  double calm_s_ = 0;     // drawn far above the limit, without a break
   std::array<bool, kGraphicsLevels> taken_back_ = {};
   std::array<std::optional<double>, kGraphicsLevels> cost_s_;
 };

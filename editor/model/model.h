@@ -291,7 +291,7 @@ struct Model : Style {
 
   // To be called once a frame before drawing: results of tasks, and what follows from another document.
   void update();
-  GraphicsLook graphicsLook() const { return {graphics.level(), settings.theme}; }
+  GraphicsLook graphicsLook() const { return {graphics.level(), settings.theme, graphics.motionSize()}; }
   ViewState viewState() const;      // of the lighter model where there is one
   ViewState originalState() const;  // of the model as it was imported
   // What the probe's instrument gets from the model and its materials; null until picking is ready.

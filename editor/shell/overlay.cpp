@@ -158,7 +158,7 @@ float togglesWidth(const Editor& editor) {
 }
 
 void drawTogglePlate(const Editor& editor) {
-  if (editor.graphicsLook() == GraphicsLook()) return;
+  if (editor.graphics.level() == GraphicsLevel::low && editor.settings.theme == Theme::dark) return;
   const ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + togglesWidth(editor), at.y + ImGui::GetFrameHeight());
   ImGui::GetWindowDrawList()->AddRectFilled(at, end, tone::kOverlay, editor.px(4));
 }

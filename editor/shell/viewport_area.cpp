@@ -214,6 +214,7 @@ void measureGraphics(Editor& editor, ImVec2 size) {
   if (!level || !editor.graphics.means()) return;
   ViewState state = editor.viewState();
   state.graphics.level = *level;
+  state.graphics.motion_size = 1;
   editor.graphics.measured(*level, editor.scene->cost_s(state, static_cast<int>(size.x), static_cast<int>(size.y)));
 }
 

@@ -181,11 +181,11 @@ void PointLayers::drawEvenly() {
   for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i].wanted = all[i];
 }
 
-void PointLayers::draw(const ViewState& state, const PointLens& lens, int width, int height, bool quick) {
+void PointLayers::draw(const ViewState& state, const PointLens& lens, int width, int height, bool half, bool quick) {
   lens_ = lens;
   camera_ = state.camera;
   kept_ = keptSides(state.clip, state.cut_height_m);
-  const int coarser = quick ? 2 : 1;
+  const int coarser = half ? 2 : 1;
   quick_ = quick;
   size_px_ = std::max(1, state.point_size_px / coarser);
   shade_ = state.shaded_points;

@@ -28,8 +28,8 @@ class PointLayers {
   const Bounds& bounds() const { return bounds_; }  // of all points, local frame
   bool empty() const { return layers_.empty(); }
 
-  // `quick`: half as fine, in a quarter of the time.
-  void draw(const ViewState& state, const PointLens& lens, int width, int height, bool quick);
+  // `half`: half as fine; `quick`: in a quarter of the time.
+  void draw(const ViewState& state, const PointLens& lens, int width, int height, bool half, bool quick);
   bool pending() const { return !layers_.empty() && (drawn_ < wanted_ || reading()); }
   // Adds some; false: nothing came within a moment.
   bool refine();

@@ -110,9 +110,11 @@ bool drawnByProcessor() {
   return false;
 }
 
+// Points may have come while it moved.
 bool onlyCameraDiffers(const ViewState& a, const ViewState& b) {
   ViewState moved = a;
   moved.camera = b.camera;
+  moved.underlays = b.underlays;
   return moved == b && !(a.camera == b.camera);
 }
 
@@ -284,10 +286,14 @@ class VtkSceneView : public SceneView {
 
   void draw(const ViewState& state, bool fine, bool resized) {
     const bool parts = !fine && !resized && !layers_.building() && drawn_ && onlyPartsMove(*drawn_, state);
+    const bool moves = drawn_ && (small_ || !(drawn_->camera == state.camera));
+    small_ = moves && !fine && !resized && state.graphics.motion_size < 1;
     fine_ = fine;
     const std::int64_t pixels = std::int64_t{width_} * height_ * kFineFactor * kFineFactor;
     factor_ = fine && pixels <= kMostFinePixels ? kFineFactor : 1;
-    window_->SetSize(width_ * factor_, height_ * factor_);
+    drawn_width_ = small_ ? atSize(width_, state) : width_;
+    drawn_height_ = small_ ? atSize(height_, state) : height_;
+    window_->SetSize(drawn_width_ * factor_, drawn_height_ * factor_);
     layers_.setPixels(factor_);
     const ViewState* last = drawn_ ? &*drawn_ : nullptr;
     layers_.update(state, last);
@@ -301,7 +307,8 @@ class VtkSceneView : public SceneView {
     if (!parts || !still_ || !still_->kept()) updateCamera(state.camera);
     updateBackdrop(state);
     if (!points_.empty()) {
-      points_.draw(state, pointLens(state.camera), width_, height_, state.quick_points && !fine);
+      const bool quick = state.quick_points && !fine, half = quick || (small_ && state.graphics.motion_size <= 0.5);
+      points_.draw(state, pointLens(state.camera), width_, height_, half, quick);
       takePoints();
     }
     if (!parts && still_) still_->drop();
@@ -321,8 +328,12 @@ class VtkSceneView : public SceneView {
     shown_parts_ = Parts::all;
     const DrawnScene drawn = scene();
     if (drawn.colours != 0 && drawn.depths != 0)
-      still_->keep(softened(state), drawn.depths, width_ * factor_, height_ * factor_);
+      still_->keep(softened(state), drawn.depths, drawn_width_ * factor_, drawn_height_ * factor_);
     return still_->kept();
+  }
+
+  static int atSize(int pixels, const ViewState& state) {
+    return std::max(8, static_cast<int>(std::lround(pixels * state.graphics.motion_size)));
   }
 
   // A processor takes longer over thousands of lines than over the surfaces between them.
@@ -349,7 +360,7 @@ class VtkSceneView : public SceneView {
 
   // What VTK has drawn last; without colours where it could not.
   DrawnScene scene() const {
-    DrawnScene scene{0, 0, width_, height_, factor_};
+    DrawnScene scene{0, 0, drawn_width_, drawn_height_, factor_};
     auto* shown = window_->GetDisplayFramebuffer();
     auto* colours = shown != nullptr ? shown->GetColorAttachmentAsTextureObject(0) : nullptr;
     auto* drawn = window_->GetRenderFramebuffer();
@@ -571,7 +582,9 @@ class VtkSceneView : public SceneView {
   };
   std::vector<PixelTexture> pixels_;
   bool fine_ = false, fine_wanted_ = false;
-  int width_ = 0, height_ = 0;  // of the picture as it is shown
+  bool small_ = false;                      // drawn with fewer pixels, since the camera moves
+  int width_ = 0, height_ = 0;              // of the picture as it is shown
+  int drawn_width_ = 0, drawn_height_ = 0;  // as it is drawn, without its factor
 };
 
 }  // namespace

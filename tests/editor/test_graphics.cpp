@@ -63,6 +63,55 @@ TEST(GraphicsPace, GoesDownStepByStep) {
   EXPECT_EQ(said[1], "Graphics lowered to Low: 10 frames per second");
 }
 
+TEST(GraphicsPace, DrawsMovingPicturesSmallerBelow30FramesBeforeItLowersALevel) {
+  auto pace = paceOf(true);
+  EXPECT_TRUE(run(pace, 0.036, 0.6).empty());
+  EXPECT_EQ(pace.motionSize(), 0.75);
+  EXPECT_TRUE(run(pace, 0.036, 60).empty()) << "28 frames per second are no reason for another level";
+  EXPECT_EQ(pace.motionSize(), 0.5);
+  EXPECT_EQ(pace.level(), GraphicsLevel::medium);
+}
+
+TEST(GraphicsPace, DrawsSmallerAtALevelThatWasChosenToo) {
+  auto pace = paceOf(true);
+  pace.choose(GraphicsChoice::high);
+  run(pace, 0.1, 60);
+  EXPECT_EQ(pace.motionSize(), 0.5);
+  EXPECT_EQ(pace.level(), GraphicsLevel::high);
+}
+
+TEST(GraphicsPace, DrawsWholePicturesOnAGraphicsCard) {
+  auto pace = paceOf(false);
+  run(pace, 0.1, 60);
+  EXPECT_EQ(pace.motionSize(), 1);
+}
+
+// From a frame that is pixels alone to one that has next to none.
+TEST(GraphicsPace, FindsTheLargestSizeThatKeeps30FramesAndStaysThere) {
+  for (const double whole_s : {0.020, 0.034, 0.050, 0.090})
+    for (const double pixels : {1.0, 0.6, 0.1}) {
+      auto pace = paceOf(true);
+      pace.choose(GraphicsChoice::low);
+      const auto frame_s = [&] { return whole_s * (1 - pixels + pixels * pace.motionSize() * pace.motionSize()); };
+      int changes = 0;
+      for (int i = 0; i < 5000; ++i) {
+        const double before = pace.motionSize();
+        pace.moved(frame_s());
+        changes += before != pace.motionSize() ? 1 : 0;
+      }
+      EXPECT_LE(changes, 2) << whole_s << " s, " << pixels;
+      EXPECT_TRUE(frame_s() <= 1.0 / 30 || pace.motionSize() == 0.5) << whole_s << " s, " << pixels;
+    }
+}
+
+TEST(GraphicsPace, DrawsLargerAgainAfterASlowTime) {
+  auto pace = paceOf(true);
+  run(pace, 0.06, 2);
+  ASSERT_EQ(pace.motionSize(), 0.5);
+  run(pace, 0.008, 3);
+  EXPECT_EQ(pace.motionSize(), 1);
+}
+
 TEST(GraphicsPace, IsNotImpressedByAStall) {
   auto pace = paceOf(true);
   EXPECT_TRUE(run(pace, 0.016, 3).empty());

@@ -423,6 +423,31 @@ TEST_F(Levels, CountPicturesInWhichOnlyTheCameraMoved) {
   EXPECT_EQ(view().movedPictures(), before + 1) << "drawn for its time";
 }
 
+TEST_F(Levels, DrawFewerPixelsWhileTheCameraMovesAndAllOfThemAtRest) {
+  const auto size = [&](bool fine) {
+    GLint width = 0, height = 0;
+    const auto texture = static_cast<GLuint>(view().texture(state, kWidth, kHeight, fine));
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &width);
+    glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_HEIGHT, &height);
+    glBindTexture(GL_TEXTURE_2D, 0);
+    return std::pair(width, height);
+  };
+  for (const auto level : {GraphicsLevel::low, GraphicsLevel::medium, GraphicsLevel::high}) {
+    state.graphics.level = level;
+    state.graphics.motion_size = 0.5;
+    draw(false);
+    EXPECT_EQ(size(false), std::pair(kWidth, kHeight)) << "it has not moved yet";
+    state.camera.azimuth_rad += 0.1;
+    EXPECT_EQ(size(false), std::pair(kWidth / 2, kHeight / 2));
+    const Drawn at_rest = draw(true);
+    ViewState never_moved = state;
+    state.graphics.motion_size = 1;
+    EXPECT_EQ(draw(true).rgba, at_rest.rgba) << graphicsName(level);
+    state = never_moved;
+  }
+}
+
 TEST_F(Levels, CountPicturesInWhichOnlyAnInstrumentWorks) {
   const auto moved = view().movedPictures(), worked = view().workedPictures();
   Station station;
