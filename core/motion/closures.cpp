@@ -25,7 +25,21 @@ struct Candidate {
   double at_m = 0;  // of the way
 };
 
-// Of each place that comes within the radius of an earlier one, the nearest of these.
+// Of the knots from which somebody came back to `here`: the nearest one of the first time that they were there.
+LoopClosure firstPassed(std::span<const ErrorKnot> knots, const ErrorKnot& here, std::span<const std::size_t> from,
+                        const ClosureRules& rules) {
+  double first_m = here.way_m;
+  for (const std::size_t j : from) first_m = std::min(first_m, knots[j].way_m);
+  LoopClosure nearest{here.time_s, 0, rules.radius_m, 0};
+  for (const std::size_t j : from) {
+    const double distance = (here.pose.translation - knots[j].pose.translation).norm();
+    if (knots[j].way_m < first_m + rules.apart_m && distance < nearest.distance_m)
+      nearest = {here.time_s, knots[j].time_s, distance, here.way_m - knots[j].way_m};
+  }
+  return nearest;
+}
+
+// Of each place that comes within the radius of earlier ones.
 std::vector<Candidate> candidatesOf(std::span<const ErrorKnot> knots, const ClosureRules& rules) {
   std::vector<Candidate> candidates;
   std::map<Cell, std::vector<std::size_t>> passed;  // knots, in their order
@@ -35,18 +49,16 @@ std::vector<Candidate> candidatesOf(std::span<const ErrorKnot> knots, const Clos
     if (here.way_m - looked_m < kPassed_m) continue;
     looked_m = here.way_m;
     const Cell cell = cellOf(here.pose.translation, rules.radius_m);
-    Candidate best{{here.time_s, 0, rules.radius_m, 0}, here.way_m};
+    std::vector<std::size_t> from;
     for (int k = 0; k < 27; ++k) {
       const auto found = passed.find({cell[0] + k % 3 - 1, cell[1] + k / 3 % 3 - 1, cell[2] + k / 9 - 1});
       if (found == passed.end()) continue;
       for (const std::size_t j : found->second) {
-        const double way = here.way_m - knots[j].way_m;
-        if (way < rules.least_way_m) break;
-        const double distance = (here.pose.translation - knots[j].pose.translation).norm();
-        if (distance < best.closure.distance_m) best.closure = {here.time_s, knots[j].time_s, distance, way};
+        if (here.way_m - knots[j].way_m < rules.least_way_m) break;
+        if ((here.pose.translation - knots[j].pose.translation).norm() < rules.radius_m) from.push_back(j);
       }
     }
-    if (best.closure.way_m > 0) candidates.push_back(best);
+    if (!from.empty()) candidates.push_back({firstPassed(knots, here, from, rules), here.way_m});
     passed[cell].push_back(i);
   }
   return candidates;
@@ -58,14 +70,15 @@ std::vector<LoopClosure> findClosures(std::span<const ErrorKnot> knots, const Cl
                                       const std::function<bool(const LoopClosure&)>& share) {
   auto candidates = candidatesOf(knots, rules);
   std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.closure.distance_m < b.closure.distance_m; });
+                   [](const Candidate& a, const Candidate& b) { return a.closure.worth_m() > b.closure.worth_m(); });
   std::vector<LoopClosure> closures;
   std::set<double> taken;  // ways
   for (const auto& [closure, at_m] : candidates) {
     const auto after = taken.lower_bound(at_m - rules.apart_m);
     if (after != taken.end() && *after < at_m + rules.apart_m) continue;
+    if (share && !share(closure)) continue;
     taken.insert(at_m);
-    if (!share || share(closure)) closures.push_back(closure);
+    closures.push_back(closure);
   }
   std::sort(closures.begin(), closures.end(),
             [](const LoopClosure& a, const LoopClosure& b) { return a.time_s < b.time_s; });

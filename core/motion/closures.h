@@ -13,6 +13,8 @@ struct LoopClosure {
   double time_s = 0, earlier_s = 0;
   double distance_m = 0;  // between the two places
   double way_m = 0;       // from the one to the other
+  // How much it tells: the longer the way round and the nearer the places.
+  double worth_m() const { return way_m - 5 * distance_m; }
 };
 
 struct ClosureRules {
@@ -21,9 +23,10 @@ struct ClosureRules {
   double apart_m = 10;      // of way between closures
 };
 
-// Where a path comes back: the knots that are nearest to an earlier one, no two of them within `apart_m` of way.
-// `share`, where given, decides whether the two places see enough of the same surfaces (engineering: more than 30 %);
-// one that is refused is a missed closure. In the order of time; O(knots log knots).
+// Where a path comes back, those that tell most first, no two of them within `apart_m` of way: each to where it first
+// was there. `share`, where given, decides whether the two places see enough of the same surfaces (engineering: more
+// than 30 %); one that is refused is a missed closure. In the order of time; O(knots log knots) where a place is passed
+// a few times.
 std::vector<LoopClosure> findClosures(std::span<const ErrorKnot> knots, const ClosureRules& rules = {},
                                       const std::function<bool(const LoopClosure&)>& share = {});
 

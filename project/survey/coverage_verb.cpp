@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "core/motion/carriers.h"
-#include "core/motion/closures.h"
 #include "core/motion/trajectory_error.h"
 #include "core/units.h"
 #include "pointclouds/formats.h"
@@ -138,13 +137,14 @@ CoverageTrajectory rowOf(const Path& path, const SurfaceSamples& samples) {
     row.fastest_mps = std::max(row.fastest_mps, sample.speed_mps);
     row.fastest_turn_degps = std::max(row.fastest_turn_degps, sample.turn_radps / kRadPerDeg);
   }
-  if (const auto knots = errorKnots(*path.carried.path)) row.closures = findClosures(*knots).size();
   return row;
 }
 
-// How well it will be known, all seeds together.
+// Where it closes and how well it will be known, all seeds together.
 Result<void> expectError(CoverageTrajectory& row, const Path& path, const RayScene& scene, const Document& document,
                          Progress& progress) {
+  TRY_ASSIGN(const auto closures, closuresOf(path.carried, scene, path.solving.max_range_m));
+  row.closures = closures.size();
   TRY_ASSIGN(const auto expected, expectedMotion(path.carried, scene, document.job->stations, path.solving, progress));
   std::vector<double> times;
   for (const auto& sample : pathSamples(path.carried, 2000))

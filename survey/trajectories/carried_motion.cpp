@@ -84,6 +84,30 @@ void setDegeneracy(std::vector<ErrorKnot>& knots, const RayScene& scene, double 
   });
 }
 
+// Whether at least 30 % of what is seen from one place is seen from the other, too: there is no wall between them.
+bool seeTheSame(const RayScene& scene, const Eigen::Vector3d& here, const Eigen::Vector3d& there, double max_range_m) {
+  constexpr double kShared = 0.3, kSurface_m = 0.05;
+  int seen = 0, shared = 0;
+  for (int k = 0; k < kDirections; ++k) {
+    const auto hit = scene.intersect(here, directionOf(k), max_range_m);
+    if (!hit) continue;
+    ++seen;
+    const Eigen::Vector3d to = hit->position - there;
+    const double distance = to.norm();
+    if (distance <= kSurface_m || distance > max_range_m) continue;
+    const auto from_there = scene.intersect(there, to / distance, distance + kSurface_m);
+    shared += from_there && (from_there->position - hit->position).norm() < kSurface_m ? 1 : 0;
+  }
+  return shared > kShared * seen;
+}
+
+std::vector<LoopClosure> closuresOf(std::span<const ErrorKnot> knots, const PoseFunction& path, const RayScene& scene,
+                                    double max_range_m) {
+  return findClosures(knots, {}, [&](const LoopClosure& c) {
+    return seeTheSame(scene, path.pose(c.time_s).translation, path.pose(c.earlier_s).translation, max_range_m);
+  });
+}
+
 const ErrorKnot& nearestTo(const std::vector<ErrorKnot>& knots, const Eigen::Vector3d& place) {
   return *std::min_element(knots.begin(), knots.end(), [&](const ErrorKnot& a, const ErrorKnot& b) {
     return (a.pose.translation - place).squaredNorm() < (b.pose.translation - place).squaredNorm();
@@ -118,7 +142,7 @@ Result<HeldKnots> heldKnots(const CarriedMotion& carried, const RayScene& scene,
   setDegeneracy(held.knots, scene, solving.max_range_m);
   TRY(progress.check());
   if (solving.closures)
-    for (const LoopClosure& closure : findClosures(held.knots))
+    for (const LoopClosure& closure : closuresOf(held.knots, *carried.path, scene, solving.max_range_m))
       held.constraints.push_back({closure.time_s, closure.earlier_s, kClosure_sigma_m, kClosure_sigma_rad});
   solved.closures = held.constraints.size();
   for (const Station& station : stations) {
@@ -138,6 +162,11 @@ Result<HeldKnots> heldKnots(const CarriedMotion& carried, const RayScene& scene,
 }
 
 }  // namespace
+
+Result<std::vector<LoopClosure>> closuresOf(const CarriedMotion& carried, const RayScene& scene, double max_range_m) {
+  TRY_ASSIGN(const auto knots, errorKnots(*carried.path));
+  return closuresOf(knots, *carried.path, scene, max_range_m);
+}
 
 Result<CarriedMotion> carriedMotion(const CarriedTrajectory& trajectory, const Georeference& georeference,
                                     Report& report, Progress& progress) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/georeference.h"
+#include "core/motion/closures.h"
 #include "core/motion/pose_spline.h"
 #include "core/motion/trajectory_error.h"
 #include "core/progress.h"
@@ -71,6 +72,8 @@ struct SolvedMotion {
 };
 // What holds it and how it errs: a note, and a warning of control points that do not hold it.
 void reportSolved(const SolvedMotion& solved, const std::string& name, Report& report);
+// Where it comes back to what it has seen before: no wall stands between the two places.
+Result<std::vector<LoopClosure>> closuresOf(const CarriedMotion& carried, const RayScene& scene, double max_range_m);
 // The error of a carried scanner's trajectory (core/motion/trajectory_error.h), with the degeneracy that the scene
 // gives along it: rays from each knot find what surfaces face it. A control point is measured where the scanner stands
 // still for a quarter of a second within 0.5 m of it in plan and up to 3 m above it; it holds the position there with

@@ -367,5 +367,17 @@ TEST(FindClosures, FindsWhereAPathComesBack) {
   EXPECT_TRUE(findClosures(*errorKnots(*upstairs)).empty());
 }
 
+// Shortly before its end it crosses the way that it has just come.
+TEST(FindClosures, ClosesTheLongestWayRoundFirst) {
+  const auto path =
+      walk({{0, 0, 0}, {25, 0, 0}, {25, 25, 0}, {0, 25, 0}, {0, 5, 0}, {5, 5, 0}, {5, 9, 0}, {-1, 9, 0}, {0, 0, 0}});
+  const auto closures = findClosures(*errorKnots(*path));
+  ASSERT_FALSE(closures.empty());
+  const LoopClosure& last = closures.back();
+  EXPECT_NEAR(last.time_s, path->last_s(), 3);
+  EXPECT_LT(last.earlier_s, 3);
+  EXPECT_GT(last.way_m, 100);
+}
+
 }  // namespace
 }  // namespace standpoint

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "survey/trajectories/carried_motion.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "core/data_folder.h"
@@ -40,6 +42,31 @@ std::shared_ptr<Environment> withConcrete() {
   auto environment = std::make_shared<Environment>();
   environment->surfaces.push_back({"Concrete", {0.6F, 0.6F, 0.6F, 1}, "#1", {}, {}});
   return environment;
+}
+
+// 20 m along x, back 1 m beside it, at 1 m/s.
+CarriedMotion alongAndBack() {
+  Trajectory samples;
+  for (int k = 0; k <= 41; ++k) {
+    const double back = std::clamp(k - 20.0, 0.0, 1.0);
+    samples.time_s.push_back(k);
+    samples.pose.push_back({Eigen::Quaterniond::Identity(), {k <= 20 ? k : 41.0 - k, back, 1.5}});
+  }
+  CarriedMotion carried;
+  carried.path = carried.truth = std::make_shared<const PoseSpline>(*PoseSpline::through(samples));
+  return carried;
+}
+
+TEST(CarriedMotion, IsNotHeldByWhatIsBehindAWall) {
+  const auto closures = [](bool wall) {
+    const auto hall = withConcrete();
+    addBox(*hall, "hall", "IfcBuildingElementProxy", {-2, -2, 0}, {24, 3, 3});
+    if (wall) addBox(*hall, "wall", "IfcWall", {-2, 0.45, 0}, {19.5, 0.55, 3});
+    Progress progress;
+    return closuresOf(alongAndBack(), **RayScene::build(hall, progress), 25)->size();
+  };
+  EXPECT_GE(closures(false), 1U);
+  EXPECT_EQ(closures(true), 0U);
 }
 
 // M20, by what rays from the path meet: the ends of the corridor are out of the scanner's range.
