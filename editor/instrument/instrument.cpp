@@ -65,7 +65,7 @@ class InstrumentPanel {
     sound(editor);
     const bool exercising = desk_.rehearsal != nullptr && !desk_.ended();
     desk_.was_busy = desk_.shown() != nullptr && (exercising || desk_.running()->busy());
-    ticker_.run(desk_.was_busy || ImGui::IsMouseDown(ImGuiMouseButton_Left));  // a finger that stays down is a hold
+    ticker_.askFor(desk_.was_busy || ImGui::IsMouseDown(ImGuiMouseButton_Left));  // a finger that stays down is a hold
   }
 
   InstrumentDesk& desk() { return desk_; }

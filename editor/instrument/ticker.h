@@ -9,16 +9,16 @@
 
 namespace standpoint {
 
-// Wakes the window twenty times a second while an instrument's clock runs; sleeps otherwise, so that nothing is drawn
-// when nothing changes.
+// Wakes the window at most twenty times a second, once for each time that the panel of an instrument whose clock runs
+// asks for it; so nothing is drawn when nothing changes, nor when the panel is no longer drawn.
 class Ticker {
  public:
   explicit Ticker(std::function<void()> wake)
       : wake_(std::move(wake)), thread_([this](const std::stop_token& stop) { loop(stop); }) {}
-  void run(bool on) {
+  void askFor(bool frame) {
     {
       const std::lock_guard lock(mutex_);
-      on_ = on;
+      asked_ = frame;
     }
     condition_.notify_one();
   }
@@ -26,7 +26,8 @@ class Ticker {
  private:
   void loop(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
-    while (condition_.wait(lock, stop, [this] { return on_; }) && !stop.stop_requested()) {
+    while (condition_.wait(lock, stop, [this] { return asked_; }) && !stop.stop_requested()) {
+      asked_ = false;
       lock.unlock();
       wake_();
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -37,7 +38,7 @@ class Ticker {
   std::function<void()> wake_;
   std::mutex mutex_;
   std::condition_variable_any condition_;
-  bool on_ = false;
+  bool asked_ = false;
   std::jthread thread_;
 };
 

@@ -34,6 +34,7 @@ struct Editor : Model {
   // The pointer is on the device, or a finger was there last and the pointer is not on the view: what is typed is not
   // meant for the view.
   bool device_has_keys = false;
+  bool device_drawn = false;  // in the frame drawn last: what moves on it moves only then
   bool fine_picture = false;  // the view stands still: smooth edges
   bool costs_wanted = false;  // of the levels of graphics: somebody reads them
   bool quit = false;          // confirmed

@@ -143,8 +143,9 @@ void PanelActions::askForFile(FileDialogState::Purpose purpose, std::string titl
 }
 void PanelActions::locate(const std::filesystem::path& missing) { askToLocate(editor_, missing); }
 bool PanelActions::drawInstrument() {
-  if (editor_.draw_instrument) editor_.draw_instrument(editor_);
-  return editor_.draw_instrument != nullptr;
+  editor_.device_drawn = editor_.draw_instrument != nullptr;
+  if (editor_.device_drawn) editor_.draw_instrument(editor_);
+  return editor_.device_drawn;
 }
 
 }  // namespace standpoint

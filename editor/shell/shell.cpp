@@ -425,7 +425,7 @@ void drawShell(Editor& editor) {
     return;
   }
   runShortcuts(editor);
-  editor.device_has_keys = false;  // until it is drawn
+  editor.device_has_keys = editor.device_drawn = false;  // until it is drawn
   drawMenuBar(editor);
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float menu = ImGui::GetFrameHeight(), tools = ImGui::GetFrameHeight() + editor.px(12),

@@ -166,7 +166,8 @@ class Window {
     pacer_.waitForWork(events_, [&] {
       FramePacer::Reasons reasons{.input = input_.pending(),
                                   .key_held = keyboard::anyHeld(),
-                                  .walker_moves = editor_.walk.moves() || editor_.fly.moves() || editor_.held.moves ||
+                                  .walker_moves = editor_.walk.moves() || editor_.fly.moves() ||
+                                                  (editor_.held.moves && editor_.device_drawn) ||
                                                   editor_.flight.flies() || editor_.recording.record.active(),
                                   .text_edited = ImGui::GetIO().WantTextInput,
                                   .job_runs = editor_.jobRuns(),

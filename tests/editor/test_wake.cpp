@@ -9,6 +9,7 @@
 
 #include "demo_verbs.h"
 #include "editor/desktop/frame_pacer.h"
+#include "editor/instrument/ticker.h"
 #include "editor/model/time_left.h"
 #include "item_probe.h"
 
@@ -46,6 +47,40 @@ class PostedEvents : public EventSource {
   std::condition_variable arrived_;
   bool posted_ = false;
 };
+
+// Who leaves the device's workspace with the mouse presses a button while its panel is drawn for the last time.
+TEST(Ticker, WakesOnceForEachTimeItIsAskedSoThatNothingGoesOnWhereNobodyAsks) {
+  std::atomic<int> wakes = 0;
+  std::mutex mutex;
+  std::condition_variable woken;
+  Ticker ticker([&] {
+    const std::lock_guard lock(mutex);
+    ++wakes;
+    woken.notify_all();
+  });
+  const auto wokenTimes = [&](int times) {
+    std::unique_lock lock(mutex);
+    return woken.wait_for(lock, 10s, [&] { return wakes == times; });
+  };
+  ticker.askFor(true);
+  EXPECT_TRUE(wokenTimes(1));
+  std::this_thread::sleep_for(120ms);
+  EXPECT_EQ(wakes, 1);
+  ticker.askFor(true);
+  EXPECT_TRUE(wokenTimes(2));
+}
+
+TEST(Device, IsKnownToBeDrawnOnlyWhereItsPanelIsInFront) {
+  Editor editor(verbsWithDemo(), [] {});
+  GuiDriver gui(editor);
+  editor.draw_instrument = [](Editor&) {};
+  editor.workspace = Workspace::instrument;
+  gui.frames(3);
+  EXPECT_TRUE(editor.device_drawn);
+  editor.workspace = Workspace::survey;
+  gui.frames(2);
+  EXPECT_FALSE(editor.device_drawn);
+}
 
 // The window's loop without a window.
 class Wake : public ::testing::Test {
