@@ -15,7 +15,7 @@ std::vector<InspectedCloud> inspectedClouds(const Document& document) {
     const auto& station = document.job->stations[static_cast<std::size_t>(i)];
     for (std::size_t k = station.scans.size(); k-- > 0;) {
       const std::filesystem::path file = station.scans[k].file;
-      clouds.push_back({station.name + ", " + file.filename().string(), file, local_from_file, i, -1});
+      clouds.push_back({station.name + ", " + file.filename().string(), file, local_from_file, i, -1, station.name});
     }
   }
   for (int i = 0; i < static_cast<int>(document.underlays.size()); ++i) {

@@ -16,6 +16,7 @@ struct InspectedCloud {
   std::filesystem::path file;
   Pose local_from_cloud;            // frame of the cloud's file to the local one
   int station = -1, underlay = -1;  // index; -1: it is none
+  std::string scan = {};            // what a station's scan is called in a file that holds several
 };
 
 // The stations' scans, the newest of each first, then the underlays.

@@ -19,37 +19,51 @@ namespace {
 
 constexpr const char *kCompare = ICON_COMPRESS "  Compare###compare-clouds", *kClean = ICON_DROP "  Clean A…###clean-a";
 
-struct CompareState {
-  std::filesystem::path a, b;
-  std::filesystem::path shown_a, shown_b;  // of the answer that is shown
+struct ComparedPart {
+  std::filesystem::path file;
+  std::string scan;  // "": all of the file
+  bool operator==(const ComparedPart&) const = default;
 };
 
-std::string nameOf(const std::vector<InspectedCloud>& clouds, const std::filesystem::path& file) {
-  const auto* cloud = cloudOf(clouds, file);
-  return cloud != nullptr ? cloud->label : file.empty() ? tr("Choose a cloud") : file.filename().string();
+struct CompareState {
+  ComparedPart a, b;
+  ComparedPart shown_a, shown_b;  // of the answer that is shown
+};
+
+// Of a file that holds the scans of several stations, that of one.
+ComparedPart partOf(const std::vector<InspectedCloud>& clouds, const InspectedCloud& cloud) {
+  const auto shares = [&](const InspectedCloud& other) { return other.file == cloud.file && other.scan != cloud.scan; };
+  return {cloud.file, std::any_of(clouds.begin(), clouds.end(), shares) ? cloud.scan : std::string()};
+}
+
+std::string nameOf(const std::vector<InspectedCloud>& clouds, const ComparedPart& part) {
+  for (const auto& cloud : clouds)
+    if (partOf(clouds, cloud) == part) return cloud.label;
+  return part.file.empty() ? tr("Choose a cloud") : part.file.filename().string();
 }
 
 // One of the project's clouds, or any file.
 void chooseCloud(float width, Actions& actions, const char* id, const std::vector<InspectedCloud>& clouds,
-                 std::filesystem::path& file, PanelStates& states, bool is_a) {
+                 ComparedPart& part, PanelStates& states, bool is_a) {
   ImGui::SetNextItemWidth(width);
-  if (!ImGui::BeginCombo(id, nameOf(clouds, file).c_str())) return;
+  if (!ImGui::BeginCombo(id, nameOf(clouds, part).c_str())) return;
   for (std::size_t i = 0; i < clouds.size(); ++i)
-    if (ImGui::Selectable((clouds[i].label + "###" + id + std::to_string(i)).c_str(), file == clouds[i].file))
-      file = clouds[i].file;
+    if (const auto offered = partOf(clouds, clouds[i]);
+        ImGui::Selectable((clouds[i].label + "###" + id + std::to_string(i)).c_str(), part == offered))
+      part = offered;
   ImGui::Separator();
   if (ImGui::Selectable(ui::Label("Another file…")))
     actions.askForFile(FileDialogState::Purpose::openFile, "Choose a point cloud", "Choose",
                        {".e57", ".las", ".laz", ".ply", ".pcd", ".ptx", ".pts", ".xyz"}, "",
                        [&states, is_a](Actions&, const std::filesystem::path& chosen) {
                          auto& state = states.of<CompareState>();
-                         (is_a ? state.a : state.b) = chosen;
+                         (is_a ? state.a : state.b) = {chosen, {}};
                        });
   ImGui::EndCombo();
 }
 
 std::string whyNotCompare(const Model& model, const CompareState& state) {
-  if (state.a.empty() || state.b.empty()) return "Choose two clouds";
+  if (state.a.file.empty() || state.b.file.empty()) return "Choose two clouds";
   if (state.a == state.b) return "Choose two different clouds";
   return model.session.whyNot("compare");
 }
@@ -162,14 +176,15 @@ void drawAnswer(const Model& model, const CompareState& state, const CompareAnsw
 
 // Filters one cloud into a file beside it, to be compared with what it was.
 void drawClean(const Model& model, CompareState& state, Actions& actions) {
-  if (!ui::button(kClean, state.a.empty() ? "Choose cloud A first" : model.session.whyNot("clean"), {0, 0},
+  if (!ui::button(kClean, state.a.file.empty() ? "Choose cloud A first" : model.session.whyNot("clean"), {0, 0},
                   "Filter cloud A into a file beside it, which becomes cloud B: before and after"))
     return;
-  const auto out = state.a.parent_path() / (state.a.stem().string() + "-cleaned" + state.a.extension().string());
+  const auto& file = state.a.file;
+  const auto out = file.parent_path() / (file.stem().string() + "-cleaned" + file.extension().string());
   CleanOptions options;
-  options.in = state.a;
+  options.in = file;
   options.output = out;
-  state.b = out;
+  state.b = {out, state.a.scan};
   actions.openForm(options);
 }
 
@@ -192,7 +207,7 @@ void drawComparison(const Model& model, PanelStates& states, Actions& actions) {
   chooseCloud(width, actions, "###compare-b", clouds, state.b, states, false);
   ImGui::SameLine();
   if (ui::primaryButton(kCompare, whyNotCompare(model, state)) &&
-      actions.start(CompareOptions{state.a, state.b}, "Compare two clouds"))
+      actions.start(CompareOptions{state.a.file, state.b.file, state.a.scan, state.b.scan}, "Compare two clouds"))
     state.shown_a = state.a, state.shown_b = state.b;
   ImGui::SameLine();
   drawClean(model, state, actions);

@@ -6,6 +6,8 @@
 #include <map>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "pointclouds/formats.h"
 #include "pointclouds/statistics/coverage.h"
 #include "pointclouds/statistics/neighbourhoods.h"
@@ -123,24 +125,61 @@ std::vector<Neighbourhood> SurveySink::samples() const {
   return all;
 }
 
+// Passes on the scans of one name, or all of them where it has none.
+class ScanOfName final : public PointSink {
+ public:
+  ScanOfName(PointSink& sink, const std::string& name) : sink_(sink), name_(name) {}
+  Result<void> begin(const ScanHeader& header) override {
+    names_.push_back(header.name);
+    open_ = name_.empty() || header.name == name_;
+    found_ = found_ || open_;
+    return open_ ? sink_.begin(header) : Result<void>();
+  }
+  Result<void> write(const PointBlock& block) override { return open_ ? sink_.write(block) : Result<void>(); }
+  Result<void> end() override { return open_ ? sink_.end() : Result<void>(); }
+  Result<void> close() override { return sink_.close(); }
+
+  // Once all has been read.
+  Result<void> found(const std::filesystem::path& file) const {
+    if (name_.empty() || found_) return {};
+    return failure(ErrorKind::usage,
+                   fmt::format("unknown scan '{}'; available: {}", name_,
+                               names_.empty() ? "none" : fmt::format("{}", fmt::join(names_, ", "))),
+                   file.string());
+  }
+
+ private:
+  PointSink& sink_;
+  const std::string& name_;
+  std::vector<std::string> names_;
+  bool open_ = false, found_ = false;
+};
+
+Result<Report> readPart(const CloudFormat& format, const CloudPart& part, PointSink& sink, Progress& progress) {
+  ScanOfName scans(sink, part.scan);
+  TRY_ASSIGN(auto report, format.read(part.file, scans, progress));
+  TRY(scans.found(part.file));
+  return report;
+}
+
 struct Measured {
   CloudStatistics statistics;
   Coverage coverage;
 };
 
-Result<Measured> measure(const std::filesystem::path& file, const StatisticsOptions& options, Report& report,
-                         Progress& progress) {
+Result<Measured> measure(const CloudPart& part, const StatisticsOptions& options, Report& report, Progress& progress) {
+  const auto& file = part.file;
   const CloudFormat* const format = cloudFormatFor(file);
   if (!format || !format->read) return failure(ErrorKind::usage, "unsupported point-cloud format", file.string());
   if (!(options.radius_m > 0) || !(options.cell_m > 0))
     return failure(ErrorKind::usage, "radius and cell must be positive", file.string());
   SurveySink survey(options);
-  TRY_ASSIGN(const auto read, format->read(file, survey, progress));
+  TRY_ASSIGN(const auto read, readPart(*format, part, survey, progress));
   report.append(read);
   survey.coverage.settle();
   std::vector<Neighbourhood> samples = survey.samples();
   NeighbourSink neighbours(samples, options.radius_m);
-  TRY(format->read(file, neighbours, progress));
+  TRY(readPart(*format, part, neighbours, progress));
   std::vector<double> noise, rough;
   for (const Neighbourhood& sample : samples) {
     if (const auto v = planeNoise(sample)) noise.push_back(*v);
@@ -157,12 +196,12 @@ Result<Measured> measure(const std::filesystem::path& file, const StatisticsOpti
 
 Result<CloudStatistics> measureCloud(const std::filesystem::path& file, const StatisticsOptions& options,
                                      Report& report, Progress& progress) {
-  TRY_ASSIGN(auto measured, measure(file, options, report, progress));
+  TRY_ASSIGN(auto measured, measure({file}, options, report, progress));
   return std::move(measured.statistics);
 }
 
-Result<CloudComparison> compareClouds(const std::filesystem::path& a, const std::filesystem::path& b,
-                                      const StatisticsOptions& options, Progress& progress) {
+Result<CloudComparison> compareClouds(const CloudPart& a, const CloudPart& b, const StatisticsOptions& options,
+                                      Progress& progress) {
   CloudComparison comparison;
   TRY_ASSIGN(auto first, measure(a, options, comparison.report, progress));
   TRY_ASSIGN(auto second, measure(b, options, comparison.report, progress));

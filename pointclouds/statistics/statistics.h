@@ -47,6 +47,12 @@ struct CloudStatistics {
   std::uint64_t occupied_cells = 0;          // exact up to 4 million, an estimate to 0.1 % beyond
 };
 
+// A cloud, or one scan of it.
+struct CloudPart {
+  std::filesystem::path file;
+  std::string scan = {};  // its name in the file; "": all of them
+};
+
 struct CloudComparison {
   CloudStatistics a, b;
   double a_covered_by_b = 0, b_covered_by_a = 0;  // share of the occupied cells
@@ -56,7 +62,8 @@ struct CloudComparison {
 // Reads the file twice; memory does not grow with it. The same file gives the same figures.
 Result<CloudStatistics> measureCloud(const std::filesystem::path& file, const StatisticsOptions& options,
                                      Report& report, Progress& progress);
-Result<CloudComparison> compareClouds(const std::filesystem::path& a, const std::filesystem::path& b,
-                                      const StatisticsOptions& options, Progress& progress);
+// Errors: no scan of that name.
+Result<CloudComparison> compareClouds(const CloudPart& a, const CloudPart& b, const StatisticsOptions& options,
+                                      Progress& progress);
 
 }  // namespace standpoint

@@ -6,7 +6,9 @@ namespace standpoint {
 const Fields<CompareOptions>& compareFields() {
   using O = CompareOptions;
   static const Fields<O> fields = {{"a", &O::a, "first cloud", {.positional = true, .required = true}},
-                                   {"b", &O::b, "second cloud", {.positional = true, .required = true}}};
+                                   {"b", &O::b, "second cloud", {.positional = true, .required = true}},
+                                   {"a-scan", &O::a_scan, "only this scan of the first cloud, by its name"},
+                                   {"b-scan", &O::b_scan, "only this scan of the second cloud, by its name"}};
   return fields;
 }
 
@@ -47,7 +49,8 @@ const AnswerFields<CompareAnswer>& answerFields(const CompareAnswer*) {
 Result<Answered<CompareAnswer>> runCompare(const Document& document, const CompareOptions& options,
                                            Progress& progress) {
   progress.stage("Compare");
-  TRY_ASSIGN(const auto comparison, compareClouds(options.a, options.b, {}, progress));
+  TRY_ASSIGN(const auto comparison,
+             compareClouds({options.a, options.a_scan}, {options.b, options.b_scan}, {}, progress));
   const auto &a = comparison.a, &b = comparison.b;
   return Answered<CompareAnswer>{
       document,

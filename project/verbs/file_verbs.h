@@ -186,6 +186,7 @@ Result<Answered<InstrumentsAnswer>> runInstruments(const Document& document, con
 
 struct CompareOptions {
   std::filesystem::path a, b;
+  std::string a_scan = {}, b_scan = {};  // by name, of files with several; empty: all of them
 };
 const Fields<CompareOptions>& compareFields();
 

@@ -105,11 +105,33 @@ TEST(Statistics, CompareCoverage) {
   writeWall(folder / "whole.e57", {{.sigma_m = 0, .width_m = 2}});
   writeWall(folder / "half.e57", {{.sigma_m = 0, .width_m = 1}});
   Progress progress;
-  const auto both = compareClouds(folder / "whole.e57", folder / "half.e57", {}, progress);
+  const auto both = compareClouds({folder / "whole.e57"}, {folder / "half.e57"}, {}, progress);
   ASSERT_OK(both);
   EXPECT_DOUBLE_EQ(both->b_covered_by_a, 1);
   EXPECT_NEAR(both->a_covered_by_b, 0.25, 0.02);
   EXPECT_NEAR(static_cast<double>(both->b.occupied_cells) / static_cast<double>(both->a.occupied_cells), 0.25, 0.02);
+}
+
+TEST(Statistics, CompareTwoScansOfOneFile) {
+  const TemporaryFolder folder;
+  writeWall(folder / "both.e57", {{.sigma_m = 0, .width_m = 2}, {.sigma_m = 0, .width_m = 1, .station = 2}});
+  Progress progress;
+  const auto both = compareClouds({folder / "both.e57", "S1"}, {folder / "both.e57", "S2"}, {}, progress);
+  ASSERT_OK(both);
+  EXPECT_EQ(both->a.scans, 1u);
+  EXPECT_EQ(both->a.points, 40000u);
+  EXPECT_EQ(both->b.points, 10000u);
+  EXPECT_DOUBLE_EQ(both->b_covered_by_a, 1);
+  EXPECT_NEAR(both->a_covered_by_b, 0.25, 0.02);
+}
+
+TEST(Statistics, NameTheScansThereAreWhereOneIsUnknown) {
+  const TemporaryFolder folder;
+  writeWall(folder / "both.e57", {{}, {.station = 2}});
+  Progress progress;
+  const auto none = compareClouds({folder / "both.e57", "S3"}, {folder / "both.e57"}, {}, progress);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().message, "unknown scan 'S3'; available: S1, S2");
 }
 
 TEST(Statistics, OfAnEmptyCloudAreNothing) {
