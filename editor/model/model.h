@@ -160,6 +160,7 @@ struct ViewportState {
   std::optional<HandledStation> handled_station;    // the chosen one, as its handle was dragged
   std::optional<ViewBeforeStation> before_station;  // while the camera is where an instrument is
   std::optional<Eigen::Vector3d> flown_to;          // a place that was to be looked at from near
+  std::optional<Eigen::Vector3d> worst_place;       // of a figure of the quality, marked until the next click
   bool frame_wanted = false;
 };
 

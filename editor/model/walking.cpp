@@ -143,6 +143,24 @@ void walkFromEye(Model& model, const Eigen::Vector3d& eye, const Camera& camera)
   });
 }
 
+void showWorstPlace(Model& model, const Eigen::Vector3d& place) {
+  constexpr double kAround_m = 1.5;
+  rememberView(model);
+  model.view.worst_place = place;
+  auto& cut = model.visibility.cut_height_m;
+  if (cut && place.z() > *cut) cut.reset();
+  auto& camera = model.view.camera;
+  if (looksStraightDown(camera)) {
+    look(camera, StandardView::corner);
+    camera.orthographic = false;
+  }
+  const Eigen::Vector3d half = Eigen::Vector3d::Constant(kAround_m);
+  Bounds around;
+  around.extend(place - half);
+  around.extend(place + half);
+  model.bringIntoView(around);
+}
+
 void flyTo(Model& model, const Eigen::Vector3d& place) {
   constexpr int kDirections = 24;
   const Eigen::Vector3d middle = place + Eigen::Vector3d(0, 0, kBodyMiddle_m);

@@ -60,6 +60,9 @@ void rememberView(Model& model);  // for Alt+Left
 void walkFromEye(Model& model, const Eigen::Vector3d& eye, const Camera& camera);
 // From near and indoors, from where most is free around it; the view before comes back with Alt+Left.
 void flyTo(Model& model, const Eigen::Vector3d& place);
+// A worst place (local frame) is marked and brought into view: out of a plan, which does not show how high it is, and
+// out from behind a cut.
+void showWorstPlace(Model& model, const Eigen::Vector3d& place);
 void goBackInViews(Model& model);
 bool canUndoJump(const Model& model);  // by goBackInViews()
 // Until the ground is there and the place is chosen, whoever wants to walk or jump can still give it up.

@@ -45,8 +45,9 @@ class Actions {
   // The view.
   virtual void frameSelection() = 0;
   virtual void bringIntoView(const Bounds& box) = 0;
-  virtual void flyTo(const Eigen::Vector3d& place) = 0;  // on a floor, local frame: looks at it from near
-  virtual void goToBookmark(std::size_t bookmark) = 0;   // index into the document's
+  virtual void flyTo(const Eigen::Vector3d& place) = 0;           // on a floor, local frame: looks at it from near
+  virtual void showWorstPlace(const Eigen::Vector3d& place) = 0;  // local frame: marks it and brings it into view
+  virtual void goToBookmark(std::size_t bookmark) = 0;            // index into the document's
   virtual void colourBy(ColourMode colour) = 0;
   virtual void showSide(ModelSide side) = 0;
   virtual void showReflectanceAt(double wavelength_nm) = 0;

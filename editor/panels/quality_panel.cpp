@@ -63,14 +63,10 @@ void drawProfile(QualityState& state) {
 // The product and, nearer, the place itself.
 void goTo(const Model& model, Actions& actions, const AssessPlace& place) {
   const auto& products = model.environment()->products;
+  actions.select({});
   for (std::uint32_t p = 0; place.product && p < products.size(); ++p)
     if (products[p].id == place.product->id) actions.reveal(p);
-  if (!place.at) return;
-  const Eigen::Vector3d at = *place.at - model.shift_m(), half(1.5, 1.5, 1.5);
-  Bounds around;
-  around.extend(at - half);
-  around.extend(at + half);
-  actions.bringIntoView(around);
+  if (place.at) actions.showWorstPlace(*place.at - model.shift_m());
 }
 
 std::string placeText(const AssessPlace& place) {

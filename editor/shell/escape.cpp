@@ -131,6 +131,7 @@ void closeTopmost(Editor& editor) {
 void leaveTool(Editor& editor) {
   if (editor.walk_ground.preparing()) return giveUpWalk(editor);
   editor.view.refused_place.reset();
+  editor.view.worst_place.reset();
   if (editor.fieldwork.at_screen) return lookUp(editor);
   if (editor.view.row_from) return editor.view.row_from.reset();  // the first end is chosen anew
   if (editor.view.tool == Tool::measure && !editor.view.measuring.points.empty())

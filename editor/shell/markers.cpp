@@ -192,6 +192,15 @@ void drawPreview(Editor& editor, Pen& pen) {
   if (view.tool == Tool::placeTarget) tellTargetHere(editor, pen);
 }
 
+void drawWorstPlace(const Editor& editor, Pen& pen) {
+  if (!editor.view.worst_place) return;
+  const auto place = pen.at(*editor.view.worst_place);
+  if (!place) return;
+  pen.circle(*place, 12, IM_COL32(20, 22, 26, 60), tone::kWarning);
+  pen.circle(*place, 2, tone::kWarning, IM_COL32(20, 22, 26, 255));
+  pen.label(*place, tr("Worst place"), tone::kText);
+}
+
 }  // namespace
 
 void targetChip(Editor& editor) {
@@ -223,6 +232,7 @@ void drawMarkers(Editor& editor, ImVec2 origin) {
   drawStations(editor, pen, state);
   drawTargets(editor, pen, state);
   drawRoomNames(editor, pen, state);
+  drawWorstPlace(editor, pen);
   if (editor.view.labels) nameHoles(editor, state, origin, pen.labels);
   pen.labels.draw(list);
   list.PopClipRect();

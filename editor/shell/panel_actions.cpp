@@ -52,6 +52,7 @@ void PanelActions::scrolled() { editor_.outliner.scroll_to.reset(); }
 void PanelActions::frameSelection() { editor_.frameSelection(); }
 void PanelActions::bringIntoView(const Bounds& box) { editor_.bringIntoView(box); }
 void PanelActions::flyTo(const Eigen::Vector3d& place) { standpoint::flyTo(editor_, place); }
+void PanelActions::showWorstPlace(const Eigen::Vector3d& place) { standpoint::showWorstPlace(editor_, place); }
 void PanelActions::goToBookmark(std::size_t bookmark) { standpoint::goToBookmark(editor_, bookmark); }
 void PanelActions::colourBy(ColourMode colour) { editor_.view.colour = colour; }
 void PanelActions::showSide(ModelSide side) { editor_.view.side = side; }

@@ -31,6 +31,7 @@ class PanelActions final : public Actions {
   void frameSelection() override;
   void bringIntoView(const Bounds& box) override;
   void flyTo(const Eigen::Vector3d& place) override;
+  void showWorstPlace(const Eigen::Vector3d& place) override;
   void goToBookmark(std::size_t bookmark) override;
   void colourBy(ColourMode colour) override;
   void showSide(ModelSide side) override;

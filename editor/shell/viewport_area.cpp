@@ -193,6 +193,7 @@ void handleMouse(Editor& editor, ImVec2 origin, bool hovered) {
   followInspectTools(editor, origin, hovered && !editor.preview.isOpen() && !editor.proof);
   if (!view.dragging && !editor.proof && aimTeleport(editor, hovered)) return;
   if (hovered && ImGui::IsMouseClicked(0)) view.refused_place.reset();
+  if (view.dragging && !view.dragged && ImGui::IsMouseReleased(0)) view.worst_place.reset();
   if (hovered && !view.dragging && (ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2)))
     startDrag(editor, origin);
   if (view.dragging) continueDrag(editor);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "item_probe.h"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -112,6 +113,20 @@ GuiDriver::GuiDriver(Editor& editor, ImVec2 size) : editor_(editor) {
 }
 
 GuiDriver::~GuiDriver() { ImGui::DestroyContext(); }
+
+std::vector<std::string> GuiDriver::texts() {
+  itemProbe().texts.clear();
+  itemProbe().listens = true;
+  frame();
+  itemProbe().listens = false;
+  return itemProbe().texts;
+}
+
+bool GuiDriver::says(const std::string& english) {
+  const auto drawn = texts();
+  return std::any_of(drawn.begin(), drawn.end(),
+                     [&](const std::string& text) { return text.find(english) != std::string::npos; });
+}
 
 void GuiDriver::frame() {
   itemProbe().items.clear();

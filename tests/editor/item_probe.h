@@ -51,7 +51,9 @@ class GuiDriver {
   void key(int glfw_key, bool ctrl = false, bool shift = false);
   void type(const std::string& text);
   const GuiItem* find(const std::string& label) { return itemProbe().find(label); }
-  std::function<void()> draws;  // what is looked at; empty: the editor
+  std::vector<std::string> texts();       // of another frame, as they are drawn
+  bool says(const std::string& english);  // in another frame, within one of its texts
+  std::function<void()> draws;            // what is looked at; empty: the editor
 
  private:
   Editor& editor_;

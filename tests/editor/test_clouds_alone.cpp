@@ -44,13 +44,6 @@ class CloudAlone : public ::testing::Test {
     gui.settle();
   }
   std::string why(const char* action) const { return whyNot(*findAction(action), editor); }
-  std::vector<std::string> texts() {
-    itemProbe().texts.clear();
-    itemProbe().listens = true;
-    gui.frame();
-    itemProbe().listens = false;
-    return itemProbe().texts;
-  }
   ImVec2 screenOf(const Eigen::Vector3d& point) const {
     const auto pixel = project(editor.view.camera, point, editor.view.size);
     const auto* window = ImGui::FindWindowByName("###viewport");
@@ -90,7 +83,7 @@ TEST_F(CloudAlone, IsMeasuredInItsOwnCoordinatesAndTheStatusBarNamesIt) {
     gui.moveTo(screenOf(place - editor.shift_m()));
     gui.frames(2);
     if (place == first) {
-      EXPECT_THAT(texts(), testing::Contains(HasSubstr("Point of wall   500000.000  5600002.500  101.500 m")));
+      EXPECT_THAT(gui.texts(), testing::Contains(HasSubstr("Point of wall   500000.000  5600002.500  101.500 m")));
     }
     gui.press();
     gui.settle();
@@ -255,7 +248,7 @@ TEST_F(CloudAlone, ErrorsThatWaitAreAllShownAndClosedTogether) {
   editor.session.errors().push_back({"Open a", {ErrorKind::unusable, "the first is broken", "a.e57"}});
   editor.session.errors().push_back({"Open b", {ErrorKind::unusable, "the second is broken", "b.e57"}});
   gui.frames(3);
-  EXPECT_THAT(texts(), IsSupersetOf({"the first is broken", "the second is broken"}));
+  EXPECT_THAT(gui.texts(), IsSupersetOf({"the first is broken", "the second is broken"}));
   ASSERT_TRUE(gui.click("Copy text"));
   EXPECT_THAT(std::string(ImGui::GetClipboardText()), testing::AllOf(HasSubstr("a.e57"), HasSubstr("b.e57")));
   ASSERT_TRUE(gui.click("###close"));

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "demo_verbs.h"
+#include "editor/model/walking.h"
 #include "editor/shell/actions.h"
+#include "editor/widgets/keyboard.h"
 #include "item_probe.h"
 #include "project/survey/assess_verb.h"
 #include "tests/temporary_folder.h"
@@ -68,6 +70,24 @@ TEST_F(QualityPanel, AssessesAndGoesToTheWorstPlaceOfARow) {
   const Eigen::Vector3d at = *worst.at - editor.shift_m();
   EXPECT_LT((editor.view.camera.target - at).norm(), 0.01);
   EXPECT_GT((editor.view.camera.target - before.target).norm(), 0.1);
+}
+
+TEST_F(QualityPanel, MarksTheWorstPlaceAndShowsItInSpaceEvenFromAPlan) {
+  look(editor.view.camera, StandardView::top);
+  editor.view.camera.orthographic = true;
+  editor.visibility.cut_height_m = 1.2;
+  editor.select(0, true);
+  const Eigen::Vector3d place(3, 2, 2.4);
+  showWorstPlace(editor, place);
+  gui.frames(2);
+  EXPECT_FALSE(looksStraightDown(editor.view.camera));
+  EXPECT_FALSE(editor.view.camera.orthographic);
+  EXPECT_FALSE(editor.visibility.cut_height_m) << "it would hide the place";
+  EXPECT_LT((editor.view.camera.target - place).norm(), 0.01);
+  EXPECT_TRUE(gui.says("Worst place"));
+  gui.key(kKeyEscape);
+  gui.frames(2);
+  EXPECT_FALSE(gui.says("Worst place")) << "Esc takes the mark away";
 }
 
 // It takes minutes; what changes nothing that it judges leaves it as it is.
