@@ -328,10 +328,10 @@ void Model::chooseWanted() {
   const auto& job = session.document().job;
   const auto name = std::exchange(survey_wanted, {});
   for (std::size_t i = 0; job && !name.empty() && i < job->stations.size(); ++i)
-    if (job->stations[i].name == name) survey = {.station = static_cast<int>(i)};
+    if (job->stations[i].name == name) choose({.station = static_cast<int>(i)});
   const auto trajectory = std::exchange(trajectory_wanted, {});
   for (std::size_t i = 0; job && !trajectory.empty() && i < job->trajectories.size(); ++i)
-    if (job->trajectories[i].name == trajectory) survey = {.trajectory = static_cast<int>(i)};
+    if (job->trajectories[i].name == trajectory) choose({.trajectory = static_cast<int>(i)});
 }
 
 void Model::adoptDocument() {
@@ -534,6 +534,11 @@ void Model::frameSelection() {
 }
 
 void Model::bringIntoView(const Bounds& box) { frame(view.camera, box, view.size.x() / std::max(view.size.y(), 1.0)); }
+
+void Model::choose(const SurveyChoice& choice) {
+  survey = choice;
+  if (choice != SurveyChoice()) selection.clear();
+}
 
 void Model::select(std::uint32_t product, bool reveal) {
   selection.set(product);

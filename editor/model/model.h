@@ -180,6 +180,7 @@ struct SurveyChoice {
   int measurement = -1;
   int trajectory = -1;
   int waypoint = -1;  // of that trajectory
+  bool operator==(const SurveyChoice&) const = default;
 };
 
 // Chosen in the lists of materials or with the eyedropper; a remedy and the brush use it.
@@ -339,6 +340,8 @@ struct Model : Style {
   void frameSelection();  // everything when nothing is selected
   void bringIntoView(const Bounds& box);
   void select(std::uint32_t product, bool reveal);
+  // In its place: the products that were chosen before are so no longer.
+  void choose(const SurveyChoice& choice);
 
   const std::vector<Bounds>& boundsOfProducts() const;  // kept until the environment changes
   const std::vector<StoreyLevel>& storeys() const;

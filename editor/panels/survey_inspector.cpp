@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
+#include "editor/panels/scan_panel.h"
 #include "editor/panels/survey_edit.h"
 #include "editor/panels/trajectory_inspector.h"
 #include "editor/widgets/icons.h"
@@ -106,7 +107,8 @@ void stationFieldRows(const Model& model, SurveyEdit& edit, Actions& actions, co
   ui::endProperties();
 }
 
-void drawStation(const Model& model, SurveyEdit& edit, Actions& actions, const Station& station) {
+void drawStation(const Model& model, PanelStates& states, Actions& actions, const Station& station) {
+  SurveyEdit& edit = states.of<SurveyInspectorState>().station;
   if (begins(edit, &station, actions)) {
     edit.name = station.name;
     edit.at = station.true_pose.translation + model.shift_m();
@@ -124,8 +126,14 @@ void drawStation(const Model& model, SurveyEdit& edit, Actions& actions, const S
   if (smallButton(ICON_CROSSHAIRS, "Look", "look-station", width, {}, "Frame in view"))
     bringNear(actions, station.true_pose.translation);
   ImGui::SameLine();
-  if (smallButton(ICON_PLAY, "Scan…", "scan-station", width, model.session.whyNot("scan"), "Open the Scan panel"))
+  if (smallButton(ICON_PLAY, "Scan…", "scan-station", width, model.session.whyNot("scan"),
+                  "Open the Scan panel for this station")) {
+    states.of<ScanState>().all_stations = false;
+    CarriedScan carried = model.carried_scan;
+    carried.wanted = false;
+    actions.set(carried);
     actions.run("scan");
+  }
   ImGui::SameLine();
   if (smallButton(ICON_TRASH, "Remove", "remove-station", width, model.session.whyNot("station"), "Remove station"))
     actions.start(StationOptions{.remove = station.name}, trf("Remove station {}", station.name));
@@ -247,6 +255,15 @@ auto* chosenOf(const Things& things, int index) {
   return index >= 0 && index < static_cast<int>(things.size()) ? &things[static_cast<std::size_t>(index)] : nullptr;
 }
 
+// Each thing has fields of its own: what cannot be read in one's is not what the next one chosen holds.
+template <class Draw>
+bool inFieldsOf(int index, const Draw& draw) {
+  ImGui::PushID(index);
+  draw();
+  ImGui::PopID();
+  return true;
+}
+
 }  // namespace
 
 bool drawSurveyInspector(const Model& model, PanelStates& states, Actions& actions) {
@@ -256,24 +273,16 @@ bool drawSurveyInspector(const Model& model, PanelStates& states, Actions& actio
   const auto underlays = model.session.document().underlays;
   const auto chosen = model.survey;
   if (job)
-    if (const auto* station = chosenOf(job->stations, chosen.station)) {
-      drawStation(model, state.station, actions, *station);
-      any = true;
-    }
+    if (const auto* station = chosenOf(job->stations, chosen.station))
+      any = inFieldsOf(chosen.station, [&] { drawStation(model, states, actions, *station); });
   if (job)
-    if (const auto* target = chosenOf(job->targets, chosen.target)) {
-      drawTarget(model, state.target, actions, *target);
-      any = true;
-    }
+    if (const auto* target = chosenOf(job->targets, chosen.target))
+      any = inFieldsOf(chosen.target, [&] { drawTarget(model, state.target, actions, *target); });
   if (job)
-    if (const auto* trajectory = chosenOf(job->trajectories, chosen.trajectory)) {
-      drawTrajectory(model, states, actions, *trajectory);
-      any = true;
-    }
-  if (const auto* underlay = chosenOf(underlays, chosen.underlay)) {
-    drawUnderlay(model, state.underlay, actions, **underlay);
-    any = true;
-  }
+    if (const auto* trajectory = chosenOf(job->trajectories, chosen.trajectory))
+      any = inFieldsOf(chosen.trajectory, [&] { drawTrajectory(model, states, actions, *trajectory); });
+  if (const auto* underlay = chosenOf(underlays, chosen.underlay))
+    any = inFieldsOf(chosen.underlay, [&] { drawUnderlay(model, state.underlay, actions, **underlay); });
   return any;
 }
 

@@ -63,7 +63,7 @@ void PanelActions::showShapes(bool shown) { editor_.view.shapes = shown; }
 void PanelActions::showScans(const std::vector<std::filesystem::path>& files) { editor_.showClouds(files); }
 void PanelActions::drawScansAt(ScanPoses poses) { editor_.view.poses = poses; }
 
-void PanelActions::choose(const SurveyChoice& choice) { editor_.survey = choice; }
+void PanelActions::choose(const SurveyChoice& choice) { editor_.choose(choice); }
 void PanelActions::choose(const ChosenMaterial& material) { editor_.material = material; }
 void PanelActions::chooseTrajectory(const std::string& name) { editor_.trajectory_wanted = name; }
 void PanelActions::renameBegun() { editor_.rename_wanted = false; }

@@ -66,8 +66,7 @@ void drop(Editor& editor, const Station& station) {
 bool openStationMenu(Editor& editor, ImVec2 origin) {
   const int station = editor.view.tool == Tool::select ? stationAt(editor, origin) : -1;
   if (station < 0) return false;
-  editor.survey.station = station;
-  editor.survey.target = -1;
+  editor.choose({.station = station});
   ImGui::OpenPopup("###station-menu");
   return true;
 }
@@ -102,8 +101,7 @@ bool dragStation(Editor& editor, ImVec2 origin, bool hovered) {
   if (dragged < 0) return false;
   editor.view.station_drag_begun = false;
   editor.view.refused_place.reset();
-  editor.survey.station = dragged;
-  editor.survey.target = -1;
+  editor.choose({.station = dragged});
   return true;
 }
 

@@ -92,6 +92,7 @@ void placeStation(Editor& editor, const RayHit& hit) {
   const auto name = freeStationName(*editor.session.document().job);
   const Eigen::Vector3d p = hit.position + editor.shift_m();
   editor.session.start(StationOptions{.add = name, .on = FloorPlace{p.x(), p.y(), p.z()}}, trf("Add station {}", name));
+  editor.survey_wanted = name;  // its numbers stand ready to be typed
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   editor.view.placed_at = Eigen::Vector2d(mouse.x, mouse.y);
 }

@@ -69,7 +69,7 @@ bool dragWaypoint(Editor& editor, ImVec2 origin, bool hovered) {
   if (!found) return false;
   view.waypoint_drag_begun = false;
   view.refused_place.reset();
-  editor.survey = {.trajectory = found->first, .waypoint = found->second};
+  editor.choose({.trajectory = found->first, .waypoint = found->second});
   dragged = found->second;
   return true;
 }

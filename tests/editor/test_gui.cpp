@@ -139,6 +139,7 @@ TEST_F(Gui, SetsUpAStationWhereTheFloorIsClickedAndUndoesIt) {
   EXPECT_EQ(station.name, "S3");
   EXPECT_NEAR(station.true_pose.translation.x(), 1.2, 0.05);
   EXPECT_NEAR(station.true_pose.translation.z(), 1.6, 0.01);
+  EXPECT_EQ(editor.survey.station, 2) << "its numbers can be typed at once";
   gui.key('Z', true);
   EXPECT_EQ(editor.session.document().job->stations.size(), 2U);
 }

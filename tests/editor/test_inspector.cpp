@@ -4,7 +4,9 @@
 
 #include "core/units.h"
 #include "demo_verbs.h"
+#include "editor/panels/scan_panel.h"
 #include "editor/shell/actions.h"
+#include "editor/shell/panel_actions.h"
 #include "editor/widgets/keyboard.h"
 #include "item_probe.h"
 #include "survey/stations/levelling.h"
@@ -44,6 +46,38 @@ TEST_F(Inspector, MovesAStationByATypedNumberAndUndoTakesItBack) {
   editor.session.undo();
   gui.frames(2);
   EXPECT_EQ(job().stations[0].true_pose.translation, before.true_pose.translation);
+}
+
+TEST_F(Inspector, WhatCannotBeReadStaysInTheFieldsOfItsOwnStation) {
+  ASSERT_GE(job().stations.size(), 2U);
+  editor.survey.station = 0;
+  gui.frames(3);
+  typeInto("###inspected-Z", "abc");
+  EXPECT_TRUE(gui.says("Cannot read 'abc'"));
+  editor.survey.station = 1;  // as high as the other
+  gui.frames(2);
+  EXPECT_FALSE(gui.says("Cannot read 'abc'"));
+}
+
+TEST_F(Inspector, AStationThatIsChosenTakesThePlaceOfTheProductThatWas) {
+  editor.select(0, true);
+  gui.frames(2);
+  PanelActions(editor).choose(SurveyChoice{.station = 1});
+  EXPECT_TRUE(editor.selection.empty());
+  EXPECT_EQ(editor.survey.station, 1);
+  editor.select(0, true);
+  PanelActions(editor).choose(SurveyChoice{});
+  EXPECT_FALSE(editor.selection.empty()) << "nothing was chosen in its place";
+}
+
+TEST_F(Inspector, OffersToScanFromTheStationItShowsAndNotFromAll) {
+  editor.survey.station = 1;
+  gui.frames(3);
+  ASSERT_TRUE(editor.panels.of<ScanState>().all_stations);
+  ASSERT_TRUE(gui.click("###scan-station"));
+  gui.frames(2);
+  EXPECT_FALSE(editor.panels.of<ScanState>().all_stations);
+  EXPECT_EQ(editor.workspace, Workspace::survey);
 }
 
 TEST_F(Inspector, TurnsAStationToATypedHeading) {
