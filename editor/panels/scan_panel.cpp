@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <utility>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -340,9 +341,11 @@ void drawForm(const Model& model, ScanState& state, ScanChoice& standing, Carrie
   const std::filesystem::path folder =
       state.folder.empty() ? standardFolder(model) : std::filesystem::path(state.folder);
   const CloudFormat* format = formats.empty() ? nullptr : formats[static_cast<std::size_t>(state.format)];
-  if (ui::primaryButton(ICON_PLAY "  Scan###run-scan", whyNotScan(model, asked, *settings, along),
-                        {-FLT_MIN, model.px(28)}))
+  const auto why = whyNotScan(model, asked, *settings, along);
+  const bool pressed = std::exchange(state.pressed, false) && why.empty();
+  if (ui::primaryButton(ICON_PLAY "  Scan###run-scan", why, {-FLT_MIN, model.px(28)}) || pressed)
     start(model, state, asked, carried, actions, folder, format);
+  if (!why.empty() && model.session.whyNot("scan").empty()) ui::dimWrapped(tr(why));
   if (!along && state.resume && lastWasCancelled(model.session))
     ui::dimWrapped("The last scan was cancelled. With the same settings, Scan resumes it.");
   if (!model.session.document().materials) {

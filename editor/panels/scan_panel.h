@@ -18,7 +18,8 @@ struct ScanState {
   std::shared_ptr<const ScanChoice> remembered;  // the document's, that Model::scan_choice was last filled from
   std::optional<ScanChoice> started;             // with the last press of "Scan"
   bool all_stations = true;
-  bool resume = true;  // what a cancelled run has finished is taken where it is the same
+  bool pressed = false;  // the button of the toolbar, while the panel is in front
+  bool resume = true;    // what a cancelled run has finished is taken where it is the same
   int format = 0;
   std::string folder;
 };

@@ -23,6 +23,7 @@ struct Editor : Model {
   PanelStates panels;
   Workspace workspace = Workspace::environment;
   std::array<std::string, 3> wanted_tab;   // by Area: the panel to bring to the front in the next frame
+  std::array<std::string, 3> front_tab;    // by Area: the panel that was in front in the frame drawn last
   std::pair<RayHit, std::string> painted;  // where a material was dropped, and its id: a menu asks how far it goes
 
   SceneView* scene = nullptr;                          // null: the viewport stays empty

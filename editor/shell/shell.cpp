@@ -11,6 +11,7 @@
 
 #include "editor/panels/import_preview_panel.h"
 #include "editor/panels/panels.h"
+#include "editor/panels/scan_panel.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
@@ -245,8 +246,14 @@ void drawToolbar(Editor& editor, const Box& box) {
   for (const char* id : {"walk", "teleport", "add-station", "add-target", "measure"}) actionToolButton(editor, id);
   const float scan = scanButtonWidth(editor), right = scan + editor.px(36);
   ImGui::SameLine(box.w - right - editor.px(8));
-  if (ui::primaryButton(ICON_PLAY "  Scan###tool_scan", editor.session.whyNot("scan"), {scan, 0}))
-    invoke(editor, "scan");
+  if (ui::primaryButton(ICON_PLAY "  Scan###tool_scan", editor.session.whyNot("scan"), {scan, 0})) {
+    // Who has the settings before them and presses it means to scan, as with the button below them.
+    const bool set = editor.workspace == Workspace::survey && editor.front_tab[1] == "scan";
+    if (set)
+      editor.panels.of<ScanState>().pressed = true;
+    else
+      invoke(editor, "scan");
+  }
   ImGui::SameLine(0, editor.px(4));
   actionToolButton(editor, "palette");
   ImGui::PopStyleVar();
@@ -288,6 +295,7 @@ void drawPanelTabs(Editor& editor, Area area, const char* id) {
       const bool open = ImGui::BeginTabItem(tabLabel(panel, labels).c_str(), nullptr, flags);
       if (labels == TabLabels::chosen_title) ui::tooltip(panel.title);
       if (!open) continue;
+      editor.front_tab[static_cast<std::size_t>(area)] = panel.id;
       ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(editor.px(10), editor.px(6)));
       ImGui::BeginChild(panel.id, {0, 0}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
       ImGui::PopStyleVar();

@@ -150,6 +150,34 @@ TEST_F(ScanPanel, NeedsNoSavedProjectToScanIn) {
   EXPECT_NE(editor.session.ownFolder().filename().string().substr(0, 5), own.filename().string().substr(0, 5));
 }
 
+TEST_F(ScanPanel, TheButtonOfTheToolbarOpensItAndScansWhereItIsInFront) {
+  editor.wanted_tab[1] = "plan";
+  gui.frames(3);
+  ASSERT_TRUE(gui.click("###tool_scan"));
+  gui.frames(3);
+  EXPECT_EQ(editor.front_tab[1], "scan");
+  EXPECT_TRUE(editor.session.finished().empty() || editor.session.finished().front().verb != "scan");
+  const TemporaryFolder folder;
+  editor.panels.of<ScanState>().folder = folder.path().string();
+  asked().settings = {{"resolution", "12mm"}};
+  gui.frames(2);
+  ASSERT_TRUE(gui.click("###tool_scan"));
+  gui.frames(2);
+  EXPECT_EQ(editor.session.whyNot("scan"), "Wait for 'Scan all stations' to finish, or cancel it");
+  editor.session.cancelAll();
+  gui.settle();
+}
+
+TEST_F(ScanPanel, SaysWithoutBeingAskedWhyItCannotScanYet) {
+  Document document = editor.session.document();
+  Job job = *document.job;
+  job.stations.clear();
+  document.job = std::make_shared<const Job>(std::move(job));
+  ASSERT_TRUE(editor.session.adopt({document, {}, {}, "no stations yet"}));
+  gui.frames(2);
+  EXPECT_TRUE(gui.says("Add a station first"));
+}
+
 TEST_F(ScanPanel, RefusesWeatherThatCannotBe) {
   editor.panels.of<ScanState>().folder = "/anywhere";
   gui.frames(2);
