@@ -171,6 +171,11 @@ void drawRows(Editor& editor, float height) {
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd;
          ++i)  // every row: the clipper measures what it announced
       drawRow(editor, FileRow(state.listing.rows[static_cast<std::size_t>(i)]));
+  if (state.listing.rows.empty() && state.listing.problem.empty()) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ui::dimText("No files of this kind in this folder");
+  }
   if (!state.listing.problem.empty()) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -247,7 +252,7 @@ void askForFile(Editor& editor, Purpose purpose, std::string title, std::string 
   if (start.empty() || !std::filesystem::is_directory(start, ignored)) start = std::filesystem::current_path(ignored);
   enter(state, start);
   state.name = state.offered = std::move(name);
-  state.focus_name = forWriting(state);
+  state.focus_name = true;
 }
 
 void askForProject(Editor& editor) {
