@@ -343,6 +343,9 @@ void askForPointsExport(Editor& editor, const std::filesystem::path& cloud) {
   const auto file = chosen != nullptr ? chosen->file : clouds.front().file;
   openVerbForm(editor, "convert");
   for (const char* other : {"as", "dataset", "classes"}) editor.dialogs.verb.form.find(other)->shown = false;
+  const auto& job = editor.session.document().job;
+  if (!job || job->trajectories.empty())  // nothing was placed by one
+    for (const char* moved : {"from-trajectory", "to-trajectory"}) editor.dialogs.verb.form.find(moved)->shown = false;
   fillExport(editor, {{"in", file.string()}, {"out", freeFile(editor, file.stem().string() + " points", ".e57")}});
 }
 
