@@ -2,9 +2,12 @@
 #include "editor/model/catalogue.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/data_folder.h"
+#include "editor/labels/alphabetical.h"
 #include "editor/words/sentences.h"
+#include "editor/words/words.h"
 #include "materials/materials.h"
 #include "project/verb.h"
 
@@ -31,6 +34,15 @@ const Instrument* instrumentIn(const Catalogue& catalogue, const std::string& id
   const auto found = std::find_if(catalogue.instruments.begin(), catalogue.instruments.end(),
                                   [&](const Instrument& i) { return i.id == id; });
   return found == catalogue.instruments.end() ? nullptr : &*found;
+}
+
+std::vector<const PhysicalMaterial*> byShownName(const std::vector<PhysicalMaterial>& materials) {
+  std::vector<std::pair<std::string, const PhysicalMaterial*>> keyed;
+  for (const auto& material : materials) keyed.emplace_back(alphabeticalKey(tr(material.label)), &material);
+  std::stable_sort(keyed.begin(), keyed.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<const PhysicalMaterial*> sorted;
+  for (const auto& [key, material] : keyed) sorted.push_back(material);
+  return sorted;
 }
 
 const std::vector<PhysicalMaterial>& offeredMaterials(Catalogue& catalogue,

@@ -29,5 +29,7 @@ const Instrument* instrumentIn(const Catalogue& catalogue, const std::string& id
 // All materials that can be assigned in a document: made anew only when its own have changed.
 const std::vector<PhysicalMaterial>& offeredMaterials(Catalogue& catalogue,
                                                       const std::shared_ptr<const MaterialChoice>& choice);
+// As people look for them: by the names that they have in the language of the editor.
+std::vector<const PhysicalMaterial*> byShownName(const std::vector<PhysicalMaterial>& materials);
 
 }  // namespace standpoint

@@ -199,15 +199,15 @@ void drawAssign(const Model& model, InspectorState& state, Actions& actions, con
   }
   ui::searchField("material-filter", "Brick, glass, steel …", filter);
   ImGui::BeginChild("materials", {model.px(300), model.px(260)});
-  for (const auto& material : model.offeredMaterials()) {
-    if (isGap(material)) continue;
+  for (const auto* material : byShownName(model.offeredMaterials())) {
+    if (isGap(*material)) continue;
     Product searched;
-    searched.name = material.label + " " + tr(material.label) + " " + material.id;
+    searched.name = material->label + " " + tr(material->label) + " " + material->id;
     if (!matchesFilter(searched, filter)) continue;
-    ui::swatch(model, materialColour(&material));
+    ui::swatch(model, materialColour(material));
     ImGui::SameLine();
-    if (ImGui::Selectable((tr(material.label) + "###" + material.id).c_str())) {
-      assign(model, actions, material);
+    if (ImGui::Selectable((tr(material->label) + "###" + material->id).c_str())) {
+      assign(model, actions, *material);
       ImGui::CloseCurrentPopup();
     }
   }

@@ -155,14 +155,14 @@ void drawLibrary(const Model& model, MaterialsState& state, Actions& actions, fl
     return;
   ImGui::TableSetupColumn(ui::Label("Material"), ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("share", ImGuiTableColumnFlags_WidthFixed, model.px(40));
-  for (const auto& material : model.offeredMaterials()) {
-    if (!isSearched(state, material)) continue;
-    ImGui::PushID(material.id.c_str());
+  for (const auto* material : byShownName(model.offeredMaterials())) {
+    if (!isSearched(state, *material)) continue;
+    ImGui::PushID(material->id.c_str());
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    drawMaterial(model, actions, &material, material.id);
+    drawMaterial(model, actions, material, material->id);
     ImGui::TableNextColumn();
-    ui::textRightAligned(reflectanceText(model, material));
+    ui::textRightAligned(reflectanceText(model, *material));
     ImGui::PopID();
   }
   ImGui::EndTable();
