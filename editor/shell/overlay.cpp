@@ -158,7 +158,6 @@ float togglesWidth(const Editor& editor) {
 }
 
 void drawTogglePlate(const Editor& editor) {
-  if (editor.graphics.level() == GraphicsLevel::low && editor.settings.theme == Theme::dark) return;
   const ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + togglesWidth(editor), at.y + ImGui::GetFrameHeight());
   ImGui::GetWindowDrawList()->AddRectFilled(at, end, tone::kOverlay, editor.px(4));
 }
@@ -170,11 +169,21 @@ void toggle(Editor& editor, const char* icon, const char* id, bool lit) {
   ImGui::SameLine(0, editor.px(2));
 }
 
+// Said among the chips, on a plate as they have it: what is behind may be as light as the letters.
+void textChip(const Editor& editor, const std::string& text) {
+  const ImVec2 at = ImGui::GetCursorScreenPos(), pad = ImGui::GetStyle().FramePadding;
+  const float width = ImGui::CalcTextSize(text.c_str()).x + 2 * pad.x;
+  ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + width, at.y + ImGui::GetFrameHeight()}, tone::kOverlay,
+                                            editor.px(4));
+  ImGui::GetWindowDrawList()->AddText({at.x + pad.x, at.y + pad.y}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+  ImGui::Dummy({width, ImGui::GetFrameHeight()});
+}
+
 // What is shown instead of the model, and the way back.
 void cloudChip(Editor& editor) {
   if (editor.readingCloud()) {
     beside(editor, editor.px(120));
-    ImGui::TextUnformatted(tr("Reading the scan …").c_str());
+    textChip(editor, tr("Reading the scan …"));
     return;
   }
   if (!editor.cloud()) return;
@@ -183,8 +192,7 @@ void cloudChip(Editor& editor) {
   const std::string name = cloud.file.empty() ? tr("Scan") : cloud.file.filename().string();
   beside(editor, editor.px(150));
   if (!document.hasModel() && document.underlays.size() == 1) {
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(name.c_str());
+    textChip(editor, name);
   } else if (ImGui::Button(document.hasModel() ? trf("{}  Return to model###cloud", ICON_CUBE).c_str()
                                                : trf("{}  Return to all clouds###cloud", ICON_CUBE).c_str())) {
     editor.showClouds({});
@@ -194,8 +202,7 @@ void cloudChip(Editor& editor) {
       trf("{}: {} of {} points shown", name, groupedDigits(cloud.points.size()), groupedDigits(cloud.points_in_file)));
   if (!editor.showsLiveScan()) return;
   beside(editor, editor.px(180));
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(trf("{:.1f} million points loaded", static_cast<double>(cloud.points_in_file) / 1e6).c_str());
+  textChip(editor, trf("{:.1f} million points loaded", static_cast<double>(cloud.points_in_file) / 1e6));
 }
 
 // The way on where a cloud that is shown is no longer there.

@@ -260,6 +260,51 @@ TEST_F(Gui, SavesWhereATypedPathSaysWithoutAClick) {
   EXPECT_EQ(editor.settings.last_folder, folder.path().string());
 }
 
+TEST_F(Gui, OpensAModelByATypedPathWithoutAClickAndSaysWhereAFolderHasNone) {
+  const TemporaryFolder folder;
+  folder.write("house.ifc", "");
+  std::filesystem::create_directory(folder / "empty");
+  editor.settings.last_folder = (folder / "empty").string();
+  std::filesystem::path chosen;
+  askForFile(editor, FileDialogState::Purpose::openFile, "Import", "Open", {".ifc"}, "",
+             [&](const auto& path) { chosen = path; });
+  gui.frames(3);
+  EXPECT_TRUE(gui.says("No files of this kind in this folder"));
+  gui.type((folder / "house.ifc").string());
+  gui.key(kEnter);
+  EXPECT_EQ(chosen, folder / "house.ifc");
+}
+
+TEST_F(Gui, ListsTheMaterialLibraryByTheNamesThatItShows) {
+  open();
+  const auto listed = byShownName(editor.offeredMaterials());
+  ASSERT_EQ(listed.size(), editor.offeredMaterials().size());
+  const auto place = [&](const std::string& label) {
+    return std::find_if(listed.begin(), listed.end(), [&](const auto* m) { return m->label == label; }) -
+           listed.begin();
+  };
+  EXPECT_LT(place("Aerated concrete"), place("Basalt")) << "its id begins with concrete";
+  EXPECT_LT(place("Brick, red, bare"), place("Brick, red, paving"));
+}
+
+// White letters on a white wall could not be seen.
+TEST_F(Gui, PutsAPlateUnderTheSwitchesOverTheView) {
+  open();
+  gui.frames(3);
+  const auto* item = gui.find("###view_walkable");
+  ASSERT_NE(item, nullptr);
+  const ImRect rect = item->rect;
+  const auto& drawn = ImGui::FindWindowByName("###viewport")->DrawList->VtxBuffer;
+  float left = rect.Max.x, right = rect.Min.x;
+  for (const auto& v : drawn)
+    if (v.col == ImU32(tone::kOverlay) && v.pos.y > rect.Min.y - 1 && v.pos.y < rect.Max.y + 1) {
+      left = std::min(left, v.pos.x);
+      right = std::max(right, v.pos.x);
+    }
+  EXPECT_LE(left, rect.Min.x);
+  EXPECT_GE(right, rect.Max.x);
+}
+
 TEST_F(Gui, AsksBeforeUnsavedChangesAreLost) {
   open();
   gui.key('N', true);
