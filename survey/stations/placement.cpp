@@ -92,7 +92,8 @@ std::optional<Refusal> StationPlacement::tooNear(const Eigen::Vector3d& centre) 
       fmt::format("the instrument centre would be {:.0f} mm from {}, but needs {:.0f} mm of clearance",
                   near->distance_m * 1000, productText(product), stand_.clearance_m * 1000),
       fmt::format("move it {:.0f} mm away", std::ceil((stand_.clearance_m - near->distance_m) * 1000 - 0.01)),
-      fmt::format("{:.0f} cm from {}", near->distance_m * 100, plainKind(product))};
+      // whole ones, so that 19.5 cm of the 20 that it needs do not read as 20
+      fmt::format("{:.0f} cm from {}", std::floor(near->distance_m * 100), plainKind(product))};
 }
 
 bool StationPlacement::worthTrying(const Eigen::Vector3d& centre) const {
