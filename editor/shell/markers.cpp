@@ -132,9 +132,12 @@ void drawRoomNames(Editor& editor, Pen& pen, const ViewState& state) {
   if (!editor.view.room_names || editor.view.tool == Tool::walk || camera.elevation_rad < kLeastElevation_rad ||
       editor.cloud())
     return;
+  const auto& kept = editor.view.clip.box;
   for (const auto& room : editor.room_labels.of(editor.session.document().imported)) {
     const auto place = pen.at(room.anchor);
-    if (!place || (state.cut_height_m && room.anchor.z() > *state.cut_height_m)) continue;
+    if (!place || (kept && !kept->contains(room.anchor)) ||
+        (state.cut_height_m && room.anchor.z() > *state.cut_height_m))
+      continue;
     const double depth_m = (room.anchor - camera.eye()).dot(camera.forward());
     const double width_px = std::sqrt(room.floor_area_m2) / camera.metresPerPixel(depth_m, editor.view.size.y());
     std::vector<std::string> texts;

@@ -112,6 +112,13 @@ TEST_F(Placing, ACutThatIsChosenInsideTheBuildingIsSeenFromOutside) {
   EXPECT_EQ(editor.view.camera.eye(), outside.eye()) << "who looks from outside stays there";
 }
 
+TEST_F(Placing, RoomsThatAClipBoxTakesAwayTakeTheirNamesWithThem) {
+  ASSERT_TRUE(gui.says("Living room"));
+  editor.view.clip.box = clipAround({{6, 0, 0}, {8, 2, 2}}, 0);
+  gui.frames(2);
+  EXPECT_FALSE(gui.says("Living room"));
+}
+
 TEST_F(Placing, AClickOnARefusedPlaceAddsNothingAndOpensNothing) {
   invoke(editor, "add-station");
   gui.moveTo(screenOf({0.45, 2, 0}));
