@@ -63,7 +63,7 @@ void drawHands(InstrumentDesk& desk, Editor& editor) {
   if (ui::beginProperties("hands")) {
     stationChoice(desk, document);
     ui::property("Battery", device.shown("battery"));
-    ui::property("Memory", device.shown("card"));
+    ui::property("Memory", tr(device.shown("card")));
     ui::property("Tilt", device.shown("tilt"));
     ui::endProperties();
   }

@@ -106,7 +106,7 @@ GuideStep surveyStep(const Model& model) {
   if (!job || job->stations.empty()) return step;
   const auto unscanned =
       std::count_if(job->stations.begin(), job->stations.end(), [](const Station& s) { return s.scans.empty(); });
-  step.status = fmt::format("{} {}", job->stations.size(), job->stations.size() == 1 ? "station" : "stations");
+  step.status = trn("{} station", "{} stations", job->stations.size(), job->stations.size());
   step.state = unscanned > 0 ? State::open : State::done;
   step.advice = unscanned > 0 ? "Scan" : "";
   if (unscanned > 0) step.status += trf(", {} not scanned", unscanned);

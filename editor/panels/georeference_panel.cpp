@@ -35,7 +35,7 @@ double rotationDeg(const MapConversion& m) { return std::atan2(m.x_axis_ordinate
 void drawStated(const Georeference& g) {
   if (!ui::beginProperties("stated", 0.42F)) return;
   ui::property("Global shift", coordinates(g.shift_m) + " m");
-  ui::property("CRS", g.crs.empty() ? "unknown" : g.crs);
+  ui::property("CRS", g.crs.empty() ? tr("unknown") : g.crs);
   if (g.map_from_file) {
     ui::property("Origin on the map", fmt::format("{:.3f}  {:.3f}  {:.3f}", g.map_from_file->eastings_m,
                                                   g.map_from_file->northings_m, g.map_from_file->orthogonal_height_m));

@@ -123,8 +123,8 @@ void drawRecovery(Editor& editor) {
     done = true;
     close();
   }
-  if (ImGui::SameLine(),
-      !done && ImGui::Button(copy ? "Delete the copy###delete" : "Forget it###delete", {editor.px(120), 0})) {
+  if (ImGui::SameLine(), !done && ImGui::Button(ui::Label(copy ? "Delete the copy###delete" : "Forget it###delete"),
+                                                {editor.px(120), 0})) {
     removeRecovery(left.folder);
     close();
   }

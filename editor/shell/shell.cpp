@@ -177,7 +177,9 @@ void drawMenuBar(Editor& editor) {
     items(editor, {"first-steps", "shortcuts", "palette", "", "about"});
     ImGui::EndMenu();
   }
-  const std::string title = editor.session.name() + (editor.session.modified() ? "  •" : "");
+  const auto& session = editor.session;
+  const bool unnamed = session.folder().empty() && session.document().name.empty();
+  const std::string title = (unnamed ? tr("New project") : session.name()) + (session.modified() ? "  •" : "");
   const float width = ImGui::CalcTextSize(title.c_str()).x;
   ImGui::SameLine(ImGui::GetWindowWidth() - width - editor.px(22));
   ImGui::TextDisabled("%s", title.c_str());

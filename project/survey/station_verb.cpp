@@ -363,7 +363,9 @@ Result<Answered<StationAnswer>> runStation(const Document& document, const Stati
     station.scans = at->scans;
     *at = std::move(station);
     outcome.answer.placed = stationRow(*at, g);
-    outcome.description = fmt::format("Moved station {} by {:.2f} m", name, distance);
+    constexpr double kStays_m = 0.005;  // 0.00 m as it would be said
+    outcome.description = distance < kStays_m ? fmt::format("Turned station {}", name)
+                                              : fmt::format("Moved station {} by {:.2f} m", name, distance);
   } else if (options.rename) {
     const auto at = find(job, *options.rename);
     if (at == job.stations.end()) return noStation(job, *options.rename);

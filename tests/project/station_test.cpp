@@ -126,6 +126,9 @@ TEST(Station, MovesAndIsRemovedAndItsNameIsUnique) {
   ASSERT_TRUE(moved);
   EXPECT_EQ(moved->description, "Moved station S1 by 0.35 m");
   EXPECT_EQ(d.job->stations[0].true_pose.translation.x(), 2) << "the old value is untouched";
+  const auto turned = run("station", d, {{"move", "S1"}, {"at", {500002, 5600002, 1.5}}, {"yaw-deg", 30}});
+  ASSERT_TRUE(turned) << describe(turned.error());
+  EXPECT_EQ(turned->description, "Turned station S1");
   EXPECT_TRUE(run("station", moved->document, {{"remove", "S1"}})->document.job->stations.empty());
   const auto missing = run("station", d, {{"remove", "S9"}});
   ASSERT_FALSE(missing);
