@@ -410,12 +410,23 @@ std::string shortcutText(const Shortcut& s) {
   return text + static_cast<char>(s.key);
 }
 
+namespace {
+
+// A key that can do nothing now says why.
+void runByKey(Editor& editor, const Action& action) {
+  if (const auto why = whyNot(action, editor); !why.empty())
+    return editor.say(fmt::format("{}: {}", tr(action.title), tr(why)));
+  action.run(editor);
+}
+
+}  // namespace
+
 void runShortcuts(Editor& editor) {
   const auto& io = ImGui::GetIO();
   if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
   if (io.KeyCtrl && io.KeyShift && !io.KeyAlt && !io.WantTextInput) {  // as in many other programs
-    if (keyboard::pressed('Z')) return static_cast<void>(invoke(editor, "redo"));
-    if (keyboard::pressed('P')) return static_cast<void>(invoke(editor, "palette"));
+    if (keyboard::pressed('Z')) return runByKey(editor, *findAction("redo"));
+    if (keyboard::pressed('P')) return runByKey(editor, *findAction("palette"));
   }
   for (const auto& action : actions()) {
     const auto& s = action.shortcut;
@@ -426,10 +437,7 @@ void runShortcuts(Editor& editor) {
     const bool shifted = s.shift == io.KeyShift || s.key == kKeyPlus;  // some keyboards need Shift for a plus
     const bool pressed =
         s.key != 0 && (keyboard::pressed(s.key) || (s.key == kKeyEnter && keyboard::pressed(kKeyPadEnter)));
-    if (pressed && s.ctrl == io.KeyCtrl && s.alt == io.KeyAlt && shifted) {
-      invoke(editor, action.id);
-      return;
-    }
+    if (pressed && s.ctrl == io.KeyCtrl && s.alt == io.KeyAlt && shifted) return runByKey(editor, action);
   }
 }
 

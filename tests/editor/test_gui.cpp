@@ -393,6 +393,14 @@ TEST_F(Gui, TypingDoesNotTriggerShortcuts) {
   EXPECT_EQ(editor.view.camera, before);
 }
 
+TEST_F(Gui, AShortcutThatCanDoNothingSaysWhy) {
+  open();
+  const std::string why = editor.session.whyNotRedo();
+  ASSERT_FALSE(why.empty());
+  gui.key('Y', true);
+  EXPECT_EQ(editor.notice.text, "Redo: " + why);
+}
+
 TEST_F(Gui, AShortcutThatEditsNoTextWorksFromATextField) {
   open();
   const auto* search = gui.find("###search");
