@@ -187,8 +187,8 @@ void checkBudgets(const std::vector<MeshJob>& jobs, const OptimizeOptions& optio
     const std::string whose = named == options.products.end() ? "" : named->lod + ": ";
     const auto lose = [&](const std::string& what) { result.report.lose("budget", whose + what); };
     lose(options.products.empty()
-             ? fmt::format("cannot reach {} triangles with a maximum deviation of {} m; the minimum is {}", budget,
-                           options.max_deviation_m, left)
+             ? fmt::format("cannot reach {} triangles with a maximum deviation of {:.3g} mm; the minimum is {}", budget,
+                           1e3 * options.max_deviation_m, left)
              : fmt::format("cannot reach {} triangles with the allowed deviations; the minimum is {}", budget, left));
   }
 }

@@ -112,7 +112,7 @@ TEST(CommandLine, ABudgetThatIsNotMetExitsWithThreeAndStatesTheLeastOneThatIs) {
   const std::vector<std::string> few = {"optimize", p, "--max-deviation", "0.001", "--budget", "10"};
   const auto missed = command(few);
   EXPECT_EQ(missed.code, 3);
-  EXPECT_NE(missed.err.find("loss: budget: cannot reach 10 triangles with a maximum deviation of 0.001 m; the minimum"),
+  EXPECT_NE(missed.err.find("loss: budget: cannot reach 10 triangles with a maximum deviation of 1 mm; the minimum"),
             std::string::npos)
       << missed.err;
   auto allowed = few;
