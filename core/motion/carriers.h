@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "core/motion/lean.h"
 #include "core/motion/walked_path.h"
 #include "core/units.h"
 
@@ -21,6 +22,7 @@ struct Carrier {
   std::string_view id, name;
   PathLimits limits;
   double gait = 0;                  // of the amplitudes of a walker's trunk; 0: it does not walk
+  Lean lean;                        // on its path
   std::array<ShakeBand, 3> shakes;  // of standard deviation 0 where it has fewer
   std::string_view source;          // of the figures, or that they have none
 };
@@ -32,6 +34,7 @@ inline const std::array<Carrier, 5> kCarriers = {{
      "Hand",
      {},
      1,
+     {},
      {{{0.3, 1, {0.015, 0.015, 0.007}, {0.65 * kRadPerDeg, 0.65 * kRadPerDeg, 1.5 * kRadPerDeg}},
        {1, 3, {0.00175, 0.00175, 0.00175}, {0.3 * kRadPerDeg, 0.3 * kRadPerDeg, 0.3 * kRadPerDeg}},
        {3, 10, {0.00035, 0.00035, 0.00035}, {0.11 * kRadPerDeg, 0.11 * kRadPerDeg, 0.11 * kRadPerDeg}}}},
@@ -40,6 +43,7 @@ inline const std::array<Carrier, 5> kCarriers = {{
      "Backpack",
      {.height_m = 1.9},
      0.85,
+     {},
      {{{0.3, 1, {0.005, 0.008, 0.003}, {0.5 * kRadPerDeg, 0.5 * kRadPerDeg, 0.8 * kRadPerDeg}},
        {2, 5, {0.001, 0.001, 0.0015}, {0.15 * kRadPerDeg, 0.15 * kRadPerDeg, 0.1 * kRadPerDeg}},
        {}}},
@@ -48,6 +52,7 @@ inline const std::array<Carrier, 5> kCarriers = {{
      "Trolley",
      {.height_m = 1.7, .speed_mps = 0.7},
      0,
+     {},
      {{{3, 10, {0.0003, 0.0003, 0.0005}, {0.05 * kRadPerDeg, 0.05 * kRadPerDeg, 0.02 * kRadPerDeg}}, {}, {}}},
      "unsourced"},
     {"vehicle",
@@ -60,8 +65,11 @@ inline const std::array<Carrier, 5> kCarriers = {{
       .jerk_mps3 = 3,
       .blend_m = 3},
      0,
+     {.roll = -0.09, .pitch = -0.05, .most_rad = 4 * kRadPerDeg, .response_s = 0.6, .axis_below_m = 1.7},
      {{{1, 2, {0, 0.002, 0.005}, {0.3 * kRadPerDeg, 0.3 * kRadPerDeg, 0.05 * kRadPerDeg}}, {}, {}}},
-     "unsourced: body modes of 1 to 2 Hz, 5 mm and 0.3 degrees, on a city road"},
+     "unsourced: body modes of 1 to 2 Hz, 5 mm and 0.3 degrees, on a city road; leans out of a bend by 5 degrees at 1 "
+     "g, "
+     "about an axis 0.5 m above the road"},
     {"uav",
      "UAV",
      {.height_m = 20,
@@ -72,10 +80,12 @@ inline const std::array<Carrier, 5> kCarriers = {{
       .jerk_mps3 = 3,
       .blend_m = 2},
      0,
+     {.roll = 1, .pitch = 1, .most_rad = 30 * kRadPerDeg},
      {{{0.3, 1, {0.05, 0.05, 0.03}, {1.6 * kRadPerDeg, 1.6 * kRadPerDeg, 1 * kRadPerDeg}},
        {1, 3, {0.005, 0.005, 0.005}, {1.2 * kRadPerDeg, 1.2 * kRadPerDeg, 0.4 * kRadPerDeg}},
        {}}},
-     "unsourced: attitude within 2 degrees on a survey flight; 1 to 3 Hz as an indoor flight (EuRoC V1_02)"},
+     "unsourced: attitude within 2 degrees on a survey flight, besides the lean of a coordinated turn; 1 to 3 Hz as an "
+     "indoor flight (EuRoC V1_02)"},
 }};
 
 }  // namespace standpoint

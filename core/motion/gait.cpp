@@ -26,7 +26,9 @@ Wave waveOf(double radians) {
 }  // namespace
 
 CarriedPose::CarriedPose(PoseFunctionPtr path, const Carrier& carrier, std::uint64_t seed, std::uint32_t trajectory)
-    : path_(std::move(path)), gait_(carrier.gait) {
+    : path_(carrier.lean.most_rad > 0 ? std::make_shared<const LeaningPose>(std::move(path), carrier.lean)
+                                      : std::move(path)),
+      gait_(carrier.gait) {
   if (gait_ > 0 && std::isfinite(path_->first_s()) && std::isfinite(path_->last_s()))
     walk({seed, trajectory, MotionProcess::gait});
   for (std::size_t band = 0; band < carrier.shakes.size(); ++band)

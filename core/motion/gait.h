@@ -13,7 +13,8 @@
 
 namespace standpoint {
 
-// A path as a carrier goes it: a walker's gait and the carrier's shaking, added in the body frame (mobile.md §3.1).
+// A path as a carrier goes it: a walker's gait, the lean of what flies or has springs (lean.h) and the carrier's
+// shaking, added in the body frame (mobile.md §3.1).
 //
 // Steps have the frequency √(v / 0.384 m·s) of a constant walk ratio: 1.91 Hz at 1.4 m/s (Pachi & Ji 2005: 2.0). Peak
 // to peak a trunk goes up and down by 27 + 23 (v - 0.7) mm, and sideways by 70 - 34 (v - 0.7) mm, v in m/s; both fade
