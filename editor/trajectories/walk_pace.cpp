@@ -9,11 +9,6 @@ constexpr double kOver_s = 0.4, kPlaces_m = 0.25;
 
 }  // namespace
 
-PaceLimits paceLimits(const Instrument& instrument) {
-  if (!instrument.moving) return {};
-  return {instrument.moving->most_speed_mps, instrument.moving->most_turn_radps};
-}
-
 void WalkPace::begin(const PaceLimits& limits) {
   *this = {};
   limits_ = limits;

@@ -6,15 +6,9 @@
 
 #include <Eigen/Geometry>
 
-#include "scanners/instruments/instrument.h"
+#include "scanners/instruments/pace_limits.h"
 
 namespace standpoint {
-
-// Above which a device tells whoever carries it to slow down; 0: it does not.
-struct PaceLimits {
-  double speed_mps = 0, turn_radps = 0;
-};
-PaceLimits paceLimits(const Instrument& instrument);
 
 // How fast somebody walks, turns and tilts what they carry: over the last 0.4 s, so that no step and no frame counts
 // alone. Keeps the way for a ribbon.
@@ -32,8 +26,8 @@ class WalkPace {
   const PaceLimits& limits() const { return limits_; }
   double speed_mps() const { return speed_mps_; }
   double turn_radps() const { return turn_radps_; }
-  bool tooFast() const { return limits_.speed_mps > 0 && speed_mps_ > limits_.speed_mps; }
-  bool turnsTooFast() const { return limits_.turn_radps > 0 && turn_radps_ > limits_.turn_radps; }
+  bool tooFast() const { return limits_.tooFast(speed_mps_); }
+  bool turnsTooFast() const { return limits_.turnsTooFast(turn_radps_); }
   double hurried_s() const { return hurried_s_; }               // in all
   const std::vector<Place>& places() const { return places_; }  // a quarter of a metre or more apart, but for the last
 

@@ -287,7 +287,7 @@ void Device::pass(double seconds) {
   around.battery = std::max(0.0, around.battery - drain * seconds / type_->definition.body.battery_s);
   state_.untouched_s = busy() ? 0 : state_.untouched_s + seconds;
   state_.elapsed_s += seconds;
-  walkOn(state_.walk, seconds);
+  walkOn(state_.walk, paceLimits(type_->instrument), seconds);
   if (state_.running && phase->ends()) state_.scanned_s += seconds;
   if (state_.running && phase->laser) state_.laser_s += seconds;
 }

@@ -30,10 +30,10 @@ void markPlace(WalkState& walk) {
   walk.way.push_back(here);
 }
 
-void passTime(WalkState& walk, double seconds) {
+void passTime(WalkState& walk, const PaceLimits& most, double seconds) {
   if (!walk.recording) return;
   walk.recorded_s += seconds;
-  if (isHurried(walk)) walk.hurried_s += seconds;
+  if (isHurried(walk, most)) walk.hurried_s += seconds;
 }
 
 // From where they look to where they go, anticlockwise.
@@ -50,7 +50,7 @@ void turnBy(WalkState& walk, double angle_rad) {
 }
 
 // A part of the first leg; gives what it took.
-double stepOn(WalkState& walk, double seconds) {
+double stepOn(WalkState& walk, const PaceLimits& most, double seconds) {
   const WalkLeg leg = walk.legs.front();
   walk.rested_s = 0;
   walk.rest_told = false;
@@ -66,7 +66,7 @@ double stepOn(WalkState& walk, double seconds) {
   if (std::abs(angle) > kNothing) {
     const double step = std::min(seconds, std::abs(angle) / rate);
     walk.turn_radps = rate, walk.speed_mps = 0;
-    passTime(walk, step);
+    passTime(walk, most, step);
     if (step * rate >= std::abs(angle)) {
       walk.ahead_of = towards;
       markPlace(walk);
@@ -77,7 +77,7 @@ double stepOn(WalkState& walk, double seconds) {
   }
   const double step = std::min(seconds, length / leg.speed_mps);
   walk.turn_radps = 0, walk.speed_mps = leg.speed_mps;
-  passTime(walk, step);
+  passTime(walk, most, step);
   if (step * leg.speed_mps >= length) {
     walk.at = {leg.x_m, leg.y_m};
     walk.legs.erase(walk.legs.begin());
@@ -108,14 +108,16 @@ double SeenMap::bothShare() const {
   return any > 0 ? both / any : 0;
 }
 
-bool isHurried(const WalkState& walk) { return walk.speed_mps > kHurried_mps || walk.turn_radps > kHurried_radps; }
+bool isHurried(const WalkState& walk, const PaceLimits& most) {
+  return most.tooFast(walk.speed_mps) || most.turnsTooFast(walk.turn_radps);
+}
 
-void walkOn(WalkState& walk, double seconds) {
-  while (seconds > kNothing && !walk.legs.empty() && walk.at) seconds -= stepOn(walk, seconds);
+void walkOn(WalkState& walk, const PaceLimits& most, double seconds) {
+  while (seconds > kNothing && !walk.legs.empty() && walk.at) seconds -= stepOn(walk, most, seconds);
   if (!walk.legs.empty()) return;
   walk.speed_mps = walk.turn_radps = 0;
   walk.rested_s += std::max(0.0, seconds);
-  passTime(walk, std::max(0.0, seconds));
+  passTime(walk, most, std::max(0.0, seconds));
 }
 
 double lengthOf(const WalkedWay& way) {

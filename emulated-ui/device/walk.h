@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "scanners/instruments/pace_limits.h"
+
 namespace standpoint {
 
 class Device;
@@ -71,14 +73,13 @@ struct WalkResult {
   std::shared_ptr<const SeenMap> seen;  // as the app showed it last; null once the project was closed
 };
 
-// What the app's light tells from on: a pace and a turn above these are too fast for it [P; E19 asks for 1 m/s].
-inline constexpr double kHurried_mps = 1.05, kHurried_radps = 1.2;
 // How fast somebody turns who walks at 1 m/s [P].
 inline constexpr double kTurn_rad_per_m = 1.05;
 
-bool isHurried(const WalkState& walk);
+// Too fast for the app, just now.
+bool isHurried(const WalkState& walk, const PaceLimits& most);
 // They go on for that long; what is recorded grows.
-void walkOn(WalkState& walk, double seconds);
+void walkOn(WalkState& walk, const PaceLimits& most, double seconds);
 // In metres, without what is stood.
 double lengthOf(const WalkedWay& way);
 

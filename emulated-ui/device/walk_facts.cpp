@@ -45,9 +45,11 @@ double length_m(const WalkState& w) {
   return lengthOf(w.way) + since;
 }
 
+bool isHurried(const Device& d) { return isHurried(walk(d), paceLimits(d.type().instrument)); }
+
 std::string light(const Device& d) {
   const auto lamp = findPhase(d.type().definition, d.state().phase)->lamp;
-  return walk(d).recording && isHurried(walk(d)) ? "red flashing" : lamp;
+  return walk(d).recording && isHurried(d) ? "red flashing" : lamp;
 }
 
 const FactDomain kEither{{"yes", "no"}};
@@ -76,7 +78,7 @@ const std::vector<FactRow>& walkFacts() {
        .about = "how long who carries the scanner has been standing still"},
       {.name = "carried.hurried",
        .domain = kEither,
-       .value = [](const Device& d) { return yesNo(isHurried(walk(d))); },
+       .value = [](const Device& d) { return yesNo(isHurried(d)); },
        .about = "walking or turning too fast just now"},
       {.name = "carried.hurried_for",
        .unit = FactUnit::seconds,

@@ -96,11 +96,12 @@ void surfaces(ImDrawList* list, const SeenMap& seen, const SeenFrame& frame, boo
 }
 
 void way(const Pen& pen, ImDrawList* list, const WalkedWay& way, const SeenFrame& frame, ImU32 colour) {
+  const PaceLimits most = paceLimits(pen.device.type().instrument);
   for (std::size_t i = 1; i < way.size(); ++i) {
     const auto &a = way[i - 1], &b = way[i];
     const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
     if (length < 1e-6) continue;
-    const bool hurried = length / std::max(1e-6, b[2] - a[2]) > kHurried_mps;
+    const bool hurried = most.tooFast(length / std::max(1e-6, b[2] - a[2]));
     list->AddLine(frame.at(a[0], a[1]), frame.at(b[0], b[1]), hurried ? kHurried : colour, pen.hair(2.2F));
   }
 }
@@ -143,7 +144,8 @@ void drawSeen(Pen& pen, const Widget& w, bool quality) {
       const ImVec2 p = frame.at(point.place_m.x() + control.shift_m.x(), point.place_m.y() + control.shift_m.y());
       list->AddCircle(p, 0.5F * pen.unit, kMark, 24, pen.hair(2));
     }
-    here(pen, list, frame.at(walk.at->front(), walk.at->back()), walk.ahead_of, isHurried(walk));
+    here(pen, list, frame.at(walk.at->front(), walk.at->back()), walk.ahead_of,
+         isHurried(walk, paceLimits(pen.device.type().instrument)));
   }
   list->PopClipRect();
 }

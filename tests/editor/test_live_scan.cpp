@@ -18,7 +18,6 @@
 #include "editor/trajectories/live_scan.h"
 #include "editor/trajectories/walk_pace.h"
 #include "editor/widgets/keyboard.h"
-#include "emulated-ui/device/walk.h"
 #include "item_probe.h"
 #include "survey/instruments.h"
 #include "survey/trajectories/trajectory_file.h"
@@ -194,8 +193,8 @@ TEST(WalkPace, SaysHowFastSomebodyGoesAndTurnsAndWhenThatIsTooFast) {
 
 TEST(WalkPace, LimitsAreThoseOfTheInstrumentsFile) {
   const auto blk2go = paceLimits(*instrumentById("leica-blk2go"));
-  EXPECT_NEAR(blk2go.speed_mps, kHurried_mps, 1e-9) << "as the light of the emulated app";
-  EXPECT_NEAR(blk2go.turn_radps, kHurried_radps, 0.5 * kRadPerDeg);
+  EXPECT_EQ(blk2go.speed_mps, 1.05);
+  EXPECT_NEAR(blk2go.turn_radps, 69 * kRadPerDeg, 1e-12);
   EXPECT_EQ(paceLimits(*instrumentById("velodyne-vlp-16")).speed_mps, 0);
   EXPECT_EQ(paceLimits(*instrumentById("leica-rtc360")).turn_radps, 0) << "on a tripod";
 }

@@ -76,6 +76,21 @@ TEST(NavVisVlx, TurnsRedWhileSomebodyWalksOrTurnsTooFast) {
   EXPECT_EQ(d.fact("carried.light"), "green");
 }
 
+// 1.2 m/s of this instrument, 1.05 m/s of the BLK2GO.
+TEST(NavVisVlx, TurnsRedAtThePaceThatTheInstrumentsFileHas) {
+  for (const auto& [device, pace, red] : {std::tuple{"navvis-vlx", "1.15", false},
+                                          {"navvis-vlx", "1.25", true},
+                                          {"leica-blk2go", "1.0", false},
+                                          {"leica-blk2go", "1.15", true}}) {
+    auto d = withWalker(device);
+    beginToRecord(d);
+    ASSERT_TRUE(d->hand("walk_to", std::string("15,0,") + pace));
+    d->tick(2);
+    EXPECT_EQ(d.fact("carried.hurried"), red ? "yes" : "no") << device << " at " << pace;
+    EXPECT_EQ(d.fact("carried.light") == "red flashing", red) << device << " at " << pace;
+  }
+}
+
 TEST(NavVisVlx, KeepsItsWayAndNoPointsInAPause) {
   auto d = onShoulders();
   beginToRecord(d);
