@@ -17,10 +17,11 @@ namespace {
 
 const nlohmann::json kNothing = nlohmann::json::object();
 constexpr std::size_t kLongestShown = 40;  // bytes of a wrong value
+constexpr std::size_t kLongestPointer = 200, kLongestMessage = 2000;
 
-std::string shortened(std::string text) {
-  if (text.size() <= kLongestShown) return text;
-  std::size_t end = kLongestShown;
+std::string shortened(std::string text, std::size_t longest = kLongestShown) {
+  if (text.size() <= longest) return text;
+  std::size_t end = longest;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // not within a letter
   return text.substr(0, end) + "…";
 }
@@ -40,7 +41,8 @@ std::string described(const nlohmann::json& value) {
 }
 
 void JsonFault::say(const std::string& pointer, const std::string& message) {
-  if (!error_) error_ = JsonPlace{file_, pointer}.unusable(message).value();
+  if (error_) return;
+  error_ = JsonPlace{file_, shortened(pointer, kLongestPointer)}.unusable(shortened(message, kLongestMessage)).value();
 }
 
 void JsonFault::needs(const std::string& pointer, const nlohmann::json& found, const std::string& needed) {

@@ -90,7 +90,7 @@ std::span<const Importer> importers() {
   return kImporters;
 }
 
-Result<ImportedModel> importFile(const std::filesystem::path& file, const ImportOptions& options, Progress& progress) {
+Result<const Importer*> importerOf(const std::filesystem::path& file) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(file, code))
     return failure(ErrorKind::file_system, code ? code.message() : "cannot read the file", file.string());
@@ -102,6 +102,11 @@ Result<ImportedModel> importFile(const std::filesystem::path& file, const Import
   if (!importer)
     return failure(ErrorKind::unusable, "unsupported format; use IFC, glTF, CityJSON, CityGML, OBJ, PLY, STL or DXF",
                    file.string());
+  return importer;
+}
+
+Result<ImportedModel> importFile(const std::filesystem::path& file, const ImportOptions& options, Progress& progress) {
+  TRY_ASSIGN(const Importer* const importer, importerOf(file));
   auto model = importer->read(file, options, progress);
   if (!model) return model;
   const double stated = model->metres_per_unit > 0 ? model->metres_per_unit : 1;

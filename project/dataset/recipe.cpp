@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <chrono>
 #include <cmath>
 #include <set>
 #include <string_view>
@@ -13,7 +14,10 @@
 
 #include "core/json_fields.h"
 #include "core/json_file.h"
+#include "importers/importers.h"
 #include "pointclouds/formats.h"
+#include "project/dataset/set_scans.h"
+#include "project/materials/materials_verb.h"
 #include "project/survey/station_row.h"
 #include "survey/instruments.h"
 
@@ -28,6 +32,8 @@ constexpr const char* kFormat = "standpoint-dataset";
 constexpr std::size_t kMostPlaces = 10000;  // of one strategy
 constexpr double kFarthestPlace_m = 1e9;
 constexpr double kMostSeed = 9007199254740991.0;
+constexpr double kMostScans = 1e6;          // of a set
+constexpr std::size_t kLongestText = 1000;  // bytes
 
 struct StrategyWord {
   const char* word;
@@ -48,8 +54,15 @@ bool isId(const std::string& text) {
 
 bool isDate(const std::string& text) {
   constexpr std::string_view kForm = "0000-00-00";
-  return std::equal(text.begin(), text.end(), kForm.begin(), kForm.end(),
-                    [](unsigned char c, char form) { return form == '0' ? std::isdigit(c) != 0 : c == '-'; });
+  const bool formed = std::equal(text.begin(), text.end(), kForm.begin(), kForm.end(), [](unsigned char c, char form) {
+    return form == '0' ? std::isdigit(c) != 0 : c == '-';
+  });
+  if (!formed) return false;
+  const auto number = [&](std::size_t at, std::size_t digits) { return std::stoi(text.substr(at, digits)); };
+  return std::chrono::year_month_day(std::chrono::year(number(0, 4)),
+                                     std::chrono::month(static_cast<unsigned>(number(5, 2))),
+                                     std::chrono::day(static_cast<unsigned>(number(8, 2))))
+      .ok();
 }
 
 class RecipeReader {
@@ -62,6 +75,8 @@ class RecipeReader {
  private:
   using Ids = std::set<std::string>;
   std::string idOf(JsonFields& fields, Ids& taken, const std::string& usual = {});
+  std::string line(JsonFields& fields, const char* key, std::string text) const;
+  std::string licenceOf(JsonFields& fields) { return line(fields, "license", fields.textOr("license", "")); }
   fs::path placed(const fs::path& path) const { return path.is_absolute() ? path : folder_ / path; }
   fs::path existing(JsonFields& fields, const char* key, const fs::path& inside = {});
   template <class T>
@@ -77,11 +92,13 @@ class RecipeReader {
   std::vector<FloorPlace> places(JsonFields& fields, const char* key, std::size_t least);
   void takeInstruments(JsonFields& root);
   void takeConditions(JsonFields& root);
+  void checkMaterials();
   void takeEffects(JsonFields& root);
   void takeSeeds(JsonFields& root);
   void takeSplits(JsonFields& root);
   void takeClasses(JsonFields& root, const fs::path& folder);
   void takeOutput(JsonFields& root);
+  void checkSize();
 
   JsonFault fault_;
   fs::path folder_;
@@ -97,8 +114,18 @@ std::string RecipeReader::idOf(JsonFields& fields, Ids& taken, const std::string
   return id;
 }
 
+// What stands in tables, pages and names of a set that is made.
+std::string RecipeReader::line(JsonFields& fields, const char* key, std::string text) const {
+  if (!check_) return text;
+  if (text.size() > kLongestText) fields.wrong(key, fmt::format("is longer than {} bytes", kLongestText));
+  if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7F; }))
+    fields.wrong(key, "must be one line without control characters");
+  return fault_.error() ? std::string() : text;
+}
+
 fs::path RecipeReader::existing(JsonFields& fields, const char* key, const fs::path& inside) {
-  const fs::path path = placed(fields.text(key));
+  const fs::path path = placed(line(fields, key, fields.text(key)));
+  if (fault_.error()) return path;
   std::error_code error;
   if (check_ && !fs::exists(inside.empty() ? path : path / inside, error))
     fields.wrong(key, inside.empty() ? fmt::format("file not found: {}", path.string())
@@ -137,13 +164,13 @@ void RecipeReader::takeAbout(JsonFields& root) {
     root.wrong("recipe_version", "was written by a newer version; this one reads 1");
   recipe_.name = root.text("name", "my-buildings");
   if (!recipe_.name.empty() && !isId(recipe_.name)) root.wrong("name", "must be up to 40 letters, digits, '-' and '.'");
-  recipe_.description = root.textOr("description", "Simulated laser scans with labels");
-  recipe_.license = root.text("license", "https://spdx.org/licenses/CC-BY-4.0.html");
-  recipe_.creator = root.text("creator");
+  recipe_.description = line(root, "description", root.textOr("description", "Simulated laser scans with labels"));
+  recipe_.license = line(root, "license", root.text("license", "https://spdx.org/licenses/CC-BY-4.0.html"));
+  recipe_.creator = line(root, "creator", root.text("creator"));
   recipe_.date = root.text("date", "2026-01-31");
-  if (!recipe_.date.empty() && !isDate(recipe_.date)) root.wrong("date", "must be like 2026-01-31");
-  recipe_.url = root.textOr("url", "https://example.org/" + recipe_.name);
-  recipe_.version = root.textOr("version", "1.0.0");
+  if (!recipe_.date.empty() && !isDate(recipe_.date)) root.wrong("date", "must be a date like 2026-01-31");
+  recipe_.url = line(root, "url", root.textOr("url", "https://example.org/" + recipe_.name));
+  recipe_.version = line(root, "version", root.textOr("version", "1.0.0"));
   if (const auto* seed = root.raw("seed")) recipe_.seed = whole(*seed, root.pointer("seed"), 0, kMostSeed);
   recipe_.starved_below = root.numberOr("starved_below", recipe_.starved_below, 0, 1);
 }
@@ -227,12 +254,15 @@ void RecipeReader::takeEnvironments(JsonFields& root) {
   root.list("environments", [&](JsonFields& fields) {
     RecipeEnvironment one;
     one.id = idOf(fields, taken);
-    one.building = fields.textOr("building", one.id);
+    one.building = line(fields, "building", fields.textOr("building", one.id));
     if (fields.has("model") == fields.has("project"))
       fields.wrong("", "specify either \"model\", a file, or \"project\", a folder");
+    for (const char* key : {"model", "project", "stations"}) fields.skip(key);
     if (fields.has("model")) one.model = existing(fields, "model");
     if (fields.has("project")) one.project = existing(fields, "project", "project.json");
-    one.license = fields.textOr("license", "");
+    if (check_ && !fault_.error() && !one.model.empty())
+      if (const auto importer = importerOf(one.model); !importer) fields.wrong("model", importer.error().message);
+    one.license = licenceOf(fields);
     one.stations = fields.has("stations") ? strategies(fields) : usual;
     if (one.stations.empty()) fields.wrong("", "has no stations: specify \"stations\" here or for all environments");
     for (const auto& s : one.stations)
@@ -249,7 +279,7 @@ void RecipeReader::takeInstruments(JsonFields& root) {
   root.list("instruments", [&](JsonFields& fields) {
     RecipeInstrument one;
     one.id = idOf(fields, taken);
-    one.instrument = fields.text("instrument", "leica-rtc360");
+    one.instrument = line(fields, "instrument", fields.text("instrument", "leica-rtc360"));
     if (isInstrumentFile(one.instrument)) one.instrument = placed(one.instrument).string();
     if (auto settings = parsedList<KeyValues>(fields, "set")) one.settings = *std::move(settings);
     if (check_ && !fault_.error()) {
@@ -281,6 +311,7 @@ void RecipeReader::takeConditions(JsonFields& root) {
   root.list("materials", [&](JsonFields& fields) {
     RecipeMaterials one;
     one.id = idOf(fields, materials);
+    fields.skip("rules");
     if (fields.has("rules")) one.rules = existing(fields, "rules");
     one.assign = fields.texts("assign");
     for (const auto& text : one.assign)
@@ -297,6 +328,26 @@ void RecipeReader::takeConditions(JsonFields& root) {
   if (recipe_.weather.empty()) recipe_.weather.push_back({"clear", {}, {}, 0});
   if (recipe_.materials.empty()) recipe_.materials.push_back({"assigned", {}, {}});
   if (recipe_.field_faults.empty()) recipe_.field_faults.push_back({"none", {}});
+}
+
+// A project may bring materials of its own, which nobody has read yet.
+void RecipeReader::checkMaterials() {
+  const auto is_project = [](const RecipeEnvironment& e) { return !e.project.empty(); };
+  const auto& environments = recipe_.environments;
+  if (!check_ || fault_.error() || std::any_of(environments.begin(), environments.end(), is_project)) return;
+  const auto library = shippedMaterials();
+  if (!library) return fault_.say("/materials", describe(library.error()));
+  for (std::size_t i = 0; i < recipe_.materials.size(); ++i) {
+    const auto& one = recipe_.materials[i];
+    if (!one.rules.empty())
+      if (const auto checked = checkRules(one.rules, *library); !checked)
+        fault_.say(fmt::format("/materials/{}/rules", i), describe(checked.error()));
+    for (const auto& o : overridesFrom(one.assign))
+      if (o.material != "rules" &&
+          std::none_of(library->begin(), library->end(), [&](const auto& m) { return m.id == o.material; }))
+        fault_.say(fmt::format("/materials/{}/assign", i),
+                   fmt::format("'{}' is not in the library of materials", o.material));
+  }
 }
 
 void RecipeReader::takeEffects(JsonFields& root) {
@@ -320,11 +371,11 @@ void RecipeReader::takeSeeds(JsonFields& root) {
   }
   if (!seeds->is_array() || seeds->empty())
     return root.needs("seeds", *seeds, "a list of whole numbers, such as [1, 2]");
+  std::set<std::uint64_t> taken;
   for (std::size_t i = 0; i < seeds->size(); ++i) {
     const auto at = fmt::format("{}/{}", root.pointer("seeds"), i);
     const auto seed = whole((*seeds)[i], at, 0, kMostSeed);
-    if (std::find(recipe_.seeds.begin(), recipe_.seeds.end(), seed) != recipe_.seeds.end())
-      fault_.say(at, fmt::format("{} is already in the list", seed));
+    if (!taken.insert(seed).second) fault_.say(at, fmt::format("{} is already in the list", seed));
     recipe_.seeds.push_back(seed);
   }
 }
@@ -335,6 +386,7 @@ void RecipeReader::takeSplits(JsonFields& root) {
   if (root.required("splits") == nullptr) return;
   root.object("splits", [&](JsonFields& fields) {
     for (const char* name : {"train", "validation", "test"}) {
+      fields.skip(name);
       if (!fields.has(name)) continue;
       recipe_.splits.push_back({name, fields.texts(name)});
       for (const auto& building : recipe_.splits.back().buildings) {
@@ -404,18 +456,32 @@ void RecipeReader::takeOutput(JsonFields& root) {
   });
 }
 
+// Lists of scans are kept in memory, and each has files of its own.
+void RecipeReader::checkSize() {
+  double scans = 1;
+  for (const auto entries :
+       {placesOf(recipe_).size(), recipe_.instruments.size(), recipe_.weather.size(), recipe_.materials.size(),
+        recipe_.field_faults.size(), recipe_.effects.size(), recipe_.seeds.size()})
+    scans *= static_cast<double>(entries);
+  if (scans > kMostScans)
+    fault_.say("",
+               fmt::format("makes {:.0f} scans, more than {:.0f}: split it into several recipes", scans, kMostScans));
+}
+
 Result<Recipe> RecipeReader::read(const json& content, const fs::path& classes_folder) {
   JsonFields root(fault_, content, "");
   takeAbout(root);
   takeEnvironments(root);
   takeInstruments(root);
   takeConditions(root);
+  checkMaterials();
   takeEffects(root);
   takeSeeds(root);
   takeSplits(root);
   takeClasses(root, classes_folder);
   takeOutput(root);
   root.close();
+  checkSize();
   TRY(fault_.result());
   return std::move(recipe_);
 }

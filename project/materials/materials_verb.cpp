@@ -217,10 +217,20 @@ std::string description(const Environment& environment, const std::vector<Physic
 
 }  // namespace
 
+Result<std::vector<PhysicalMaterial>> shippedMaterials() { return readMaterialLibrary(libraryFolder()); }
+
+Result<void> checkRules(const fs::path& file, const std::vector<PhysicalMaterial>& library) {
+  TRY_ASSIGN(const auto rules, readAssignmentRules(file, library, defaultRules()));
+  for (const auto& rule : rules.rules)
+    if (std::none_of(library.begin(), library.end(), [&](const auto& m) { return m.id == rule.assign; }))
+      return failure(ErrorKind::usage, fmt::format("'{}' is not in the library", rule.assign), rule.place);
+  return {};
+}
+
 Result<Answered<MaterialsAnswer>> assignDocumentMaterials(const Document& document, const MaterialRequest& request,
                                                           Progress& progress) {
   progress.stage("Materials");
-  TRY_ASSIGN(const auto shipped, readMaterialLibrary(libraryFolder()));
+  TRY_ASSIGN(const auto shipped, shippedMaterials());
   MaterialChoice choice = document.materials ? *document.materials : MaterialChoice();
   if (!request.rules.empty()) {
     choice.rules_file = request.rules == "default" ? "" : request.rules.string();

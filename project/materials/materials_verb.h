@@ -95,6 +95,10 @@ const AnswerFields<MaterialsAnswer>& answerFields(const MaterialsAnswer*);
 Result<Answered<MaterialsAnswer>> assignDocumentMaterials(const Document& document, const MaterialRequest& request,
                                                           Progress& progress);
 
+Result<std::vector<PhysicalMaterial>> shippedMaterials();
+// That a file of rules can be read, and assigns materials of `library`.
+Result<void> checkRules(const std::filesystem::path& file, const std::vector<PhysicalMaterial>& library);
+
 // From SELECTOR=MATERIAL; a selector may hold "=" itself.
 std::vector<MaterialOverride> overridesFrom(const std::vector<std::string>& texts);
 template <>

@@ -37,6 +37,7 @@ class RecipeSchema : public testing::Test {
     ASSERT_TRUE(saveProject(twoStoreyDocument(), folder / "house", progress));
     ASSERT_TRUE(saveProject(twoStoreyDocument(), folder / "tower", progress));
     folder.write("shed.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
+    folder.write("plan.pdf", "%PDF-1.4\n");
     folder.write("own.json", R"({"name": "own", "classes": {"a": 0}, "unknown": "a", "noise": "a",
                                  "ifc": {"IfcWall": "a"}})");
     folder.write("nothing.json", R"({"name": "own", "classes": {"a": 0}, "unknown": "a", "noise": "a", "ifc": {}})");
@@ -107,6 +108,12 @@ constexpr Damage kDamages[] = {
     {"/license", R"([{"op": "replace", "path": "/license", "value": " "}])"},
     {"/creator", R"([{"op": "replace", "path": "/creator", "value": 7}])"},
     {"/date", R"([{"op": "replace", "path": "/date", "value": "31.1.2026"}])"},
+    {"/date", R"([{"op": "replace", "path": "/date", "value": "2026-02-30"}])", true},
+    {"/date", R"([{"op": "replace", "path": "/date", "value": "2026-13-01"}])", true},
+    {"/creator", R"([{"op": "replace", "path": "/creator", "value": "two\nlines"}])"},
+    {"/environments/0/building", R"([{"op": "replace", "path": "/environments/0/building", "value": "A\u0000"}])"},
+    {"/environments/2/model", R"([{"op": "replace", "path": "/environments/2/model", "value": "."}])", true},
+    {"/environments/2/model", R"([{"op": "replace", "path": "/environments/2/model", "value": "plan.pdf"}])", true},
     {"/description", R"([{"op": "replace", "path": "/description", "value": ""}])"},
     {"/url", R"([{"op": "replace", "path": "/url", "value": ["a"]}])"},
     {"/seed", R"([{"op": "replace", "path": "/seed", "value": -1}])"},
@@ -222,8 +229,51 @@ TEST_F(RecipeSchema, RefusesWhatTheReaderRefusesByItsPlace) {
     EXPECT_EQ(made.error().source, std::string("recipe.json ") + damage.place)
         << damage.patch << ": " << made.error().message;
   }
+  auto wordy = recipe("[]");
+  wordy["creator"] = std::string(1001, 'x');
+  EXPECT_FALSE(schemaAccepts(wordy));
+  EXPECT_EQ(read(wordy).error().source, "recipe.json /creator");
   EXPECT_FALSE(schemaAccepts(json::array()));
   EXPECT_FALSE(read(json::array()));
+}
+
+// A project may have materials of its own, so this is asked of models only.
+TEST_F(RecipeSchema, RefusesMaterialsThatTheLibraryDoesNotHave) {
+  auto document = recipe(R"([{"op": "remove", "path": "/environments/0"}, {"op": "remove", "path": "/environments/0"},
+                             {"op": "replace", "path": "/splits", "value": {"train": ["shed"]}}])");
+  ASSERT_TRUE(read(document)) << describe(read(document).error());
+  document["materials"][1]["assign"] = {"class:IfcWall=adamant"};
+  const auto assigned = read(document);
+  ASSERT_FALSE(assigned);
+  EXPECT_EQ(describe(assigned.error()),
+            "recipe.json /materials/1/assign: 'adamant' is not in the library of materials");
+  document["materials"][1] = {{"id", "own"}, {"rules", "rules.json"}};
+  folder.write("rules.json", R"({"rules": 7})");
+  const auto ruled = read(document);
+  ASSERT_FALSE(ruled);
+  EXPECT_EQ(ruled.error().source, "recipe.json /materials/1/rules");
+}
+
+TEST_F(RecipeSchema, RefusesMoreThanAMillionScans) {
+  auto document = recipe("[]");  // at 12 places, with 3 weathers, 2 materials, 2 faults and 3 effects
+  document["seeds"] = json::array();
+  for (int seed = 0; seed < 2314; ++seed) document["seeds"].push_back(seed);
+  EXPECT_TRUE(read(document)) << describe(read(document).error());
+  document["seeds"].push_back(2314);
+  const auto refused = read(document);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(describe(refused.error()),
+            "recipe.json: makes 1000080 scans, more than 1000000: split it into several recipes");
+}
+
+// A megabyte of a wrong word is not printed.
+TEST_F(RecipeSchema, NamesAWrongKeyOrIdInShort) {
+  auto document = recipe("[]");
+  document["environments"][0]["id"] = std::string(1'000'000, 'x');
+  EXPECT_LT(describe(read(document).error()).size(), 3000U);
+  document = recipe("[]");
+  document[std::string(1'000'000, 'x')] = 1;
+  EXPECT_LT(describe(read(document).error()).size(), 3000U);
 }
 
 }  // namespace
