@@ -59,6 +59,23 @@ std::size_t CityModel::beginPolygon(Levelled of, std::uint32_t surface) {
   return polygons_.size() - 1;
 }
 
+std::vector<Eigen::Vector3d> CityModel::cornersOf(std::size_t polygon, std::size_t ring_of_polygon) const {
+  std::vector<Eigen::Vector3d> corners;
+  for (const auto c : ring(polygons_[polygon].first_ring + ring_of_polygon)) corners.push_back(positions[c]);
+  return corners;
+}
+
+void CityModel::turn(std::size_t polygon) {
+  for (std::size_t r = polygons_[polygon].first_ring; r < ringsEnd(polygon); ++r) {
+    const auto begin = static_cast<std::ptrdiff_t>(ring_begins_[r]);
+    const auto end = begin + static_cast<std::ptrdiff_t>(ring(r).size());
+    std::reverse(corners_.begin() + begin, corners_.begin() + end);
+    if (texture_corners_.size() <= ring_begins_[r]) continue;
+    texture_corners_.resize(corners_.size(), kNoTextureCorner);
+    std::reverse(texture_corners_.begin() + begin, texture_corners_.begin() + end);
+  }
+}
+
 void CityModel::texture(const Eigen::Vector2f& upper_left) {
   texture_corners_.resize(corners_.size(), kNoTextureCorner);
   texture_corners_.back() = static_cast<std::uint32_t>(texture_coordinates_.size());

@@ -62,6 +62,9 @@ class CityModel {
   std::size_t polygons() const { return polygons_.size(); }
   void give(std::size_t polygon, std::uint32_t thing) { polygons_[polygon].thing = thing; }
   void paint(std::size_t polygon, std::uint32_t surface) { polygons_[polygon].surface = surface; }
+  void turn(std::size_t polygon);  // its corners go round the other way, with their texture coordinates
+  std::size_t rings(std::size_t polygon) const { return ringsEnd(polygon) - polygons_[polygon].first_ring; }
+  std::vector<Eigen::Vector3d> cornersOf(std::size_t polygon, std::size_t ring_of_polygon) const;
   void beginRing() { ring_begins_.push_back(corners_.size()); }
   void corner(std::uint32_t position) { corners_.push_back(position); }
   void texture(const Eigen::Vector2f& upper_left);  // of the corner before; all or none of a polygon

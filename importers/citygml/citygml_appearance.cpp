@@ -14,6 +14,18 @@ constexpr std::size_t kLongestName = 4096;
 
 bool isFalse(std::string_view text) { return text == "false" || text == "0"; }
 
+// Its own, and those that it refers to.
+std::vector<std::size_t> polygonsOf(const CityGmlGeometry& geometry, const CityGmlGeometries& geometries,
+                                    const std::vector<std::string>& references) {
+  std::vector<std::size_t> polygons;
+  for (std::size_t p = geometry.polygon; p < geometry.polygons_end; ++p) polygons.push_back(p);
+  for (std::size_t r = geometry.reference; r < geometry.references_end; ++r)
+    if (const auto other = geometries.all.find(references[r]);
+        other != geometries.all.end() && other->second.is_polygon)
+      polygons.push_back(other->second.polygon);
+  return polygons;
+}
+
 }  // namespace
 
 void CityGmlAppearance::start(std::string_view name, const CityGmlAttributes& attributes, const std::string& place) {
@@ -24,7 +36,8 @@ void CityGmlAppearance::start(std::string_view name, const CityGmlAttributes& at
     list_begin_ = rings_now_.size();
     ring_names_.clear();
   }
-  if (reading_ && name == "TexCoordGen") lost_.add("textures that are placed by a matrix", place);
+  if (name == "TextureAssociation") target_.clear();
+  if (name == "target" && !attributes.uri.empty()) target_ = idOfReference(attributes.uri).value_or("");
   open_.push_back(std::move(element));
 }
 
@@ -38,6 +51,7 @@ void CityGmlAppearance::beginData(const Element& element) {
   texture_ = {{}, element.place};
   targets_now_.clear();
   rings_now_.clear();
+  projections_now_.clear();
   if (!reading_)
     left_out_.add("materials and textures of other themes than '" + read_->substr(0, kLongestTheme) + "' left out",
                   element.place);
@@ -58,12 +72,14 @@ void CityGmlAppearance::endData(const Element& element) {
   if (reading_ && front_) {
     for (Target& target : targets_now_) target.material = materials_.size();
     for (RingCoordinates& ring : rings_now_) ring.texture = textures_.size();
+    for (Projection& projection : projections_now_) projection.texture = textures_.size();
     if (element.name == "X3DMaterial") {
       materials_.push_back(material_);
       std::move(targets_now_.begin(), targets_now_.end(), std::back_inserter(targets_));
     } else if (element.name == "ParameterizedTexture") {
       textures_.push_back(texture_);
       std::move(rings_now_.begin(), rings_now_.end(), std::back_inserter(rings_));
+      std::move(projections_now_.begin(), projections_now_.end(), std::back_inserter(projections_));
     }
   }
   if (reading_) data_ids_.insert(element.attributes.id);
@@ -84,6 +100,9 @@ void CityGmlAppearance::textOf(const Element& element, std::string_view text) {
   if (element.name == "imageURI") texture_.image = text;
   if (element.name == "ring") ring_names_.emplace_back(idOfReference(text.empty() ? href : text).value_or(""));
   if (element.name == "textureCoordinates") coordinates(element, text);
+  if (element.name == "worldToTexture") projection(element, text);
+  if (element.name == "target" && above == "TextureAssociation")
+    target_ = idOfReference(text.empty() ? href : text).value_or("");
   if (element.name == "target" && above == "X3DMaterial")
     targets_now_.push_back({idOfReference(text.empty() ? href : text).value_or(""), element.place, 0});
   if (element.name == "target" && above == "ParameterizedTexture" && !href.empty())
@@ -114,6 +133,15 @@ void CityGmlAppearance::coordinates(const Element& element, std::string_view tex
   rings_now_.push_back(std::move(ring));
 }
 
+void CityGmlAppearance::projection(const Element& element, std::string_view text) {
+  std::vector<double> numbers;
+  if (!readNumbers(text, numbers).empty() || numbers.size() != 12)
+    return lost_.add("matrices of textures that are not twelve numbers", element.place);
+  Projection projection{target_, element.place, {}, 0};
+  projection.texture_from_world = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(numbers.data());
+  projections_now_.push_back(std::move(projection));
+}
+
 // CityGML 3.0 has the names of the rings beside the lists, in the same order.
 void CityGmlAppearance::pairRings() {
   for (std::size_t i = 0; i < ring_names_.size() && list_begin_ + i < rings_now_.size(); ++i)
@@ -125,6 +153,7 @@ void CityGmlAppearance::apply(const CityGmlGeometries& geometries, const std::ve
   looks_.assign(model_.polygons(), {});
   applyMaterials(geometries, references);
   applyTextures(geometries);
+  applyProjections(geometries, references);
   for (const auto& [id, place] : shared_)
     if (!data_ids_.contains(id)) lost_.add("references to materials and textures that were not read", place);
   tell();
@@ -148,33 +177,59 @@ void CityGmlAppearance::applyMaterials(const CityGmlGeometries& geometries,
   };
   std::stable_sort(found.begin(), found.end(),
                    [&](const auto& a, const auto& b) { return size(*a.first) > size(*b.first); });
-  for (const auto& [geometry, material] : found) {
-    for (std::size_t p = geometry->polygon; p < geometry->polygons_end; ++p) looks_[p].material = material;
-    for (std::size_t r = geometry->reference; r < geometry->references_end; ++r)
-      if (const auto other = geometries.all.find(references[r]);
-          other != geometries.all.end() && other->second.is_polygon)
-        looks_[other->second.polygon].material = material;
-  }
+  for (const auto& target : found)
+    for (const auto polygon : polygonsOf(*target.first, geometries, references))
+      looks_[polygon].material = target.second;
+}
+
+std::int32_t CityGmlAppearance::imageOf(std::size_t texture) {
+  const auto [image, is_new] = image_of_.try_emplace(texture, -1);
+  if (is_new) image->second = images_.add(textures_[texture].image, textures_[texture].place);
+  return image->second;
 }
 
 void CityGmlAppearance::applyTextures(const CityGmlGeometries& geometries) {
-  std::map<std::size_t, std::int32_t> image_of;
   for (const RingCoordinates& ring : rings_) {
     const auto found = geometries.rings.find(ring.ring);
     if (found == geometries.rings.end()) {
       lost_.add("texture coordinates of rings that are not in the file", ring.place);
       continue;
     }
-    const auto [image, is_new] = image_of.try_emplace(ring.texture, -1);
-    const Texture& texture = textures_[ring.texture];
-    if (is_new) image->second = images_.add(texture.image, texture.place);
+    const std::int32_t image = imageOf(ring.texture);
     Look& look = looks_[found->second.polygon];
-    if (image->second < 0 || (look.image >= 0 && look.image != image->second)) continue;
+    if (image < 0 || (look.image >= 0 && look.image != image)) continue;
     if (model_.texture(found->second.polygon, found->second.ring, ring.upper_left))
-      look.image = image->second;
+      look.image = image;
     else
       lost_.add("rings with fewer texture coordinates than corners", ring.place);
   }
+}
+
+// What has coordinates keeps them. Of each geometry one matrix is taken, as of materials.
+void CityGmlAppearance::applyProjections(const CityGmlGeometries& geometries,
+                                         const std::vector<std::string>& references) {
+  std::unordered_set<const CityGmlGeometry*> seen;
+  for (const Projection& projection : projections_) {
+    const auto geometry = geometries.all.find(projection.target);
+    if (geometry == geometries.all.end())
+      lost_.add("textures of geometries that are not in the file", projection.place);
+    else if (imageOf(projection.texture) >= 0 && seen.insert(&geometry->second).second)
+      for (const auto polygon : polygonsOf(geometry->second, geometries, references))
+        if (looks_[polygon].image < 0) project(projection, polygon);
+  }
+}
+
+void CityGmlAppearance::project(const Projection& projection, std::size_t polygon) {
+  std::vector<std::vector<Eigen::Vector2f>> rings(model_.rings(polygon));
+  for (std::size_t r = 0; r < rings.size(); ++r)
+    for (const auto& corner : model_.cornersOf(polygon, r)) {
+      const Eigen::Vector3d at = projection.texture_from_world * corner.homogeneous();
+      const auto coordinate = cityTextureCoordinate(at.x() / at.z(), at.y() / at.z());
+      if (!coordinate) return lost_.add("polygons that the matrix of a texture does not reach", projection.place);
+      rings[r].push_back(*coordinate);
+    }
+  for (std::size_t r = 0; r < rings.size(); ++r) model_.texture(polygon, r, rings[r]);
+  looks_[polygon].image = imageOf(projection.texture);
 }
 
 // A material without a name is the colour of what the surface is. Those that look and are called alike are one.

@@ -18,8 +18,8 @@
 
 namespace standpoint {
 
-// Materials (X3DMaterial) and textures with coordinates (ParameterizedTexture) of a file's first theme, as they come
-// within its Appearance elements; on polygons once all are known.
+// Materials (X3DMaterial) and textures with coordinates or a matrix (ParameterizedTexture) of a file's first theme, as
+// they come within its Appearance elements; on polygons once all are known.
 class CityGmlAppearance {
  public:
   CityGmlAppearance(const std::filesystem::path& file, CityModel& model, Report& report)
@@ -52,6 +52,11 @@ class CityGmlAppearance {
     std::string id, place;
     std::size_t material = 0;
   };
+  struct Projection {  // TexCoordGen: (s q, t q, q) of a homogeneous position
+    std::string target, place;
+    Eigen::Matrix<double, 3, 4> texture_from_world;
+    std::size_t texture = 0;
+  };
   struct Look {
     std::int32_t material = -1, image = -1;
   };
@@ -64,9 +69,13 @@ class CityGmlAppearance {
   void endData(const Element& element);
   void textOf(const Element& element, std::string_view text);
   void coordinates(const Element& element, std::string_view text);
+  void projection(const Element& element, std::string_view text);
   void pairRings();
   void applyMaterials(const CityGmlGeometries& geometries, const std::vector<std::string>& references);
   void applyTextures(const CityGmlGeometries& geometries);
+  void applyProjections(const CityGmlGeometries& geometries, const std::vector<std::string>& references);
+  void project(const Projection& projection, std::size_t polygon);
+  std::int32_t imageOf(std::size_t texture);
   void tell();
 
   CityModel& model_;
@@ -83,6 +92,8 @@ class CityGmlAppearance {
   Texture texture_;
   std::vector<Target> targets_now_;
   std::vector<RingCoordinates> rings_now_;
+  std::vector<Projection> projections_now_;
+  std::string target_;                   // of the open association
   std::size_t list_begin_ = 0;           // of the rings of the open list
   std::vector<std::string> ring_names_;  // of CityGML 3.0, apart from the coordinates
   // Of the theme.
@@ -90,6 +101,8 @@ class CityGmlAppearance {
   std::vector<Texture> textures_;
   std::vector<Target> targets_;
   std::vector<RingCoordinates> rings_;
+  std::vector<Projection> projections_;
+  std::map<std::size_t, std::int32_t> image_of_;  // of a texture
   std::set<std::string> data_ids_;
   std::vector<std::pair<std::string, std::string>> shared_;  // ids of data that are referred to, and places
   std::vector<Look> looks_;                                  // of each polygon

@@ -79,6 +79,7 @@ bool CityGmlReader::start(std::string_view name, const char** attributes, std::s
   above.leaf = false;
   element.thing = above.thing;
   element.in_template = above.in_template;
+  element.turned = above.turned;
   element.level = levelOf(name).value_or(above.level);
   element.attribute = stated.name;
   element.polygon = model_.polygons();
@@ -95,6 +96,7 @@ bool CityGmlReader::beginElement(Open element, std::string_view space, const Cit
   // CityGML 1.0 has surfaces with a look of their own between GML's.
   const bool textured = space.find("/texturedsurface/") != std::string_view::npos;
   if (textured && name == "TexturedSurface") element.gml = true;
+  if (element.gml && attributes.orientation == "-") element.turned = !element.turned;
   if (above == Kind::implicit || above == Kind::reference_point || name == "ImplicitGeometry") {
     if (!beginImplicit(element, attributes)) return true;
   } else if (textured && !element.gml && isCapital(name)) {
@@ -181,7 +183,7 @@ void CityGmlReader::refer(const Open& element, const std::string& reference) {
   if (!surface && !element.gml && !levelOf(element.name)) return;
   if (auto id = idOfReference(reference)) {
     const auto implicit = element.in_template ? static_cast<std::int32_t>(implicits_.size()) - 1 : -1;
-    references_.push_back({element.thing, implicit, place()});
+    references_.push_back({element.thing, implicit, element.turned, place()});
     reference_ids_.push_back(std::move(*id));
   } else if (surface || levelOf(element.name)) {
     tally("geometries that are not in the file");
@@ -313,6 +315,7 @@ bool CityGmlReader::endPolygon(const Open& element) {
   if (rings_.empty() || (element.thing == kNoCityThing && !element.in_template)) return true;
   const std::uint32_t thing = element.in_template ? kCityTemplate : static_cast<std::uint32_t>(element.thing);
   const std::size_t index = model_.beginPolygon({thing, element.level}, 0);
+  turned_.push_back(element.turned);
   for (std::size_t r = 0; r < rings_.size(); ++r) {
     model_.beginRing();
     for (const auto& corner : rings_[r].corners) {
@@ -329,8 +332,8 @@ bool CityGmlReader::endPolygon(const Open& element) {
   return true;
 }
 
-// A solid refers to the surfaces that bound it, or the surfaces to the solid's polygons: a polygon is there once, and
-// belongs to the surface.
+// A solid refers to the surfaces that bound it, or the surfaces to the solid's polygons: a polygon is there once,
+// belongs to the surface, and faces as that says.
 void CityGmlReader::resolve() {
   for (std::size_t i = 0; i < references_.size(); ++i) {
     const Reference& reference = references_[i];
@@ -349,8 +352,9 @@ void CityGmlReader::resolve() {
     if (reference.thing == kNoCityThing || !geometry.is_polygon) continue;
     const auto thing = static_cast<std::uint32_t>(reference.thing);
     const std::uint32_t now = model_.thingOf(geometry.polygon);
-    if (now != kCityTemplate && model_.thing(thing).thematic && !model_.thing(now).thematic)
-      model_.give(geometry.polygon, thing);
+    if (now == kCityTemplate || !model_.thing(thing).thematic || model_.thing(now).thematic) continue;
+    model_.give(geometry.polygon, thing);
+    turned_[geometry.polygon] = reference.turned;
   }
 }
 
@@ -388,9 +392,11 @@ Result<void> CityGmlReader::finish(Report& report) {
   resolve();
   appearance_.apply(geometries_, reference_ids_);
   const std::size_t polygons = model_.polygons();
-  for (std::size_t i = 0; i < polygons; ++i)
+  for (std::size_t i = 0; i < polygons; ++i) {
+    if (turned_[i]) model_.turn(i);
     if (const auto thing = model_.thingOf(i); thing != kCityTemplate)
       model_.paint(i, appearance_.surfaceOf(i, model_.thing(thing).type));
+  }
   for (const Implicit& implicit : implicits_) TRY(place(implicit));
   appearance_.finish();
   for (const auto& [what, found] : left_out_.found())

@@ -51,6 +51,7 @@ class CityGmlReader {
     bool gml = false;
     bool leaf = true;
     bool in_template = false;
+    bool turned = false;                // within an odd number of surfaces whose orientation is "-"
     std::int32_t thing = kNoCityThing;  // that is described here
     std::int16_t level = 0;
     std::string value, attribute;            // of a generic attribute
@@ -60,6 +61,7 @@ class CityGmlReader {
   struct Reference {
     std::int32_t thing = kNoCityThing;
     std::int32_t implicit = -1;  // within the template of this one
+    bool turned = false;
     std::string place;
   };
   struct Ring {
@@ -105,7 +107,8 @@ class CityGmlReader {
   std::size_t painting_ = 0;  // … within an Appearance
   std::string text_;
   bool in_polygon_ = false;
-  std::vector<Ring> rings_;  // of the open polygon, the outer one first
+  std::vector<Ring> rings_;   // of the open polygon, the outer one first
+  std::vector<bool> turned_;  // polygons: their other side is the front
   std::map<std::array<double, 3>, std::uint32_t> position_of_;
   CityGmlGeometries geometries_;
   std::vector<Reference> references_;

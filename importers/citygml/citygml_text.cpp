@@ -9,13 +9,14 @@ CityGmlAttributes::CityGmlAttributes(const char** pairs) {
   for (; *pairs != nullptr; pairs += 2) {
     std::string_view key = pairs[0];
     if (const auto bar = key.rfind('|'); bar != std::string_view::npos) key.remove_prefix(bar + 1);
-    std::string* member = key == "id"        ? &id
-                          : key == "href"    ? &href
-                          : key == "name"    ? &name
-                          : key == "srsName" ? &srs_name
-                          : key == "uri"     ? &uri
-                          : key == "ring"    ? &ring
-                                             : nullptr;
+    std::string* member = key == "id"            ? &id
+                          : key == "href"        ? &href
+                          : key == "name"        ? &name
+                          : key == "srsName"     ? &srs_name
+                          : key == "uri"         ? &uri
+                          : key == "ring"        ? &ring
+                          : key == "orientation" ? &orientation
+                                                 : nullptr;
     if (member != nullptr) *member = pairs[1];
   }
 }

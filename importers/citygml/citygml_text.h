@@ -13,7 +13,7 @@ namespace standpoint {
 
 // The attributes of an element that are read; empty where it has none.
 struct CityGmlAttributes {
-  std::string id, href, name, srs_name, uri, ring;
+  std::string id, href, name, srs_name, uri, ring, orientation;
   explicit CityGmlAttributes(const char** pairs);  // as expat gives them
 };
 

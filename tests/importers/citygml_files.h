@@ -35,6 +35,11 @@ inline std::string gmlSurface(const std::string& type, const std::string& member
 
 inline std::string gmlReference(const std::string& id) { return "<gml:surfaceMember xlink:href=\"#" + id + "\"/>"; }
 
+// The other side of a polygon: of a baseSurface element.
+inline std::string gmlTurned(const std::string& base_surface) {
+  return "<gml:OrientableSurface orientation=\"-\">" + base_surface + "</gml:OrientableSurface>";
+}
+
 inline std::string gmlSolid(const std::string& members) {
   return "<bldg:lod2Solid><gml:Solid><gml:exterior><gml:CompositeSurface>" + members +
          "</gml:CompositeSurface></gml:exterior></gml:Solid></bldg:lod2Solid>";

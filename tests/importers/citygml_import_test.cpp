@@ -61,6 +61,32 @@ TEST(CityGml, GivesASurfaceThePolygonsOfASolidThatItRefersTo) {
   EXPECT_EQ(ofClass(*model, "IfcRoof").properties.at(0).value, "RoofSurface");
 }
 
+float heightOfNormal(const ImportedModel& model, const std::string& ifc_class) {
+  float sum = 0;
+  for (const auto& i : model.environment.instances) {
+    if (model.environment.products[i.product].ifc_class != ifc_class) continue;
+    const Mesh& mesh = *model.environment.meshes[i.mesh];
+    for (const auto& t : mesh.triangles) {
+      const auto& a = mesh.positions[t[0]];
+      sum += (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a).z() / 2;
+    }
+  }
+  return sum;
+}
+
+TEST(CityGml, AReferenceTurnsWhatItGivesAndNothingElse) {
+  const auto turned = [](const std::string& id) {
+    return "<gml:surfaceMember>" + gmlTurned("<gml:baseSurface xlink:href=\"#" + id + "\"/>") + "</gml:surfaceMember>";
+  };
+  // The solid's roof looks down; its surface says that the other side is the roof.
+  const auto given = cityGml(gmlBuilding(gmlSolid(gmlPolygon("r", kGround)) + gmlSurface("RoofSurface", turned("r"))));
+  ASSERT_TRUE(given) << describe(given.error());
+  EXPECT_NEAR(heightOfNormal(*given, "IfcRoof"), 60, 1e-3);
+  const auto kept = cityGml(gmlBuilding(gmlSolid(turned("r")) + gmlSurface("RoofSurface", gmlPolygon("r", kRoof))));
+  ASSERT_TRUE(kept) << describe(kept.error());
+  EXPECT_NEAR(heightOfNormal(*kept, "IfcRoof"), 60, 1e-3);
+}
+
 TEST(CityGml, TakesTheHighestLevelOfDetail) {
   std::string low = gmlSolid(gmlPolygon("x", kGround));
   for (auto at = low.find("lod2"); at != std::string::npos; at = low.find("lod2", at)) low.replace(at, 4, "lod1");

@@ -64,6 +64,15 @@ std::string gmlAppearance(const std::string& theme, const std::string& data) {
 }
 std::string gmlTarget(const std::string& id) { return "<app:target>#" + id + "</app:target>"; }
 
+std::string gmlTexture(const std::string& image, const std::string& association) {
+  return "<app:surfaceDataMember><app:ParameterizedTexture><app:imageURI>" + image + "</app:imageURI>" + association +
+         "</app:ParameterizedTexture></app:surfaceDataMember>";
+}
+std::string gmlProjection(const std::string& uri, const std::string& matrix) {
+  return "<app:target uri=\"" + uri + "\"><app:TexCoordGen><app:worldToTexture>" + matrix +
+         "</app:worldToTexture></app:TexCoordGen></app:target>";
+}
+
 // Turned by a quarter from x to y and twice as large, the box of 2 × 3 × 4 m is one of 6 × 4 × 8 m.
 TEST(CityGmlPlaced, AnImplicitGeometryStandsWhereItsMatrixAndItsPointSay) {
   const auto model =
@@ -88,6 +97,22 @@ TEST(CityGmlPlaced, AMirroredOneStaysOutward) {
       cityGml(gmlCity(gmlTree("mirror", "-1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", "0 0 0", gmlTemplate(gmlBox()))));
   ASSERT_TRUE(model) << describe(model.error());
   EXPECT_NEAR(volume(meshNamed(*model, "mirror")), 24, 1e-5);
+}
+
+TEST(CityGmlPlaced, AnOrientableSurfaceWithAMinusHasItsOtherSideInFront) {
+  std::string once = gmlBox();
+  for (std::size_t at = once.find("<gml:Polygon"); at != std::string::npos; at = once.find("<gml:Polygon", at)) {
+    const std::size_t end = once.find("</gml:Polygon>", at) + std::string("</gml:Polygon>").size();
+    const std::string turned = gmlTurned("<gml:baseSurface>" + once.substr(at, end - at) + "</gml:baseSurface>");
+    once.replace(at, end - at, turned);
+    at += turned.size();
+  }
+  const std::string twice = gmlTurned("<gml:baseSurface>" + once + "</gml:baseSurface>");
+  for (const auto& [box, expected] : {std::pair(once, -24.0), std::pair(twice, 24.0)}) {
+    const auto model = cityGml(gmlCity(gmlTree("tree", kUnturned, "0 0 0", gmlTemplate(box))));
+    ASSERT_TRUE(model) << describe(model.error());
+    EXPECT_NEAR(volume(meshNamed(*model, "tree")), expected, 1e-5);
+  }
 }
 
 TEST(CityGmlPlaced, VersionsOneAndThreeNameTheirPartsOtherwise) {
@@ -222,10 +247,7 @@ TEST(CityGmlAppearance, ATextureIsReadWithItsCoordinatesAndGoesWithItsTemplate) 
       "<gml:MultiSurface><gml:surfaceMember><gml:Polygon gml:id=\"p\"><gml:exterior><gml:LinearRing gml:id=\"ring\">"
       "<gml:posList>0 0 3 8 0 3 8 4 3 0 4 3 0 0 3</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon>"
       "</gml:surfaceMember></gml:MultiSurface>";
-  const auto texture = [](const std::string& image, const std::string& association) {
-    return "<app:surfaceDataMember><app:ParameterizedTexture><app:imageURI>" + image + "</app:imageURI>" + association +
-           "</app:ParameterizedTexture></app:surfaceDataMember>";
-  };
+  const auto texture = gmlTexture;
   const std::string list = "0 0 1 0 1 0.5 0 0.5 0 0";
   const std::string second = "<app:target uri=\"#p\"><app:TexCoordList><app:textureCoordinates ring=\"#ring\">" + list +
                              "</app:textureCoordinates></app:TexCoordList></app:target>";
@@ -238,11 +260,11 @@ TEST(CityGmlAppearance, ATextureIsReadWithItsCoordinatesAndGoesWithItsTemplate) 
   for (const std::string& association : {second, third}) {
     const auto folder = scratch();
     write(folder / "roof.png", "\x89PNG\r\n\x1a\n and so on");
-    const auto model = import(write(
-        folder / "a.gml",
-        gmlCity(gmlTree("tree", "-1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", "0 0 0", gmlTemplate(roof)) +
-                gmlAppearance("", texture("roof.png", association) + texture("gone.png", association) +
-                                      texture("roof.png", "<app:target uri=\"#p\"><app:TexCoordGen/></app:target>")))));
+    const auto model = import(
+        write(folder / "a.gml",
+              gmlCity(gmlTree("tree", "-1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", "0 0 0", gmlTemplate(roof)) +
+                      gmlAppearance("", texture("roof.png", association) + texture("gone.png", association) +
+                                            texture("roof.png", gmlProjection("#p", "9 0 0 0 0 9 0 0 0 0 0 1"))))));
     ASSERT_TRUE(model) << describe(model.error());
     ASSERT_EQ(model->environment.images.size(), 1U);
     EXPECT_EQ(surfaceNamed(*model, "tree").image, 0);
@@ -253,8 +275,55 @@ TEST(CityGmlAppearance, ATextureIsReadWithItsCoordinatesAndGoesWithItsTemplate) 
       EXPECT_EQ(mesh.texture_coordinates[i], Eigen::Vector2f(-at.x() / 8, 1 - at.y() / 8));
     }
     EXPECT_THAT(toldBy(*model), HasSubstr("colour texture 'gone.png' is missing"));
-    EXPECT_THAT(toldBy(*model), HasSubstr("textures that are placed by a matrix: 1"));
   }
+}
+
+// CityGML 2.0, 9.4: (s, t) = (s'/q', t'/q') with (s', t', q') = T p.
+TEST(CityGmlAppearance, AMatrixPlacesATextureOnEachPolygonOfItsTarget) {
+  const std::string matrix = "0.5 0 0 0  0 1 0 0  0 0 0.25 1";  // u = x / 2q, v = y / q with q = 1 + z / 4
+  const std::string third =
+      "<app:textureParameterization><app:TextureAssociation><app:target>#box</app:target>"
+      "<app:textureParameterization><app:TexCoordGen><app:worldToTexture>" +
+      matrix +
+      "</app:worldToTexture></app:TexCoordGen></app:textureParameterization></app:TextureAssociation>"
+      "</app:textureParameterization>";
+  for (const std::string& association : {gmlProjection("#box", matrix), third}) {
+    const auto folder = scratch();
+    write(folder / "a.png", "\x89PNG\r\n\x1a\n and so on");
+    const auto model =
+        import(write(folder / "a.gml", gmlCity(gmlTree("tree", kUnturned, "0 0 0", gmlTemplate(gmlBox())) +
+                                               gmlAppearance("", gmlTexture("a.png", association)))));
+    ASSERT_TRUE(model) << describe(model.error());
+    EXPECT_EQ(model->report.losses(), 0U) << toldBy(*model);
+    const Mesh& mesh = meshNamed(*model, "tree");
+    ASSERT_EQ(mesh.texture_coordinates.size(), mesh.positions.size());
+    ASSERT_EQ(mesh.triangles.size(), 12U);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      EXPECT_EQ(surfaceNamed(*model, "tree", i).image, 0);
+      for (const auto corner : mesh.triangles[i]) {
+        const Eigen::Vector3f& at = mesh.positions[corner];
+        const float q = 1 + at.z() / 4;
+        EXPECT_NEAR(mesh.texture_coordinates[corner].x(), at.x() / 2 / q, 1e-6);
+        EXPECT_NEAR(mesh.texture_coordinates[corner].y(), 1 - at.y() / q, 1e-6);
+      }
+    }
+  }
+}
+
+TEST(CityGmlAppearance, AMatrixThatPlacesNothingIsTold) {
+  const auto folder = scratch();
+  write(folder / "a.png", "\x89PNG\r\n\x1a\n and so on");
+  const auto model = import(
+      write(folder / "a.gml",
+            gmlCity(gmlTree("tree", kUnturned, "0 0 0", gmlTemplate(gmlBox())) +
+                    gmlAppearance("", gmlTexture("a.png", gmlProjection("#box", "1 2 3") +
+                                                              gmlProjection("#gone", "1 0 0 0 0 1 0 0 0 0 0 1") +
+                                                              gmlProjection("#box", "1 0 0 0 0 1 0 0 0 0 0 0"))))));
+  ASSERT_TRUE(model) << describe(model.error());
+  EXPECT_THAT(toldBy(*model), HasSubstr("matrices of textures that are not twelve numbers: 1"));
+  EXPECT_THAT(toldBy(*model), HasSubstr("textures of geometries that are not in the file: 1"));
+  EXPECT_THAT(toldBy(*model), HasSubstr("polygons that the matrix of a texture does not reach: 6"));
+  EXPECT_EQ(surfaceNamed(*model, "tree").image, -1);
 }
 
 TEST(CityGmlAppearance, WhatIsWrongInItIsTold) {
