@@ -6,9 +6,9 @@
 
 namespace standpoint {
 
-// What an IFC file calls the type of a property's value, "IFCTHERMALTRANSMITTANCEMEASURE", or of a quantity,
-// "IFCQUANTITYAREA": members of IfcValue of IFC4X3 and the simple quantities. Of what has several values (lists,
-// bounds, tables) and of files that state no types it is kNoPropertyType.
+// What an IFC file calls the type of a property's value, "IFCTHERMALTRANSMITTANCEMEASURE", of a quantity,
+// "IFCQUANTITYAREA", or of several values, "IFCPROPERTYLISTVALUE(IFCLABEL)": members of IfcValue of IFC4X3, the simple
+// quantities, usual lists and bounds. Of other values and of files that state no types it is kNoPropertyType.
 using PropertyType = std::uint8_t;
 constexpr PropertyType kNoPropertyType = 0;
 

@@ -29,10 +29,10 @@ void appendProperty(Properties& out, const std::string& set, const Entity& p, co
     if (p) out.push_back({set, p[0].text(), propertyText(p, model), propertyType(p)});
     return;
   }
-  if (depth >= 8) return;  // properties that hold each other
+  if (depth >= kDeepestProperty) return;  // properties that hold each other
   for (const Entity& part : p.refs(complex ? 3 : 2)) {
     if (out.size() >= kMostProperties) return;
-    appendProperty(out, set + "/" + p[0].text(), part, model, depth + 1);
+    appendProperty(out, set + std::string(kWithinProperty) + p[0].text(), part, model, depth + 1);
   }
 }
 

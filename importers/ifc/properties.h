@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "core/environment.h"
@@ -16,6 +17,9 @@ namespace standpoint::ifc {
 //  - "Presentation layer".
 // At most kMostProperties: sets may hold each other, and be shared by everything.
 constexpr std::size_t kMostProperties = 10'000;
+// What is within a complex property or quantity has the set "Set › Property".
+constexpr std::string_view kWithinProperty = " › ";
+constexpr int kDeepestProperty = 8;
 constexpr std::size_t kMostPropertiesInAll = 5'000'000;
 std::vector<Property> propertiesOf(const Entity& object, const Relations& relations, const Model& model);
 // Those of one set: IfcPropertySet, IfcElementQuantity, IfcMaterialProperties, or a set whose properties are attributes

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "importers/ifc/property_value.h"
 
+#include <vector>
+
 #include "importers/ifc/model/entities.h"
 #include "importers/ifc/model/units.h"
 
@@ -87,7 +89,18 @@ std::string propertyText(const Entity& p, const Model& model) {
 
 PropertyType propertyType(const Entity& p) {
   const std::string_view kind = p.typeName();
-  return propertyTypeOf(kind == "IFCPROPERTYSINGLEVALUE" ? p[2].typeName() : kind);
+  if (kind == "IFCPROPERTYSINGLEVALUE") return propertyTypeOf(p[2].typeName());
+  std::vector<Value> values;
+  if (kind == "IFCPROPERTYENUMERATEDVALUE" || kind == "IFCPROPERTYLISTVALUE")
+    for (const Value v : p[2]) values.push_back(v);
+  if (kind == "IFCPROPERTYBOUNDEDVALUE")
+    for (const std::size_t i : {2U, 3U, 5U})
+      if (p[i].present()) values.push_back(p[i]);
+  if (values.empty()) return propertyTypeOf(kind);
+  const std::string_view member = values.front().typeName();
+  for (const Value& v : values)
+    if (v.typeName() != member || v.inner().text().find(", ") != std::string::npos) return kNoPropertyType;
+  return propertyTypeOf(std::string(kind) + "(" + std::string(member) + ")");
 }
 
 }  // namespace standpoint::ifc

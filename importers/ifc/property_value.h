@@ -16,7 +16,7 @@ std::string valueText(const Value& value, const Entity& own_unit, const Model& m
 std::string joinedText(const Value& list, const Entity& own_unit, const Model& model);
 // Of IfcProperty… other than the complex ones, and of IfcPhysicalSimpleQuantity.
 std::string propertyText(const Entity& property, const Model& model);
-// Of a single value and of a simple quantity; of what has several values none.
+// Of a single value, a simple quantity, and a list or bounds of one type whose text can be taken apart again.
 PropertyType propertyType(const Entity& property);
 // What a reference names: "IfcMaterial Brick".
 std::string referenceText(const Entity& entity);

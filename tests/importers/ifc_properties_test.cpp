@@ -31,7 +31,7 @@ TEST(IfcProperties, EveryKindOfValueIsTextWithItsUnit) {
       "#120,#121,#122,#123,#125,#127")));
   EXPECT_EQ(text(productOf(model, "#110").properties),
             "Set.Status=NEW, TEMPORARY\nSet.Widths=12 mm, 15.5 mm\nSet.Range=5 (2 … 8)\nSet.Curve=1 m → 10 W; 2 m → 40 "
-            "W\nSet.Made of=IfcMaterial Brick\nSet/Outer.Deep=7\n");
+            "W\nSet.Made of=IfcMaterial Brick\nSet › Outer.Deep=7\n");
 }
 
 TEST(IfcProperties, DerivedUnitsAreWrittenOut) {

@@ -227,6 +227,44 @@ TEST(IfcWriter, GivesAProductBackWithAllThatItHad) {
   EXPECT_THAT(w.text, HasSubstr("IFCMATERIALPROPERTIES('Pset_MaterialCommon',"));
 }
 
+// What comes back has the text and the type that it had.
+TEST(IfcWriter, WritesSeveralValuesAndComplexPropertiesAsWhatTheyAre) {
+  const ImportedModel source = importText(ifcText(
+      boxSolid(200, "4.", "0.3", "2.5") + product(100, "IFCWALL", "#202") +
+      "#310=IFCSIUNIT(*,.LENGTHUNIT.,.MILLI.,.METRE.);\n"
+      "#320=IFCPROPERTYENUMERATEDVALUE('Status',$,(IFCLABEL('NEW'),IFCLABEL('30')),$);\n"
+      "#321=IFCPROPERTYLISTVALUE('Widths',$,(IFCLENGTHMEASURE(12.),IFCLENGTHMEASURE(15.5)),#310);\n"
+      "#322=IFCPROPERTYBOUNDEDVALUE('Range',$,IFCREAL(8.),IFCREAL(2.),$,IFCREAL(5.));\n"
+      "#323=IFCPROPERTYBOUNDEDVALUE('Least',$,$,IFCPOWERMEASURE(2.),$,$);\n"
+      "#324=IFCPROPERTYLISTVALUE('Words',$,(IFCLABEL('a, b'),IFCLABEL('c')),$);\n"
+      "#325=IFCPROPERTYSINGLEVALUE('Deep',$,IFCINTEGER(7),$);\n#326=IFCPROPERTYSINGLEVALUE('Outer',$,IFCREAL(1.),$);\n"
+      "#327=IFCCOMPLEXPROPERTY('Inner',$,'u',(#325,#321));\n#328=IFCCOMPLEXPROPERTY('Outer',$,'u',(#327,#325));\n"
+      "#330=IFCPROPERTYSET('0000000000000000000330',$,'Set',$,(#320,#321,#322,#323,#324,#328,#326));\n"
+      "#331=IFCRELDEFINESBYPROPERTIES('0000000000000000000331',$,$,$,(#100),#330);\n"
+      "#335=IFCQUANTITYAREA('Net',$,$,9.5,$);\n#336=IFCPHYSICALCOMPLEXQUANTITY('Layer',$,(#335),'layer',$,$);\n"
+      "#337=IFCELEMENTQUANTITY('0000000000000000000337',$,'Qto',$,$,(#335,#336));\n"
+      "#338=IFCRELDEFINESBYPROPERTIES('0000000000000000000338',$,$,$,(#100),#337);\n"));
+  const auto before = propertyTexts(productOf(source, "#100").properties);
+  EXPECT_THAT(before, testing::Contains("Set | Status | NEW, 30 | IFCPROPERTYENUMERATEDVALUE(IFCLABEL)"));
+  EXPECT_THAT(before, testing::Contains("Set › Outer › Inner | Deep | 7 | IFCINTEGER"));
+  EXPECT_THAT(before, testing::Contains("Qto › Layer | Net | 9.5 | IFCQUANTITYAREA"));
+  const Written w = written(source.environment, source.georeference);
+  auto expected = before;
+  // What its text alone does not take apart comes back as a label.
+  std::replace(expected.begin(), expected.end(), std::string("Set | Words | a, b, c | "),
+               std::string("Set | Words | a, b, c | IFCLABEL"));
+  EXPECT_EQ(propertyTexts(comeBack(w.again, "Product 100").properties), expected);
+  EXPECT_THAT(w.text, HasSubstr("IFCPROPERTYENUMERATEDVALUE('Status',$,(IFCLABEL('NEW'),IFCLABEL('30')),$)"));
+  EXPECT_THAT(w.text, HasSubstr("IFCPROPERTYLISTVALUE('Widths',$,(IFCLENGTHMEASURE(12.),IFCLENGTHMEASURE(15.5)),#"));
+  EXPECT_THAT(w.text, HasSubstr("IFCPROPERTYBOUNDEDVALUE('Range',$,IFCREAL(8.),IFCREAL(2.),$,IFCREAL(5.))"));
+  EXPECT_THAT(w.text, HasSubstr("IFCPROPERTYBOUNDEDVALUE('Least',$,$,IFCPOWERMEASURE(2.),"));
+  EXPECT_THAT(w.text, HasSubstr("IFCPROPERTYSINGLEVALUE('Words',$,IFCLABEL('a, b, c'),$)"));
+  EXPECT_THAT(w.text, HasSubstr("IFCCOMPLEXPROPERTY('Inner',$,'Inner',(#"));
+  EXPECT_THAT(w.text, HasSubstr("IFCCOMPLEXPROPERTY('Outer',$,'Outer',(#"));
+  EXPECT_THAT(w.text, HasSubstr("IFCPHYSICALCOMPLEXQUANTITY('Layer',$,(#"));
+  EXPECT_THAT(w.text, HasSubstr("IFCPROPERTYSET("));
+}
+
 TEST(IfcWriter, KeepsPlacesPartsAndRoomsAndTellsWhatItLeavesOut) {
   const ImportedModel source = importText(ifcText(fullText()));
   const Written w = written(source.environment, source.georeference);

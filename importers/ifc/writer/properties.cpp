@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
+#include <optional>
 #include <utility>
 
 #include "core/one_of.h"
 #include "core/presentation_layers.h"
+#include "importers/ifc/properties.h"
 
 namespace standpoint::ifc {
 namespace {
@@ -43,6 +44,31 @@ std::string numberText(std::string_view keyword, const std::string& number) {
                                                  "IFCQUANTITYNUMBER"};
   if (isOneOf(keyword, kWhole)) return isWhole(number) ? typed(keyword, number) : typed("IFCREAL", stepReal(number));
   return typed(keyword, isOneOf(keyword, kAny) && isWhole(number) ? number : stepReal(number));
+}
+
+// At most so many separators count.
+std::vector<std::string> splitText(std::string_view text, std::string_view separator, int most = -1) {
+  std::vector<std::string> parts;
+  for (; most != 0; --most) {
+    const auto end = text.find(separator);
+    if (end == std::string_view::npos) break;
+    parts.emplace_back(text.substr(0, end));
+    text.remove_prefix(end + separator.size());
+  }
+  parts.emplace_back(text);
+  return parts;
+}
+
+// Low, high and set point of "5 (2 … 8)", "2 … 8" or "5"; empty where there is none.
+std::vector<std::string> boundsOf(std::string_view text) {
+  constexpr std::string_view kTo = " … ", kRange = " (";
+  const auto to = text.find(kTo);
+  if (to == std::string_view::npos) return {"", "", std::string(text)};
+  const auto range = text.ends_with(')') ? text.find(kRange) : std::string_view::npos;
+  const bool both = range != std::string_view::npos && range < to;
+  const std::size_t low = both ? range + kRange.size() : 0, high = to + kTo.size();
+  return {std::string(text.substr(low, to - low)), std::string(text.substr(high, text.size() - high - (both ? 1 : 0))),
+          std::string(both ? text.substr(0, range) : std::string_view())};
 }
 
 bool isQuantity(const Property& p) { return keywordOf(p.type).starts_with("IFCQUANTITY") && !p.value.empty(); }
@@ -101,7 +127,32 @@ SortedProperties sorted(const std::vector<Property>& properties, const std::vect
 
 Ref PropertyWriter::unit(const Property& p) { return units_.unitOf(p.type, quantityOf(p.value).unit); }
 
+Ref PropertyWriter::several(const Property& p) {
+  const std::string_view type = keywordOf(p.type);
+  const auto bracket = type.find('(');
+  if (bracket == std::string_view::npos || p.value.empty()) return 0;
+  const std::string_view kind = type.substr(0, bracket), member = type.substr(bracket + 1, type.size() - bracket - 2);
+  const bool bounded = kind == "IFCPROPERTYBOUNDEDVALUE";
+  std::vector<std::string> values;  // as STEP writes them
+  std::optional<Ref> of_all;        // their unit
+  for (const std::string& text : bounded ? boundsOf(p.value) : splitText(p.value, ", ")) {
+    const Property one{"", "", text, propertyTypeOf(member)};
+    values.push_back(text.empty() && bounded ? "$" : stepValue(one));
+    if (values.back() == "$") continue;
+    const Ref own = isText(one) ? 0 : unit(one);
+    if (!values.back().starts_with(member) || own != of_all.value_or(own)) return 0;
+    of_all = own;
+  }
+  StepRecord record(kind);
+  record.raw(stepText(p.name)).none();
+  if (bounded) return out_.shared(record.raw(values[1]).raw(values[0]).ref(of_all.value_or(0)).raw(values[2]));
+  std::string list;
+  for (const std::string& value : values) list += (list.empty() ? "" : ",") + value;
+  return out_.shared(record.raw("(" + list + ")").ref(of_all.value_or(0)));
+}
+
 Ref PropertyWriter::property(const Property& p) {
+  if (const Ref of_several = several(p); of_several != 0) return of_several;
   StepRecord record("IFCPROPERTYSINGLEVALUE");
   record.raw(stepText(p.name)).none();
   if (p.value.empty() && !isText(p)) return out_.shared(record.none(2));
@@ -134,27 +185,53 @@ void PropertyWriter::addSet(Ref object, const std::string& name, std::vector<Ref
   if (objects.empty() || objects.back() != object) objects.push_back(object);
 }
 
+// Where a property of this name can be, below a group; null where a name on the way to it is taken.
+PropertyWriter::Group* PropertyWriter::roomFor(Group& group, std::span<const std::string> path,
+                                               const std::string& name) {
+  if (path.empty()) return group.names.insert(name).second ? &group : nullptr;
+  auto part = std::find_if(group.parts.begin(), group.parts.end(), [&](const Group& g) { return g.name == path[0]; });
+  if (part == group.parts.end()) {
+    if (!group.names.insert(path[0]).second) return nullptr;
+    part = group.parts.insert(part, {path[0], group.quantities, group.members.size(), {}, {}, {}});
+    group.members.push_back(0);
+  }
+  return roomFor(*part, path.subspan(1), name);
+}
+
+// What a complex property is used for, and a complex quantity distinguishes, is not kept: its name stands there.
+void PropertyWriter::close(Group& group) {
+  for (Group& part : group.parts) {
+    close(part);
+    const std::string name = stepText(part.name);
+    StepRecord record(part.quantities ? "IFCPHYSICALCOMPLEXQUANTITY" : "IFCCOMPLEXPROPERTY");
+    record.raw(name).none();
+    if (part.quantities)
+      record.refs(part.members).raw(name).none(2);
+    else
+      record.raw(name).refs(part.members);
+    group.members[part.place] = out_.shared(record);
+  }
+}
+
 void PropertyWriter::add(Ref object, const SortedProperties& properties) {
   for (const Property* p : properties.classifications) classifications_[{p->name, p->value}].push_back(object);
   // Sets in the order of their first property; a name occurs once in a set.
-  struct Open {
-    std::string name;
-    bool quantities;
-    std::set<std::string> names;
-    std::vector<Ref> members;
-  };
-  std::vector<Open> open;
+  std::vector<Group> open;
   for (const Property* p : properties.sets) {
     const Ref as_quantity = isQuantity(*p) ? quantity(*p) : 0;
     const bool quantities = as_quantity != 0;
-    auto set = std::find_if(open.begin(), open.end(), [&](const Open& o) {
-      return o.name == p->set && o.quantities == quantities && !o.names.contains(p->name);
-    });
-    if (set == open.end()) set = open.insert(open.end(), {p->set, quantities, {}, {}});
-    set->names.insert(p->name);
-    set->members.push_back(quantities ? as_quantity : property(*p));
+    const std::vector<std::string> path = splitText(p->set, kWithinProperty, kDeepestProperty);
+    const auto within = std::span(path).subspan(1);
+    Group* room = nullptr;
+    for (std::size_t i = 0; room == nullptr && i < open.size(); ++i)
+      if (open[i].name == path[0] && open[i].quantities == quantities) room = roomFor(open[i], within, p->name);
+    if (room == nullptr) room = roomFor(open.emplace_back(Group{path[0], quantities}), within, p->name);
+    room->members.push_back(quantities ? as_quantity : property(*p));
   }
-  for (Open& o : open) addSet(object, o.name, std::move(o.members), o.quantities);
+  for (Group& o : open) {
+    close(o);
+    addSet(object, o.name, std::move(o.members), o.quantities);
+  }
 }
 
 void PropertyWriter::finish() {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <map>
+#include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,7 +32,7 @@ class PropertyWriter {
   void add(Ref object, const SortedProperties& properties);
   // The relations to the objects.
   void finish();
-  // IfcPropertySingleValue.
+  // IfcPropertySingleValue; of several values IfcPropertyListValue, …EnumeratedValue, …BoundedValue.
   Ref property(const Property& p);
 
  private:
@@ -40,6 +42,18 @@ class PropertyWriter {
     bool quantities = false;
     std::vector<Ref> objects;
   };
+  // A set, or a complex property or quantity in one.
+  struct Group {
+    std::string name;
+    bool quantities = false;
+    std::size_t place = 0;  // among the members of the group that it is in
+    std::set<std::string> names;
+    std::vector<Ref> members;
+    std::vector<Group> parts;
+  };
+  static Group* roomFor(Group& group, std::span<const std::string> path, const std::string& name);
+  void close(Group& group);
+  Ref several(const Property& p);  // 0 where the text is not that of several values
   void addSet(Ref object, const std::string& name, std::vector<Ref> members, bool quantities);
   Ref quantity(const Property& p);  // 0 where its value is none
   Ref unit(const Property& p);
