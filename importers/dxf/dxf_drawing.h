@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -87,7 +88,9 @@ struct DxfDrawing {
   std::map<std::string, std::uint32_t> layer_of_key{{"0", kLayerZero}};
   DxfBlock model;
   std::map<std::string, DxfBlock> blocks;
-  DxfTally paper, invisible, clipped, twice;  // twice: blocks defined again
+  DxfTally paper, invisible, clipped, geodata, twice;  // twice: blocks defined again
+  std::map<std::string, DxfTally> users_of_material;   // entities and layers, by handle
+  std::set<std::string> materials;                     // handles of those that are more than a colour
 
   std::uint32_t layerNamed(std::string_view layer);
 };

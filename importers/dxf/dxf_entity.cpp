@@ -26,10 +26,10 @@ bool isNumber(int code) {
 void DxfEntity::begin(std::string_view new_kind, std::size_t new_line) {
   kind = new_kind;
   line = new_line;
-  for (auto* words : {&name, &text, &handle, &layer}) words->clear();
+  for (auto* words : {&name, &text, &handle, &layer, &material}) words->clear();
   for (const auto code : touched_) stated_[code] = false;
   touched_.clear();
-  points.clear(), bulges.clear(), face_corners.clear(), face_ends.clear(), face_lines.clear();
+  points.clear(), bulges.clear(), widths.clear(), face_corners.clear(), face_ends.clear(), face_lines.clear();
   in_application_ = closed_ = false;
   list_left_ = 0;
   corners_left_ = 0;
@@ -44,6 +44,7 @@ Result<void> DxfEntity::take(const DxfGroup& group, const DxfGroups& groups) {
     case 2: name = group.value.substr(0, kLongestName); return {};
     case 5: handle = group.value.substr(0, kLongestHandle); return {};
     case 8: layer = group.value.substr(0, kLongestName); return {};
+    case 347: material = group.value.substr(0, kLongestHandle); return {};
     default: break;
   }
   if (!isNumber(group.code)) return {};
@@ -66,10 +67,11 @@ Result<void> DxfEntity::take(const DxfGroup& group, const DxfGroups& groups) {
 }
 
 void DxfEntity::takePoint(int code, double value) {
-  if (code == 10) points.emplace_back(value, 0, 0), bulges.push_back(0);
+  if (code == 10) points.emplace_back(value, 0, 0), bulges.push_back(0), widths.push_back({0, 0});
   if (points.empty()) return;
   if (code == 20) points.back().y() = value;
   if (code == 30) points.back().z() = value;
+  if (code == 40 || code == 41) widths.back()[code == 40 ? 0 : 1] = value;
   if (code == 42) bulges.back() = value;
 }
 

@@ -22,7 +22,7 @@ class DxfEntity {
   // Refused where a number is none, or not below 1e13.
   Result<void> take(const DxfGroup& group, const DxfGroups& groups);
 
-  std::string kind, name, text, handle, layer;
+  std::string kind, name, text, handle, layer, material;  // material: the handle of one
   std::size_t line = 0;
 
   bool has(int code) const { return stated_[static_cast<std::size_t>(code)]; }
@@ -38,7 +38,8 @@ class DxfEntity {
 
   // Of LWPOLYLINE and MESH, which have any number of them.
   std::vector<Eigen::Vector3d> points;
-  std::vector<double> bulges;                      // LWPOLYLINE
+  std::vector<double> bulges;                      // LWPOLYLINE, of the piece that begins there
+  std::vector<std::array<double, 2>> widths;       // likewise, where it begins and ends
   std::vector<std::uint32_t> face_corners;         // MESH: indices of points, in range
   std::vector<std::size_t> face_ends, face_lines;  // into face_corners
   bool facesAreWhole() const { return corners_left_ == 0 && list_left_ <= 0; }

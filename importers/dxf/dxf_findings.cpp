@@ -46,6 +46,11 @@ DxfTallies allLosses(const DxfFindings& findings, const DxfDrawing& drawing) {
   }
   all["blocks defined twice, of which the first was kept"].add(drawing.twice);
   all["clipped blocks, read whole"].add(drawing.clipped);
+  all["geographic locations (GEODATA), not read; specify the CRS on import"].add(drawing.geodata);
+  DxfTally users;
+  for (const auto& [handle, tally] : drawing.users_of_material)
+    if (drawing.materials.contains(handle)) users.add(tally);
+  all["entities and layers with a MATERIAL, read with their colour alone"].add(users);
   return all;
 }
 

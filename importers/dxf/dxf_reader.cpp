@@ -119,6 +119,7 @@ Result<void> DxfReader::start(const DxfGroup& group) {
   entity_.begin(group.value, group.line);
   kind_ = nullptr;
   if (section_ == Section::objects && group.value == "SPATIAL_FILTER") drawing_.clipped.add({1, group.line});
+  if (section_ == Section::objects && group.value == "GEODATA") drawing_.geodata.add({1, group.line});
   if (section_ == Section::blocks && group.value == "ENDBLK") block_ = nullptr;
   if (!here) return {};
   kind_ = kindOf(group.value);
@@ -136,6 +137,8 @@ Result<void> DxfReader::take(const DxfGroup& group) {
   const bool table = section_ == Section::tables && entity_.kind == "LAYER";
   const bool block = section_ == Section::blocks && entity_.kind == "BLOCK";
   if (kind_ != nullptr || table || block) return entity_.take(group, groups_);
+  const bool material = section_ == Section::objects && entity_.kind == "MATERIAL";
+  if (material && (group.code == 1 || group.code == 5)) return entity_.take(group, groups_);
   // Of others it matters only whether they are there to see.
   if (group.code == 67 || group.code == 60) return entity_.take(group, groups_);
   return {};
@@ -175,6 +178,7 @@ Result<void> DxfReader::takeVariable(const DxfGroup& group) {
 Result<void> DxfReader::finishEntity() {
   if (section_ == Section::tables && entity_.kind == "LAYER") layer();
   if (section_ == Section::blocks && entity_.kind == "BLOCK") block();
+  if (section_ == Section::objects && entity_.kind == "MATERIAL") material();
   if (block_ == nullptr || entity_.kind.empty() || entity_.kind == "BLOCK") return {};
   if (kind_ == nullptr) {
     if (isHere()) block_->skipped[entity_.kind.substr(0, 40)].add({1, entity_.line});
@@ -207,6 +211,7 @@ DxfLook DxfReader::look() {
   DxfLook look;
   look.layer = drawing_.layerNamed(entity_.layer);
   look.colour = colour(kColourByLayer);
+  if (!entity_.material.empty()) drawing_.users_of_material[dxfKey(entity_.material)].add({1, entity_.line});
   if ((transparency & kStated) != 0) look.alpha = static_cast<std::uint8_t>(transparency & 0xFF);
   return look;
 }
@@ -218,6 +223,14 @@ void DxfReader::layer() {
   if (stated >= 0) layer.colour = stated;
   layer.off = entity_.number(62) < 0;
   layer.frozen = (entity_.flags() & kFrozen) != 0;
+  if (!entity_.material.empty()) drawing_.users_of_material[dxfKey(entity_.material)].add({1, entity_.line});
+}
+
+// Each drawing has three that are no more than a colour.
+void DxfReader::material() {
+  const std::string name = dxfKey(entity_.text);
+  if (name != "byblock" && name != "bylayer" && name != "global") drawing_.materials.insert(dxfKey(entity_.handle));
+  entity_.kind.clear();
 }
 
 void DxfReader::block() {
@@ -278,7 +291,10 @@ Result<void> DxfReader::vertex() {
   const bool polyface = (polyline_->head.flags() & kPolyfaceHead) != 0;
   if (!polyface || (flags & kFaceOfPolyface) == 0 || (flags & kCornerOfPolyface) != 0) {
     if (!polyface && (flags & kFrameOfCurve) != 0) return {};
-    polyline_->vertices.push_back({entity_.point(10), entity_.number(42)});
+    const DxfEntity& head = polyline_->head;
+    polyline_->vertices.push_back({entity_.point(10),
+                                   entity_.number(42),
+                                   {entity_.number(40, head.number(40)), entity_.number(41, head.number(41))}});
     return {};
   }
   DxfPolyline::Face face{{}, 0, polyline_->look, entity_.line};

@@ -34,6 +34,7 @@ class DxfReader {
   Result<void> finishPolyline();
 
   void layer();
+  void material();
   void block();
   Result<void> insert();
   Result<void> attribute();

@@ -14,7 +14,8 @@ using Point3 = Eigen::Vector3d;
 constexpr std::size_t kMostChords = 5'000'000;
 constexpr int kClosed = 1, kClosedInN = 32, kMeshSmooth = 4, kPolygonMesh = 16, kLine3d = 8, kPolyface = 64;
 constexpr const char* kFewCorners = "faces with fewer than three corners";
-constexpr const char* kWide = "polylines with a width, read without it";
+constexpr const char* kTooManyChords = "exceeds the limit of 5 000 000 chords of arcs";
+constexpr const char* kWide = "polylines whose width varies or does not fit their corners, read without it";
 
 void tally(DxfTallies& to, const std::string& what, std::size_t line) { to[what].add({1, line}); }
 
@@ -97,7 +98,54 @@ void toWorld(DxfBlock& block, std::size_t from, const Eigen::Matrix3d& world_fro
     block.positions[i] = world_from_object * block.positions[i];
 }
 
-bool hasWidth(const DxfEntity& e) { return e.number(40) != 0 || e.number(41) != 0 || e.number(43) != 0; }
+Point3 leftOf(const Point3& direction) { return {-direction.y(), direction.x(), 0}; }
+
+// The points to the left and to the right of a path, half a width from its pieces, which meet at a mitre. Nothing where
+// a piece is too short for the mitres at its ends, or goes back.
+struct Edges {
+  std::vector<Point3> left, right;
+};
+std::optional<Edges> edgesOf(const std::vector<Point3>& path, bool closed, double width) {
+  constexpr double kSharpest = 0.1;  // of the cosine of half a turn: 169°
+  const std::size_t n = path.size(), pieces = closed ? n : n - 1;
+  std::vector<Point3> along(pieces);
+  for (std::size_t i = 0; i < pieces; ++i) along[i] = (path[(i + 1) % n] - path[i]).normalized();
+  Edges edges;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Point3 &before = along[i == 0 ? (closed ? pieces - 1 : 0) : i - 1], &after = along[std::min(i, pieces - 1)];
+    const Point3 mean = (leftOf(before) + leftOf(after)) / 2;  // as long as the cosine of half the turn
+    if (!(mean.norm() > kSharpest)) return std::nullopt;
+    const Point3 offset = mean * (width / 2 / mean.squaredNorm());
+    edges.left.emplace_back(path[i] + offset);
+    edges.right.emplace_back(path[i] - offset);
+  }
+  for (std::size_t i = 0; i < pieces; ++i)
+    for (const auto* edge : {&edges.left, &edges.right})
+      if (!(((*edge)[(i + 1) % n] - (*edge)[i]).dot(along[i]) > 0)) return std::nullopt;
+  return edges;
+}
+
+// A body over the strip between the edges.
+void raise(const Edges& edges, bool closed, const Point3& by, const FaceWriter& to) {
+  std::array<std::vector<std::uint32_t>, 4> of;  // low left, low right, high left, high right
+  for (std::size_t i = 0; i < edges.left.size(); ++i) {
+    of[0].push_back(to.add(edges.left[i])), of[1].push_back(to.add(edges.right[i]));
+    of[2].push_back(to.add(edges.left[i] + by)), of[3].push_back(to.add(edges.right[i] + by));
+  }
+  if (by.z() < 0) std::swap(of[0], of[2]), std::swap(of[1], of[3]);
+  const auto& [low_left, low_right, high_left, high_right] = of;
+  const std::size_t n = edges.left.size(), last = n - 1;
+  for (std::size_t i = 0; i + (closed ? 0 : 1) < n; ++i) {
+    const std::size_t j = (i + 1) % n;
+    to.face(std::array{low_right[i], low_right[j], high_right[j], high_right[i]});
+    to.face(std::array{low_left[j], low_left[i], high_left[i], high_left[j]});
+    to.face(std::array{high_right[i], high_right[j], high_left[j], high_left[i]});
+    to.face(std::array{low_left[i], low_left[j], low_right[j], low_right[i]});
+  }
+  if (closed) return;
+  to.face(std::array{low_left[0], low_right[0], high_right[0], high_left[0]});
+  to.face(std::array{low_right[last], low_left[last], high_left[last], high_right[last]});
+}
 
 }  // namespace
 
@@ -166,11 +214,12 @@ Result<void> DxfShapes::circle(const DxfEntity& e, const DxfLook& look, const Dx
 
 Result<void> DxfShapes::lwPolyline(const DxfEntity& e, const DxfLook& look, const DxfGroups& groups, DxfBlock& to) {
   if (e.number(39) == 0 || e.points.size() < 2) return tally(to.skipped, e.kind, e.line), Result<void>();
-  if (hasWidth(e)) tally(to.lost, kWide, e.line);
   Path path;
   path.closed = (e.flags() & kClosed) != 0;
+  const double all = e.number(43);
   for (std::size_t i = 0; i < e.points.size(); ++i)
-    path.knots.push_back({{e.points[i].x(), e.points[i].y(), e.number(38)}, e.bulges[i]});
+    path.knots.push_back(
+        {{e.points[i].x(), e.points[i].y(), e.number(38)}, e.bulges[i], all != 0 ? std::array{all, all} : e.widths[i]});
   return extrudePath(e, path, look, groups, to);
 }
 
@@ -188,10 +237,9 @@ Result<void> DxfShapes::polyline(const DxfPolyline& p, const DxfGroups& groups, 
   }
   const bool flat = (e.flags() & kLine3d) == 0;
   if (!flat || e.number(39) == 0 || p.vertices.size() < 2) return tally(to.skipped, e.kind, e.line), Result<void>();
-  if (hasWidth(e)) tally(to.lost, kWide, e.line);
   Path path;
   path.closed = (e.flags() & kClosed) != 0;
-  for (const auto& v : p.vertices) path.knots.push_back({{v.at.x(), v.at.y(), e.number(30)}, v.bulge});
+  for (const auto& v : p.vertices) path.knots.push_back({{v.at.x(), v.at.y(), e.number(30)}, v.bulge, v.widths});
   return extrudePath(e, path, p.look, groups, to);
 }
 
@@ -237,8 +285,7 @@ Result<std::vector<Point3>> DxfShapes::flattened(const Path& path, std::size_t l
     const Point3 centre = (a + b) / 2 + left * ((1 - k * k) / (4 * k)), spoke = a - centre;
     const double sweep_rad = 4 * std::atan(k);
     const int pieces = geometry::segmentCount(spoke.norm() * metres_per_unit_, std::abs(sweep_rad), tessellation_);
-    if ((chords_ += static_cast<std::size_t>(pieces)) > kMostChords)
-      return groups.fault(line, "exceeds the limit of 5 000 000 chords of arcs");
+    if ((chords_ += static_cast<std::size_t>(pieces)) > kMostChords) return groups.fault(line, kTooManyChords);
     for (int j = 1; j < pieces; ++j) {
       const double angle_rad = sweep_rad * j / pieces, c = std::cos(angle_rad), s = std::sin(angle_rad);
       points.push_back(centre + Point3(c * spoke.x() - s * spoke.y(), s * spoke.x() + c * spoke.y(), 0));
@@ -247,7 +294,17 @@ Result<std::vector<Point3>> DxfShapes::flattened(const Path& path, std::size_t l
   return points;
 }
 
-// A circle is a solid then, a closed polyline a wall without ceiling and floor.
+// That of all pieces; nothing where they differ.
+std::optional<double> DxfShapes::widthOf(const Path& path) {
+  const double width = path.knots.front().widths[0];
+  for (std::size_t i = 0; i + (path.closed ? 0 : 1) < path.knots.size(); ++i)
+    for (const double w : path.knots[i].widths)
+      if (w != width) return std::nullopt;
+  return width >= 0 ? std::optional(width) : std::nullopt;
+}
+
+// A circle is a solid then, a polyline with a width a wall, and a closed one without width has neither ceiling nor
+// floor.
 Result<void> DxfShapes::extrudePath(const DxfEntity& e, const Path& path, const DxfLook& look, const DxfGroups& groups,
                                     DxfBlock& to) {
   TRY_ASSIGN(auto points, flattened(path, e.line, groups));
@@ -255,8 +312,17 @@ Result<void> DxfShapes::extrudePath(const DxfEntity& e, const Path& path, const 
   while (path.closed && points.size() > 1 && points.back() == points.front()) points.pop_back();
   if (points.size() < (path.closed ? 3 : 2)) return tally(to.skipped, e.kind, e.line), Result<void>();
   const std::size_t from = to.positions.size();
-  extrude(std::move(points), path.closed, e.kind == "CIRCLE", {0, 0, e.number(39)},
-          FaceWriter(to, look, e.line, newEntity(to, e)));
+  const FaceWriter writer(to, look, e.line, newEntity(to, e));
+  const Point3 by(0, 0, e.number(39));
+  const auto width = widthOf(path);
+  const auto edges = width.value_or(0) > 0 ? edgesOf(points, path.closed, *width) : std::nullopt;
+  if (!width || (*width > 0 && !edges)) tally(to.lost, kWide, e.line);
+  if (edges && (chords_ += 3 * points.size()) > kMostChords)  // four faces to each
+    return groups.fault(e.line, kTooManyChords);
+  if (edges)
+    raise(*edges, path.closed, by, writer);
+  else
+    extrude(std::move(points), path.closed, e.kind == "CIRCLE", by, writer);
   toWorld(to, from, worldFromObject(e.normal()));
   return {};
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,6 +19,7 @@ struct DxfPolyline {
   struct Vertex {
     Eigen::Vector3d at;
     double bulge;
+    std::array<double, 2> widths;
   };
   std::vector<Vertex> vertices;
   struct Face {  // of a polyface mesh
@@ -50,11 +53,13 @@ class DxfShapes {
   struct Knot {
     Eigen::Vector3d at;  // in the object's frame
     double bulge = 0;    // of the piece that begins here
+    std::array<double, 2> widths{};
   };
   struct Path {
     std::vector<Knot> knots;
     bool closed = false;
   };
+  static std::optional<double> widthOf(const Path& path);
   Result<std::vector<Eigen::Vector3d>> flattened(const Path& path, std::size_t line, const DxfGroups& groups);
   Result<void> extrudePath(const DxfEntity& e, const Path& path, const DxfLook& look, const DxfGroups& groups,
                            DxfBlock& to);

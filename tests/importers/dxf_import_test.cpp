@@ -131,6 +131,35 @@ TEST(Dxf, RaisesWhatHasAThickness) {
   EXPECT_NEAR(bounds(line.environment).max.y(), 2, 1e-6);
 }
 
+// The volume of a wall that is mitred at its corners is that over its middle line.
+TEST(Dxf, RaisesAWallOfAPolylineWithAWidth) {
+  const auto wall = dxfEntities("0 LWPOLYLINE|8 0|90 3|70 0|43 0.5|38 1|39 3|10 0|20 0|10 4|20 0|10 4|20 2");
+  EXPECT_NEAR(dxfVolume(wall), 6 * 0.5 * 3, 1e-5);
+  Bounds box = bounds(wall.environment);
+  EXPECT_TRUE(box.min.isApprox(Eigen::Vector3d(0, -0.25, 1), 1e-6)) << box.min.transpose();
+  EXPECT_TRUE(box.max.isApprox(Eigen::Vector3d(4.25, 2, 4), 1e-6)) << box.max.transpose();
+  // Round a room of 4 by 3 m in the middle of the walls, downward, as an old polyline.
+  const auto room = dxfEntities(
+      "0 POLYLINE|8 0|66 1|70 1|39 -3|40 0.5|41 0.5|10 0|20 0|30 0|0 VERTEX|10 0|20 0|0 VERTEX|10 4|20 0|0 VERTEX|10 "
+      "4|20 3|0 VERTEX|10 0|20 3|0 SEQEND");
+  EXPECT_NEAR(dxfVolume(room), 14 * 0.5 * 3, 1e-5);
+  EXPECT_NEAR(dxfArea(room), 2 * 14 * 0.5 + 2 * 14 * 3, 1e-4);
+  box = bounds(room.environment);
+  EXPECT_TRUE(box.min.isApprox(Eigen::Vector3d(-0.25, -0.25, -3), 1e-6)) << box.min.transpose();
+  // Half a circle of radius 2.
+  const auto bend = dxfEntities("0 LWPOLYLINE|8 0|90 2|39 1|10 -2|20 0|40 1|41 1|42 -1|10 2|20 0|40 7");
+  EXPECT_NEAR(dxfVolume(bend), 2 * std::numbers::pi, 0.01);
+  EXPECT_NEAR(bounds(bend.environment).max.y(), 2.5, 0.005);
+  for (const auto* model : {&wall, &room, &bend}) EXPECT_EQ(toldByDxf(*model), "");
+  // A width that the corner has no room for, and one that goes back.
+  for (const std::string points :
+       {"|43 3|10 0|20 0|10 4|20 0|10 4|20 1|10 0|20 1", "|43 1|10 0|20 0|10 4|20 0|10 0|20 0"}) {
+    const auto thin = dxfEntities("0 LWPOLYLINE|8 0|39 2" + points);
+    EXPECT_THAT(toldByDxf(thin), HasSubstr("width varies or does not fit their corners, read without it: 1"));
+    EXPECT_GT(dxfArea(thin), 15.9);
+  }
+}
+
 // z×n = y, n×y = z: by the arbitrary axis algorithm a, b, c of the object are b, c along y, z and c along x.
 TEST(Dxf, TurnsWhatIsDrawnInAnotherPlane) {
   const auto upright =
@@ -308,7 +337,7 @@ TEST(Dxf, TellsWhatHasNoFaces) {
              .entities = "0 3DSOLID|8 0|1 acis|0 LINE|10 0|20 0|30 0|11 1|21 0|31 0|0 LINE|10 0|20 0|11 1|21 1|0 "
                          "AEC_WALL|8 0|0 VIEWPORT|0 INSERT|2 Xref|0 INSERT|2 Nowhere|0 MESH|91 2|92 3|10 0|20 "
                          "0|30 0|10 1|20 0|30 0|10 0|20 1|30 0|93 7|90 3|90 0|90 1|90 2|90 2|90 0|90 1|0 "
-                         "LWPOLYLINE|43 0.5|39 1|10 0|20 0|10 1|20 0"});
+                         "LWPOLYLINE|39 1|10 0|20 0|10 1|20 0|40 0|41 0.5|10 2|20 0"});
   const std::string told = toldByDxf(model);
   EXPECT_THAT(told, HasSubstr("'3DSOLID' entities skipped (a body without faces; convert it to a mesh): 1"));
   EXPECT_THAT(told, HasSubstr("'LINE' entities skipped (not a surface): 2"));
@@ -318,10 +347,28 @@ TEST(Dxf, TellsWhatHasNoFaces) {
   EXPECT_THAT(told, HasSubstr("inserted blocks that are not in the file: 1"));
   EXPECT_THAT(told, HasSubstr("meshes with smoothness, read as their base mesh: 1"));
   EXPECT_THAT(told, HasSubstr("faces with fewer than three corners: 1"));
-  EXPECT_THAT(told, HasSubstr("polylines with a width, read without it: 1"));
+  EXPECT_THAT(told, HasSubstr("polylines whose width varies or does not fit their corners, read without it: 1"));
   EXPECT_THAT(told, HasSubstr("blocks defined twice, of which the first was kept: 1"));
   EXPECT_THAT(told, Not(HasSubstr("HATCH")));
   EXPECT_THAT(told, Not(HasSubstr("VIEWPORT")));
+}
+
+TEST(Dxf, TellsOfMaterialsClippingAndPlacesOnTheMap) {
+  auto faces = kDxfTriangle;
+  faces.replace(faces.find("|8 0"), 4, "|8 Brick|347 A1") += "|" + kDxfTriangle + "|347 9";
+  const DxfText drawing{.layers = "0 LAYER|2 Brick|70 0|62 1|347 A1|0 LAYER|2 Plain|70 0|62 4|347 9",
+                        .entities = faces};
+  std::string text = drawing.text();
+  text.insert(text.rfind("  0\nEOF"), dxfSection("OBJECTS",
+                                                 "0 MATERIAL|5 9|1 Global|40 x|0 MATERIAL|5 a1|1 Masonry"
+                                                 "|0 MATERIAL|5 B2|1 Unused|0 SPATIAL_FILTER|70 2|0 GEODATA"));
+  const auto model = dxf(text);
+  ASSERT_TRUE(model) << describe(model.error());
+  const std::string told = toldByDxf(*model);
+  EXPECT_THAT(told, HasSubstr("loss line 24: entities and layers with a MATERIAL, read with their colour alone: 2"));
+  EXPECT_THAT(told, HasSubstr("clipped blocks, read whole: 1"));
+  EXPECT_THAT(told, HasSubstr("geographic locations (GEODATA), not read; specify the CRS on import: 1"));
+  EXPECT_EQ(model->report.losses(), 3U);
 }
 
 TEST(Dxf, ReadsAllLineEndsAndComments) {
