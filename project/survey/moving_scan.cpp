@@ -71,7 +71,7 @@ std::optional<ScanOperator> operatorOf(const CarriedTrajectory& trajectory, cons
   return ScanOperator{.scanner_path = carried.path,
                       .height_m = trajectory.height_m > 0 ? trajectory.height_m : carrier->limits.height_m,
                       .in_front = carrier->id == "hand",
-                      .ahead_s = options.movers_from_s};
+                      .ahead_s = options.movers_from_s.value_or(0)};
 }
 
 Result<void> writeTrajectory(const PoseFunction& function, const Georeference& georeference, fs::path beside,

@@ -111,7 +111,25 @@ std::string textOf(const Weather& w) {
   return text;
 }
 
+void noteMoversFrom(ScanRequest& request) {
+  const double from_s = request.options.bodies_ahead_s;
+  if (from_s != 0) request.notes.push_back(fmt::format("movers-from={} s", from_s));
+}
+
 }  // namespace
+
+double stationStart_s(const ScanRequest& request, std::size_t station) {
+  const double each_s = request.settings.scan_seconds + request.settings.imaging_seconds;
+  return static_cast<double>(station) * (each_s + (request.stations_follow ? kChangeover_s : 0));
+}
+
+ScanRequest requestAt(const ScanRequest& request, std::size_t station) {
+  ScanRequest of_station = request;
+  if (!request.stations_follow) return of_station;
+  of_station.options.bodies_ahead_s = stationStart_s(request, station);
+  noteMoversFrom(of_station);
+  return of_station;
+}
 
 ScanChoice choiceOf(const ScanRequest& request) {
   return {.instrument = request.instrument.id,
@@ -278,7 +296,7 @@ const Fields<ScanVerbOptions>& scanFields() {
       {"movers", &O::movers, "off: nothing moves; people and vehicles are not there, and doors are closed"},
       {"movers-from",
        &O::movers_from_s,
-       "time of the movers' clock when the scan begins",
+       "time of the movers' clock when each scan begins; without it stations follow one another, 60 s apart",
        {.unit = "s", .minimum = -1e6, .maximum = 1e6}},
       {"operator", &O::operator_there, "off: who carries the scanner along a trajectory is not in its sight"},
       {"truth", &O::truth, "write the truth of each point: time, return, true place, range, incidence, power, origin"},
@@ -328,11 +346,12 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const ScanVerbOpti
   request.levelling = {.compensator = options.compensator == Switch::on,
                        .exact = !request.options.effects.has(Effect::levelling),
                        .seed = request.options.seed};
-  request.options.bodies_ahead_s = options.movers_from_s;
-  if (options.movers_from_s != 0) request.notes.push_back(fmt::format("movers-from={} s", options.movers_from_s));
+  request.options.bodies_ahead_s = options.movers_from_s.value_or(0);
+  noteMoversFrom(request);
   TRY(choosePanorama(request, options));
   const bool truth = options.truth;
   const bool movers = options.movers == Switch::on && document.job && !document.job->movers.empty();
+  request.stations_follow = movers && !carried && !options.movers_from_s;
   request.options.channels = {.time = truth || carried || movers,
                               .channel = laserChannels(request.instrument) > 1,
                               .returns = truth || request.instrument.waveform.max_returns > 1,

@@ -138,12 +138,14 @@ class ScanRun {
     const auto started = std::chrono::steady_clock::now();
     Station& station = job_.stations[request_.stations[k]];
     const auto file = fileOf(request_, station);
-    const auto guid = guidOf(fingerprint_, station, believed_[k], request_);
+    const ScanRequest request = requestAt(request_, request_.stations[k]);
+    const auto guid = guidOf(fingerprint_, station, believed_[k], request);
     const auto span = spanOf(k);
     progress.stage("Scan " + span.name, span.from, span.to);
     const auto earlier = request_.resume && isBatch() ? parts_.finished(station.name, guid) : std::nullopt;
     const bool is_there = earlier && isWhole(station.name, file, earlier->bytes);
-    TRY_ASSIGN(auto count, is_there ? taken(k, file, guid, *earlier, progress) : scanned(k, file, guid, progress));
+    TRY_ASSIGN(auto count,
+               is_there ? taken(k, file, guid, *earlier, progress) : scanned(k, file, guid, request, progress));
     finished_.push_back(station.name);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     rows.push_back(scanRow(station, count, seconds, request_, file));
@@ -167,10 +169,10 @@ class ScanRun {
   }
 
   ScanHeader header(std::size_t k, const std::string& guid) const {
-    const double start = kFirstStart_gps_s + static_cast<double>(request_.stations[k]) *
-                                                 (request_.settings.scan_seconds + request_.settings.imaging_seconds);
-    const auto& station = job_.stations[request_.stations[k]];
-    auto made = scanHeader(document_, world_, station.name, believed_[k], guid, request_, start);
+    const std::size_t index = request_.stations[k];
+    const auto& station = job_.stations[index];
+    auto made = scanHeader(document_, world_, station.name, believed_[k], guid, requestAt(request_, index),
+                           kFirstStart_gps_s + stationStart_s(request_, index));
     if (company_believes_ && made.has_truth) {
       made.true_file_from_scanner = station.true_pose;
       made.true_file_from_scanner->translation += document_.georeference->shift_m;
@@ -193,7 +195,8 @@ class ScanRun {
     return earlier.count;
   }
 
-  Result<ScanCount> scanned(std::size_t k, const fs::path& file, const std::string& guid, Progress& progress) {
+  Result<ScanCount> scanned(std::size_t k, const fs::path& file, const std::string& guid, const ScanRequest& request,
+                            Progress& progress) {
     const auto& station = job_.stations[request_.stations[k]];
     TRY(open(file));
     std::unique_ptr<PointTape> tape;
@@ -204,7 +207,7 @@ class ScanRun {
     PointSink& file_sink = tape ? static_cast<PointSink&>(*tape) : *sink_;
     const auto watched = watchedOr(file_sink);
     PointSink& sink = watched ? *watched : file_sink;
-    auto count = scanStation(scene_, world_, station, header(k, guid), request_, sink, report, spanOf(k), progress);
+    auto count = scanStation(scene_, world_, station, header(k, guid), request, sink, report, spanOf(k), progress);
     if (!count) return count;
     if (tape) TRY(tape->close());
     TRY(closeAfter(k));

@@ -273,8 +273,9 @@ struct ScanVerbOptions {
   std::optional<std::uint32_t> panorama_columns;
   Switch compensator = Switch::on;
   Switch movers = Switch::on;
-  double movers_from_s = 0;            // their clock when the scan's own shows 0
-  Switch operator_there = Switch::on;  // of a scanner that is carried: in its sight
+  std::optional<double> movers_from_s;  // their clock when a scan's own shows 0; nothing: 0 at the first station, on
+                                        // from there at the others, as the crew gets to them
+  Switch operator_there = Switch::on;   // of a scanner that is carried: in its sight
   bool truth = false;
   std::string as;   // variant of the format
   int threads = 0;  // 0: all

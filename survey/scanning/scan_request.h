@@ -28,6 +28,7 @@ struct ScanRequest {
   bool panorama = false;               // each station takes its pictures, and the points are coloured from them
   std::uint32_t panorama_columns = 0;  // that were asked for; 0: the instrument's own
   FieldFault field_fault;
+  bool stations_follow = false;    // by the clock of what moves, each station of the job after the one before
   std::vector<std::string> notes;  // "key=text" for the files' record
   bool resume = false;             // stations that an earlier run finished are not scanned again
 };

@@ -7,6 +7,7 @@
 #include "core/data_folder.h"
 #include "pointclouds/formats.h"
 #include "project/storage/project_files.h"
+#include "survey/movers/moving_world.h"
 #include "tests/pointclouds/kept_scans.h"
 #include "tests/project/support.h"
 
@@ -110,6 +111,53 @@ TEST(MoverVerb, GivesEachPointItsTimeWhereSomethingMoves) {
     EXPECT_EQ(kept.scans[0].header.has_time, timed) << movers;
     EXPECT_EQ(kept.scans[0].points.time_s.empty(), !timed) << movers;
   }
+}
+
+// Ada is where the clock of the project's second scan has brought her.
+TEST(MoverVerb, GoesOnWhileTheCrewGetsToTheNextStation) {
+  const TemporaryFolder folder;
+  const Document made = after(twoStoreyDocument(), {{"station", {{"add", "S1"}, {"on", {500003, 5600003, 0}}}},
+                                                    {"station", {{"add", "S2"}, {"on", {500003, 5600003, 0}}}},
+                                                    {"mover", passerby()}});
+  const auto kept = scanOf(made, kQuick, folder.path() / "both.e57");
+  ASSERT_EQ(kept.scans.size(), 2U);
+  const ScanHeader& second = kept.scans[1].header;
+  const double began_s = second.acquisition_start_gps_s - kept.scans[0].header.acquisition_start_gps_s;
+  EXPECT_NEAR(began_s, kept.scans[0].header.acquisition_seconds + 60, 1e-6);
+  const auto path = moverPath(made.job->movers[0]);
+  ASSERT_TRUE(path);
+  std::size_t seen = 0, away = 0;  // from where the clock of each scan alone would have her
+  for (std::size_t i = 0; i < kept.scans[1].points.size(); ++i) {
+    const PointBlock& b = kept.scans[1].points;
+    if (second.products[b.product[i]].ifc_class != "Person") continue;
+    const Eigen::Vector3d place =
+        truePose(second) * Eigen::Vector3d(b.truth.x_m[i], b.truth.y_m[i], b.truth.z_m[i]) - made.georeference->shift_m;
+    const auto off = [&](double clock_s) { return (place - (*path)->pose(clock_s).translation).head<2>().norm(); };
+    EXPECT_LT(off(began_s + b.time_s[i]), 0.6);
+    ++seen, away += off(b.time_s[i]) > 0.6 ? 1 : 0;
+  }
+  EXPECT_GT(seen, 50U);
+  EXPECT_GT(away, 50U);
+}
+
+TEST(MoverVerb, ScansAStationAtItsTimeWithTheOthersOrAlone) {
+  const TemporaryFolder folder;
+  const Document made = after(twoStoreyDocument(), {{"station", {{"add", "S1"}, {"on", {500003, 5600003, 0}}}},
+                                                    {"station", {{"add", "S2"}, {"on", {500002, 5600003, 0}}}},
+                                                    {"mover", passerby()}});
+  const auto scanned = [&](const char* name, json options) {
+    options.update(kQuick);
+    options["output"] = (folder.path() / name).string();
+    const auto outcome = run("scan", made, options);
+    EXPECT_TRUE(outcome) << describe(outcome.error());
+    return standpoint::testing::bytesOf(folder.path() / name / "S2.e57");
+  };
+  const std::string whole = scanned("whole", json::object());
+  ASSERT_GT(whole.size(), 1000U);
+  EXPECT_TRUE(scanned("alone", {{"stations", "S2"}}) == whole);
+  EXPECT_TRUE(scanned("shard", {{"shard", "2/2"}}) == whole);
+  EXPECT_TRUE(scanned("one thread", {{"threads", 1}}) == whole);
+  EXPECT_FALSE(scanned("at once", {{"movers-from", 0}}) == whole);
 }
 
 TEST(MoverVerb, TurnsAProductOfTheModel) {
