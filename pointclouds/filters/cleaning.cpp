@@ -62,6 +62,7 @@ class LastSink final : public PointSink {
 
   Result<void> begin(const ScanHeader& header) override {
     header_ = header;
+    is_plainly_mixed_ = PlainlyMixed(header);
     countsOfClass();
     for (FilterFigures& f : cleaning_.filters) f.has_truth |= header.has_truth, f.has_labels |= header.has_labels;
     ScanHeader cleaned = header;  // it is another scan than it was
@@ -110,9 +111,7 @@ class LastSink final : public PointSink {
   void count(const PointBlock& block, std::size_t i, std::uint8_t fate) {
     const std::uint8_t flags = header_.has_truth ? block.truth.flags[i] : std::uint8_t{0};
     const bool good = (flags & kFlawed) == 0;
-    const bool plainly_mixed =
-        (flags & point_flag::kMixed) != 0 && std::abs(Eigen::Vector3f(block.x_m[i], block.y_m[i], block.z_m[i]).norm() -
-                                                      block.truth.range_m[i]) > kPlainly_m;
+    const bool plainly_mixed = is_plainly_mixed_(block, i);
     const std::size_t last = fate == 0 ? cleaning_.filters.size() : fate;
     for (std::size_t k = 0; k < last; ++k) {
       FilterFigures& f = cleaning_.filters[k];
@@ -135,6 +134,7 @@ class LastSink final : public PointSink {
   Cleaning& cleaning_;
   std::string words_;
   ScanHeader header_;
+  PlainlyMixed is_plainly_mixed_;
   std::uint64_t next_ = 0;
   std::vector<std::uint32_t> stay_;
   std::vector<std::vector<Taken*>> of_product_;  // by filter, then label
@@ -164,6 +164,14 @@ Result<void> apply(const CloudFormat& format, const std::filesystem::path& in, F
 }
 
 }  // namespace
+
+PlainlyMixed::PlainlyMixed(const ScanHeader& header) : from_scanner_(header.has_truth && stationOf(header)) {}
+
+bool PlainlyMixed::operator()(const PointBlock& block, std::size_t i) const {
+  if (!from_scanner_ || (block.truth.flags[i] & point_flag::kMixed) == 0) return false;
+  const float range_m = Eigen::Vector3f(block.x_m[i], block.y_m[i], block.z_m[i]).norm();
+  return std::abs(range_m - block.truth.range_m[i]) > kPlainly_m;
+}
 
 const std::array<const char*, 8>& flagNames() {
   static const std::array<const char*, 8> names = {"mixed",     "mirrored", "through_pane", "weather",

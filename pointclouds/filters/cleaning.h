@@ -21,6 +21,18 @@ constexpr double kPlainly_m = 0.01;
 constexpr std::uint8_t kFlawed =
     point_flag::kMixed | point_flag::kMirrored | point_flag::kWeather | point_flag::kMoving | point_flag::kNoise;
 
+// Whether a point of a scan with truth is flagged as mixed and is, along its beam, off by more than kPlainly_m. Along a
+// trajectory points are about no scanner, so that none is known to be.
+class PlainlyMixed {
+ public:
+  PlainlyMixed() = default;
+  explicit PlainlyMixed(const ScanHeader& header);
+  bool operator()(const PointBlock& block, std::size_t i) const;
+
+ private:
+  bool from_scanner_ = false;
+};
+
 // How many points of a kind a filter saw, and how many of them it took.
 struct Taken {
   std::uint64_t in = 0, taken = 0;

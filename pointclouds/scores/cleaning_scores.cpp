@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pointclouds/scores/cleaning_scores.h"
 
-#include <cmath>
 #include <map>
 #include <utility>
 
 #include "pointclouds/files/block_check.h"
 #include "pointclouds/formats.h"
-#include "pointclouds/statistics/cloud_sample.h"
 
 namespace standpoint {
 
@@ -61,7 +59,7 @@ class TallySink final : public CleanedSink {
 
  private:
   void beginTruth() override {
-    has_station_ = stationOf(header_).has_value();
+    is_plainly_mixed_ = PlainlyMixed(header_);
     of_product_.clear();
     if (!header_.has_labels) return;
     for (const LabelledProduct& product : header_.products) {
@@ -80,9 +78,7 @@ class TallySink final : public CleanedSink {
     add(is_flawed ? scores_.flawed : scores_.good);
     for (std::size_t bit = 0; flags != 0 && bit < scores_.flags.size(); ++bit)
       if ((flags >> bit & 1) != 0) add(scores_.flags[bit]);
-    if (has_station_ && (flags & point_flag::kMixed) != 0 &&
-        std::abs(Eigen::Vector3f(b.x_m[i], b.y_m[i], b.z_m[i]).norm() - b.truth.range_m[i]) > kPlainly_m)
-      add(scores_.plainly_mixed);
+    if (is_plainly_mixed_(b, i)) add(scores_.plainly_mixed);
     if (!header_.has_labels) return;
     const auto& [of_class, mover] = of_product_[b.product[i]];
     add(is_flawed ? of_class->flawed : of_class->good);
@@ -90,7 +86,7 @@ class TallySink final : public CleanedSink {
   }
 
   CleaningScores scores_;
-  bool has_station_ = false;  // points are about their scanner
+  PlainlyMixed is_plainly_mixed_;
   std::map<std::string, CleanedClass> classes_;
   std::map<std::pair<std::string, std::string>, CleanedMover> movers_;
   std::vector<std::pair<CleanedClass*, CleanedMover*>> of_product_;  // of this scan

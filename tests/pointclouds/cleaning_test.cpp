@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/random.h"
+#include "pointclouds/scores/cleaning_scores.h"
 #include "tests/pointclouds/same_points.h"
 
 namespace standpoint {
@@ -25,6 +26,7 @@ struct MadeScan {
   std::function<std::uint8_t(std::uint32_t column, std::uint32_t row)> flags = [](auto, auto) {
     return std::uint8_t{0};
   };
+  double range_off_m = 0;  // of the points; the truth has none of it
   bool grid = true;
 };
 
@@ -49,7 +51,7 @@ void writeMade(const std::filesystem::path& file, const std::vector<MadeScan>& s
                                    std::sin(elevation));
         const double range = scan.range_m(column, row, beam);
         if (range <= 0) continue;
-        const Eigen::Vector3f p = (range * beam).cast<float>();
+        const Eigen::Vector3f p = ((range + scan.range_off_m) * beam).cast<float>();
         b.x_m.push_back(p.x()), b.y_m.push_back(p.y()), b.z_m.push_back(p.z());
         b.intensity.push_back(static_cast<float>(row) / static_cast<float>(scan.rows));
         b.row.push_back(row), b.column.push_back(column), b.product.push_back(0), b.material.push_back(0);
@@ -369,6 +371,28 @@ TEST(Cleaning, CarriesEveryChannelOfEveryScan) {
   }
   EXPECT_EQ(left, done->points_out);
   EXPECT_LT(left, done->points_in);
+}
+
+// Points of a scan along a trajectory are about no scanner: how far they are from where they begin says nothing.
+TEST(Cleaning, KnowsWhatIsPlainlyMixedOnlyWhereAScannerStood) {
+  const TemporaryFolder folder;
+  for (const bool carried : {false, true}) {
+    MadeScan scan = edge(false);
+    scan.range_off_m = 0.02;
+    if (carried) scan.at = {3, 4, 1}, scan.grid = false;
+    const auto file = folder / (carried ? "carried.e57" : "stood.e57");
+    writeMade(file, {scan});
+    const std::uint64_t expected = carried ? 0 : 100;
+    const auto done = clean(file, folder / "out.e57", {"intensity:from=0,to=1"});
+    ASSERT_OK(done);
+    EXPECT_EQ(done->filters[0].flags[0].in, 100U);
+    EXPECT_EQ(done->filters[0].plainly_mixed.in, expected);
+    Progress progress;
+    const auto scores = cleaningScores(file, std::vector<std::uint8_t>(done->points_in, 1), progress);
+    ASSERT_OK(scores);
+    EXPECT_EQ(scores->flags[0].in, 100U);
+    EXPECT_EQ(scores->plainly_mixed.in, expected);
+  }
 }
 
 TEST(Cleaning, SaysWhatCannotBe) {
