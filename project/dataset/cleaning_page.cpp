@@ -11,6 +11,7 @@
 #include "pointclouds/scores/cleaning_scores.h"
 #include "project/dataset/cleaning_score.h"
 #include "project/dataset/error_drawing.h"
+#include "project/dataset/share_text.h"
 
 namespace standpoint {
 
@@ -18,12 +19,6 @@ namespace {
 
 constexpr const char* kCleaningStyle = "svg.e{max-height:none;border:none}\n";
 
-std::string percentText(const std::optional<double>& share) {
-  return share ? fmt::format("{:.2f} %", 100 * *share) : std::string("–");
-}
-std::string percentCell(const std::optional<double>& share) {
-  return "<td class=\"n\">" + (share ? fmt::format("{:.2f}", 100 * *share) : "–");
-}
 std::string countCells(std::uint64_t in, std::uint64_t removed) {
   return fmt::format("<td class=\"n\">{}<td class=\"n\">{}", groupedDigits(in), groupedDigits(removed));
 }
@@ -44,8 +39,8 @@ std::string causesHtml(const CleaningAnswer& answer) {
       reportTable(
           {{"Cause"}, {"Points", true}, {"Removed", true}, {"Recall, %", true}, {"Of all that was removed, %", true}});
   const auto row = [&](const std::string& name, const CleanCause& c) {
-    text += "<tr><td>" + htmlText(name) + countCells(c.in, c.removed) + percentCell(c.recall) +
-            percentCell(c.precision) + "</tr>\n";
+    text += "<tr><td>" + htmlText(name) + countCells(c.in, c.removed) + shareCell(c.recall) + shareCell(c.precision) +
+            "</tr>\n";
   };
   for (const auto& [flag, name] : causeWords())
     if (const auto& cause = answer.causes.at(flag); cause.in > 0) row(printed(name), cause);
@@ -67,8 +62,8 @@ std::string classesHtml(const CleaningAnswer& answer) {
                                                                                 {"Removed", true},
                                                                                 {"Recall, %", true}});
   for (const auto& c : answer.classes)
-    text += "<tr><td>" + htmlText(c.name) + countCells(c.good.in, c.good.removed) + percentCell(c.good.fraction) +
-            countCells(c.flawed.in, c.flawed.removed) + percentCell(c.flawed.fraction) + "</tr>\n";
+    text += "<tr><td>" + htmlText(c.name) + countCells(c.good.in, c.good.removed) + shareCell(c.good.fraction) +
+            countCells(c.flawed.in, c.flawed.removed) + shareCell(c.flawed.fraction) + "</tr>\n";
   return text + "</table>\n";
 }
 
@@ -78,7 +73,7 @@ std::string moversHtml(const CleaningAnswer& answer) {
       reportHeading("What moved") + reportTable({{"Mover"}, {"Points", true}, {"Removed", true}, {"Recall, %", true}});
   for (const auto& m : answer.movers)
     text += "<tr><td>" + htmlText(m.name.empty() ? m.id : m.name) + countCells(m.points.in, m.points.removed) +
-            percentCell(m.points.fraction) + "</tr>\n";
+            shareCell(m.points.fraction) + "</tr>\n";
   return text + "</table>\n";
 }
 
@@ -87,7 +82,7 @@ std::string cleaningPage(const CleaningAnswer& a, const std::string& pictures) {
   text +=
       "<p class=\"verdict\">" +
       htmlText(printedf("Removed {} of what should go; lost {} of the good points; {} of what was removed should go",
-                        percentText(a.flawed.recall), percentText(a.good.fraction), percentText(a.flawed.precision))) +
+                        shareText(a.flawed.recall), shareText(a.good.fraction), shareText(a.flawed.precision))) +
       "</p>\n<p>" +
       htmlText(printedf("Cleaned cloud: {}, {} points. Truth: {}, {} points, of which {} were removed.",
                         a.cleaned.string(), groupedDigits(a.cleaned_points), a.truth.string(), groupedDigits(a.points),

@@ -7,6 +7,7 @@
 
 #include "pointclouds/scores/cleaning_scores.h"
 #include "pointclouds/scores/kept_points.h"
+#include "project/dataset/share_text.h"
 
 namespace standpoint {
 
@@ -27,10 +28,6 @@ void takeScores(const CleaningScores& scores, CleaningAnswer& answer) {
   answer.plainly_mixed = countOf(scores.plainly_mixed);
   for (const auto& one : scores.classes) answer.classes.push_back({one.name, countOf(one.good), countOf(one.flawed)});
   for (const auto& one : scores.movers) answer.movers.push_back({one.id, one.name, countOf(one.points)});
-}
-
-std::string shareText(const std::optional<double>& share) {
-  return share ? fmt::format("{:.2f} %", 100 * *share) : "–";
 }
 
 std::string cleaningText(const CleaningAnswer& a) {

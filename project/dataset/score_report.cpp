@@ -6,6 +6,7 @@
 #include "core/part_file.h"
 #include "core/report_html.h"
 #include "project/dataset/score_verb.h"
+#include "project/dataset/share_text.h"
 
 namespace standpoint {
 
@@ -14,10 +15,6 @@ namespace {
 constexpr const char* kScoreStyle = R"(table.m{font-size:7pt}table.m td,table.m th{padding:2px 3px}
 svg.e{max-height:none;border:none}
 )";
-
-std::string percentHtml(const std::optional<double>& share) {
-  return "<td class=\"n\">" + (share ? fmt::format("{:.2f}", 100 * *share) : "–");
-}
 
 // Of every scored class, also those that are nowhere: their dashes say so.
 std::string classesHtml(const ScoreAnswer& answer) {
@@ -30,8 +27,8 @@ std::string classesHtml(const ScoreAnswer& answer) {
                                                              {"Recall, %", true}});
   for (const auto& c : answer.classes)
     text += fmt::format("<tr><td>{}<td class=\"n\">{}<td class=\"n\">{}<td class=\"n\">{}{}{}{}</tr>\n",
-                        htmlText(c.name), c.id, groupedDigits(c.truth), groupedDigits(c.predicted), percentHtml(c.iou),
-                        percentHtml(c.precision), percentHtml(c.recall));
+                        htmlText(c.name), c.id, groupedDigits(c.truth), groupedDigits(c.predicted), shareCell(c.iou),
+                        shareCell(c.precision), shareCell(c.recall));
   return text + "</table>\n<p><small>" +
          htmlText(printed("IoU: points of the class in truth and prediction, of those in either. A class that is in "
                           "neither has no figures and is left out of the mean.")) +
@@ -49,9 +46,9 @@ std::string instancesHtml(const ScoreAnswer& answer) {
   for (const auto& c : answer.instances)
     if (c.truth + c.predicted > 0)
       text += fmt::format("<tr><td>{}<td class=\"n\">{}<td class=\"n\">{}{}{}{}</tr>\n", htmlText(c.name), c.truth,
-                          c.predicted, percentHtml(c.ap), percentHtml(c.ap_50), percentHtml(c.ap_25));
-  text += fmt::format("<tr><td>{}<td><td>{}{}{}</tr>\n", htmlText(printed("Mean")), percentHtml(answer.instance_ap),
-                      percentHtml(answer.instance_ap_50), percentHtml(answer.instance_ap_25));
+                          c.predicted, shareCell(c.ap), shareCell(c.ap_50), shareCell(c.ap_25));
+  text += fmt::format("<tr><td>{}<td><td>{}{}{}</tr>\n", htmlText(printed("Mean")), shareCell(answer.instance_ap),
+                      shareCell(answer.instance_ap_50), shareCell(answer.instance_ap_25));
   return text + "</table>\n<p><small>" +
          htmlText(printed("AP: average precision of instances of 100 points or more in each scan, the mean over IoU of "
                           "0.5 to 0.9, as ScanNet defines it.")) +

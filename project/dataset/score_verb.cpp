@@ -16,6 +16,7 @@
 #include "project/dataset/score_pictures.h"
 #include "project/dataset/scored_labels.h"
 #include "project/dataset/set_scans.h"
+#include "project/dataset/share_text.h"
 
 namespace standpoint {
 
@@ -221,10 +222,6 @@ ScoreAnswer scoreAnswerOf(const ClassScores& scores, const ScorePlan& plan, cons
   for (const auto& c : scores.classes)
     answer.classes.push_back({c.name, c.id, c.truth, c.predicted, c.both, c.iou(), c.precision(), c.recall()});
   return answer;
-}
-
-std::string shareText(const std::optional<double>& share) {
-  return share ? fmt::format("{:.2f} %", 100 * *share) : "–";
 }
 
 std::string scoreText(const ScoreAnswer& answer) {
