@@ -96,6 +96,7 @@ struct CarriedTrajectory {
   std::vector<Scan> scans;
 };
 
+inline constexpr double kWayStep_s = 0.2;
 // Something that moves while it is scanned, by a clock that all movers share and that starts at 0 s.
 enum class MoverKind { person, vehicle, door, turning, sliding };
 struct Mover {
@@ -103,6 +104,8 @@ struct Mover {
   MoverKind kind = MoverKind::person;
   std::vector<std::string> products;  // of the model, by id: doors whose leaves open, or what turns or slides
   std::vector<Waypoint> waypoints;    // of a person or a vehicle
+  // Of somebody who gives way, instead of waypoints: where they are each kWayStep_s, local frame.
+  std::vector<Eigen::Vector3d> way_m;
   Eigen::Vector3d axis_at_m = Eigen::Vector3d::Zero();  // what turns does so about it, local frame …
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();      // … and what slides does so along it; unit
   double speed = 0;                                     // m/s, of what turns rad/s; at most. 0: its kind's own

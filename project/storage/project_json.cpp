@@ -121,12 +121,23 @@ json moverToJson(const Mover& m) {
               {"begins_s", m.begins_s}, {"seed", m.seed}};
   if (m.kind == MoverKind::person || m.kind == MoverKind::vehicle) {
     row["waypoints"] = waypointsToJson(m.waypoints);
+    for (const auto& place : m.way_m)
+      for (const double metres : place) row["way"].push_back(metres);
   } else {
     row["products"] = m.products;
     row["axis_at"] = toJson(m.axis_at_m), row["axis"] = toJson(m.axis);
     row["extent"] = m.extent;
   }
   return row;
+}
+
+// Of somebody in a crowd: x, y and z of one place after the other.
+std::vector<Eigen::Vector3d> wayFrom(const json& j) {
+  const auto metres = j.value("way", std::vector<double>{});
+  if (metres.size() % 3 != 0) throw json::other_error::create(501, "a way is no list of x, y and z", nullptr);
+  std::vector<Eigen::Vector3d> way;
+  for (std::size_t i = 0; i < metres.size(); i += 3) way.emplace_back(metres[i], metres[i + 1], metres[i + 2]);
+  return way;
 }
 
 Mover moverFrom(const json& j) {
@@ -136,6 +147,7 @@ Mover moverFrom(const json& j) {
   m.kind = static_cast<MoverKind>(kind - kMoverKinds.begin());
   m.speed = j.at("speed"), m.repeats = j.at("repeats"), m.begins_s = j.at("begins_s"), m.seed = j.at("seed");
   m.waypoints = waypointsFrom(j);
+  m.way_m = wayFrom(j);
   m.products = j.value("products", std::vector<std::string>{});
   if (j.contains("axis")) m.axis_at_m = vectorFrom(j.at("axis_at")), m.axis = vectorFrom(j.at("axis"));
   m.extent = j.value("extent", 0.0);

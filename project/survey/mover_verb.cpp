@@ -5,23 +5,24 @@
 
 #include <fmt/format.h>
 
-#include "core/motion/random_walk.h"
-#include "core/random.h"
+#include "core/motion/carriers.h"
+#include "core/motion/mechanisms.h"
 #include "core/units.h"
 #include "optimizer/walk/door_leaves.h"
-#include "optimizer/walk/walkable_map.h"
 #include "project/answers.h"
 #include "project/survey/clicked_places.h"
 #include "project/survey/survey_verbs.h"
+#include "survey/movers/crowd.h"
 #include "survey/movers/moving_world.h"
+#include "survey/trajectories/carried_motion.h"
 
 namespace standpoint {
 
 namespace {
 
 constexpr double kPersonHeight_m = 1.8, kVehicleHeight_m = 1.5;
-constexpr int kGoals = 4;              // of somebody in a crowd
-constexpr double kLeastIsland_m2 = 2;  // nobody walks up and down on less
+// What a crowd leaves free of those who make no way themselves; unsourced.
+constexpr double kTripodRoom_m = 0.45, kWalkerRoom_m = 0.4, kVehicleRoom_m = 2;
 
 constexpr std::array<const char*, 5> kKinds = {"person", "vehicle", "door", "turning", "sliding"};
 
@@ -64,92 +65,63 @@ Result<std::vector<std::string>> productsOf(const Environment& environment, cons
   return ids;
 }
 
-// Places at random on the surface, by area, from one island.
-class Strollers {
- public:
-  Strollers(const WalkableMap& map, std::uint64_t seed, std::uint32_t key) : map_(map), key_{seed, key} {
-    for (std::uint32_t i = 0; i < map.size(); ++i)
-      if (map.islandArea(i) >= kLeastIsland_m2) boxes_.push_back(i), area_m2_ += map.area(i);
-  }
-  bool nowhere() const { return boxes_.empty(); }
-  Mover stroller(const std::string& name, std::uint32_t number, double speed_mps) const {
-    Mover mover{.name = fmt::format("{} {}", name, number + 1)};
-    mover.repeats = true;
-    mover.seed = key_.seed + number;
-    const std::uint32_t start = boxAt(number, 0, area_m2_, [](std::uint32_t) { return true; });
-    const auto island = map_.islandOf(start);
-    Eigen::Vector3d from = placeIn(start, number, 0);
-    mover.waypoints.push_back({from});
-    for (std::uint32_t goal = 1; goal <= kGoals; ++goal) {
-      const std::uint32_t box =
-          boxAt(number, goal, map_.islandArea(start), [&](std::uint32_t i) { return map_.islandOf(i) == island; });
-      const Eigen::Vector3d to = placeIn(box, number, goal);
-      if ((to - from).norm() < 1) continue;
-      const auto way = map_.way(from, to);
-      for (std::size_t k = 0; k < way.size(); ++k)
-        if ((way[k] - mover.waypoints.back().floor_m).norm() > 0.3) mover.waypoints.push_back({way[k]});
-      if (way.empty()) continue;
-      // Some pause: they are the ones that removal only half removes.
-      mover.waypoints.back().stop_s = draw(number, goal, 2) < 0.5 ? 0 : 1 + 4 * draw(number, goal, 3);
-      from = mover.waypoints.back().floor_m;
-    }
-    // Free speeds of pedestrians, N(1.34, 0.26) m/s (unsourced), within two standard deviations.
-    const double strays = std::clamp(normalNumber(keyOf(number, 9), 0, 0), -2.0, 2.0);
-    mover.speed = (speed_mps > 0 ? speed_mps : usualSpeed(MoverKind::person)) * (1 + 0.26 / 1.34 * strays);
-    mover.begins_s = -60 * draw(number, 0, 4);  // under way since then
-    return mover;
-  }
+double radiusOf(const Mover& mover) {
+  if (mover.kind == MoverKind::vehicle) return kVehicleRoom_m;
+  return mover.way_m.empty() ? kWalkerRoom_m : kBodyDiameter_m / 2;
+}
 
- private:
-  MotionKey keyOf(std::uint32_t number, std::uint32_t component) const {
-    return {key_.seed, key_.trajectory + number, MotionProcess::gait, component};
-  }
-  double draw(std::uint32_t number, std::uint32_t goal, std::uint32_t what) const {
-    return uniformNumber(keyOf(number, 1), goal, what);
-  }
-  template <class Wanted>
-  std::uint32_t boxAt(std::uint32_t number, std::uint32_t goal, double area_m2, Wanted wanted) const {
-    double left = area_m2 * draw(number, goal, 0);
-    std::uint32_t last = boxes_.front();
-    for (const std::uint32_t i : boxes_) {
-      if (!wanted(i)) continue;
-      last = i;
-      if ((left -= map_.area(i)) < 0) break;
-    }
-    return last;
-  }
-  Eigen::Vector3d placeIn(std::uint32_t box, std::uint32_t number, std::uint32_t goal) const {
-    const Bounds& b = map_.box(box);
-    const double u = draw(number, goal, 5), v = draw(number, goal, 6);
-    return {b.min.x() + u * (b.max.x() - b.min.x()), b.min.y() + v * (b.max.y() - b.min.y()), b.max.z()};
-  }
+// Who carries a scanner along that trajectory, from the movers' 0 s on.
+Result<CrowdObstacle> carrierOf(const Document& document, const std::string& name, double& until_s, Report& report,
+                                Progress& progress) {
+  constexpr const char* kOption = "--gives-way-to";
+  const auto& trajectories = document.job->trajectories;
+  const auto trajectory = std::find_if(trajectories.begin(), trajectories.end(),
+                                       [&](const CarriedTrajectory& t) { return t.name == name; });
+  if (trajectory == trajectories.end())
+    return failure(ErrorKind::usage, fmt::format("unknown trajectory '{}'", name), kOption);
+  const auto carrier =
+      std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == trajectory->carrier; });
+  if (carrier == kCarriers.end() || carrier->id == "uav")
+    return failure(ErrorKind::usage, fmt::format("nobody on the floor carries a scanner along '{}'", name), kOption);
+  TRY_ASSIGN(const auto carried, carriedMotion(*trajectory, *document.georeference, report, progress));
+  const double height = trajectory->height_m > 0 ? trajectory->height_m : carrier->limits.height_m;
+  const PoseFunctionPtr path = operatorPath(carried.path, height, carrier->id == "hand");
+  until_s = std::max(until_s, carried.seconds());
+  return CrowdObstacle{std::make_shared<const TimedPose>(path, 0, false),
+                       carrier->id == "vehicle" ? kVehicleRoom_m : kWalkerRoom_m};
+}
 
-  const WalkableMap& map_;
-  MotionKey key_;
-  std::vector<std::uint32_t> boxes_;
-  double area_m2_ = 0;
-};
+// What a crowd makes way for: tripods, people and vehicles that are there already, and those who carry a scanner.
+Result<std::vector<CrowdObstacle>> inTheWay(const Document& document, const MoverOptions& options, double& until_s,
+                                            Report& report, Progress& progress) {
+  std::vector<CrowdObstacle> obstacles;
+  for (const Station& station : document.job->stations) {
+    Pose floor = station.true_pose;
+    floor.translation.z() -= station.instrument_height_m;
+    obstacles.push_back({std::make_shared<const ConstantPose>(floor), kTripodRoom_m});
+  }
+  for (const Mover& mover : document.job->movers) {
+    if (mover.kind != MoverKind::person && mover.kind != MoverKind::vehicle) continue;
+    TRY_ASSIGN(auto path, moverPath(mover));
+    obstacles.push_back({std::move(path), radiusOf(mover)});
+  }
+  for (const std::string& name : options.gives_way_to) {
+    TRY_ASSIGN(auto carrier, carrierOf(document, name, until_s, report, progress));
+    obstacles.push_back(std::move(carrier));
+  }
+  return obstacles;
+}
 
-Result<std::vector<Mover>> crowd(const Document& document, const MoverOptions& options, Report& report) {
+Result<std::vector<Mover>> crowd(const Document& document, const MoverOptions& options, Report& report,
+                                 Progress& progress) {
   const Mesh* const walkable = document.walkable();
   if (walkable == nullptr || walkable->triangles.empty())
     return failure(ErrorKind::unusable,
                    "a crowd walks on the walkable surface, and there is none; make it with 'collide' first");
-  const WalkableMap map(*walkable);
-  const Strollers strollers(map, options.seed, static_cast<std::uint32_t>(stableHash(options.add->c_str())));
-  if (strollers.nowhere()) return failure(ErrorKind::unusable, "no walkable surface has room for a walk");
-  std::vector<Mover> movers;
-  std::size_t lost = 0;
-  for (int k = 0; k < options.count; ++k) {
-    Mover mover = strollers.stroller(*options.add, static_cast<std::uint32_t>(k), options.speed_mps.value_or(0));
-    if (mover.waypoints.size() < 2 || !moverPath(mover))
-      ++lost;
-    else
-      movers.push_back(std::move(mover));
-  }
-  if (lost > 0)
-    report.warn(*options.add, fmt::format("{} of {} people found no way and are left out", lost, options.count));
-  return movers;
+  CrowdWish wish{.name = *options.add, .count = options.count, .speed_mps = options.speed_mps.value_or(0)};
+  wish.seed = options.seed;
+  TRY_ASSIGN(const auto obstacles, inTheWay(document, options, wish.until_s, report, progress));
+  return crowdOn(*walkable, wish, obstacles, report, progress);
 }
 
 Result<Mover> machine(const Document& document, const MoverOptions& options, Mover mover) {
@@ -177,7 +149,9 @@ Result<Mover> machine(const Document& document, const MoverOptions& options, Mov
 
 Result<std::vector<Mover>> newMovers(const Document& document, const MoverOptions& options, Report& report,
                                      Progress& progress) {
-  if (options.kind == "crowd") return crowd(document, options, report);
+  if (options.kind == "crowd") return crowd(document, options, report, progress);
+  if (!options.gives_way_to.empty())
+    return failure(ErrorKind::usage, "only a crowd gives way; specify --kind crowd", "--gives-way-to");
   Mover mover{.name = *options.add};
   const auto kind = std::find(kKinds.begin(), kKinds.end(), options.kind);
   if (kind != kKinds.end()) mover.kind = static_cast<MoverKind>(kind - kKinds.begin());
@@ -244,6 +218,8 @@ const Fields<MoverOptions>& moverFields() {
       {"repeat", &O::repeat, "there and back again and again"},
       {"begin", &O::begin_s, "when it begins, by the movers' clock", {.unit = "s", .minimum = -1e6, .maximum = 1e6}},
       {"count", &O::count, "people in a crowd", {.minimum = 1, .maximum = 1000}},
+      {"gives-way-to", &O::gives_way_to,
+       "trajectories whose carriers a crowd gives way to, from 0 s of the movers' clock on"},
       {"seed", &O::seed, "of a crowd's ways and of strides", {.minimum = 0, .maximum = 9007199254740991.0}},
       {"remove", &O::remove, "name of a mover, or of a crowd, to remove"}};
   return fields;

@@ -312,7 +312,8 @@ struct MoverOptions {
   std::optional<double> angle_deg, way_m;
   bool repeat = false;
   double begin_s = 0;
-  int count = 10;  // of a crowd
+  int count = 10;                         // of a crowd
+  std::vector<std::string> gives_way_to;  // trajectories, of a crowd
   std::uint64_t seed = 1;
 };
 const Fields<MoverOptions>& moverFields();

@@ -12,6 +12,7 @@
 
 #include "core/motion/limbs.h"
 #include "core/motion/mechanisms.h"
+#include "core/motion/paced_way.h"
 #include "core/motion/walked_path.h"
 #include "core/random.h"
 #include "core/units.h"
@@ -130,6 +131,11 @@ std::vector<Waypoint> wayOf(const Mover& mover) {
 }
 
 Result<std::shared_ptr<const PoseSpline>> onFloor(const Mover& mover) {
+  if (!mover.way_m.empty()) {
+    auto paced = pacedWay(mover.way_m, kWayStep_s, mover.repeats);
+    if (!paced) return failure(paced.error().kind, paced.error().message, mover.name);
+    return std::make_shared<const PoseSpline>(std::move(*paced));
+  }
   const std::vector<Waypoint> way = wayOf(mover);
   auto walked = walkPath(way, limitsOf(mover));
   if (!walked) return failure(walked.error().kind, walked.error().message, mover.name);
@@ -288,12 +294,16 @@ Result<void> addMovers(const std::vector<Mover>& movers, ScanWorld& world) {
   return {};
 }
 
+PoseFunctionPtr operatorPath(const PoseFunctionPtr& scanner_path, double height_m, bool carried_in_front) {
+  return std::make_shared<const OperatorPose>(scanner_path,
+                                              Eigen::Vector3d(carried_in_front ? -kOperatorBehind_m : 0, 0, -height_m));
+}
+
 void addOperator(const PoseFunctionPtr& scanner_path, double height_m, bool carried_in_front, double ahead_s,
                  ScanWorld& world) {
   Addition addition(world);
   People people(addition);
-  const auto path = std::make_shared<const OperatorPose>(
-      scanner_path, Eigen::Vector3d(carried_in_front ? -kOperatorBehind_m : 0, 0, -height_m));
+  const auto path = operatorPath(scanner_path, height_m, carried_in_front);
   const auto stride = std::make_shared<const Stride>(*path, keyOf("operator", 1));
   people.add("Operator", "Operator", path, stride, path->first_s() + ahead_s, false);
 }

@@ -219,17 +219,66 @@ TEST(MoverVerb, LetsACrowdWalkOnTheWalkableSurface) {
   const Document made = after(twoStoreyDocument(), {{"collide", json::object()},
                                                     {"mover", {{"add", "crowd"}, {"kind", "crowd"}, {"count", 12}}}});
   ASSERT_GE(made.job->movers.size(), 10U);
-  for (const Mover& mover : made.job->movers)
-    for (const Waypoint& w : mover.waypoints) {
-      EXPECT_TRUE(w.floor_m.x() > 0 && w.floor_m.x() < 6) << w.floor_m;
-      EXPECT_TRUE(w.floor_m.y() > 0 && w.floor_m.y() < 4) << w.floor_m;
+  for (const Mover& mover : made.job->movers) {
+    ASSERT_GT(mover.way_m.size(), 100U);
+    for (const Eigen::Vector3d& place : mover.way_m) {
+      EXPECT_TRUE(place.x() > 0 && place.x() < 6) << place;
+      EXPECT_TRUE(place.y() > 0 && place.y() < 4) << place;
     }
+  }
   const auto again = after(twoStoreyDocument(), {{"collide", json::object()},
                                                  {"mover", {{"add", "crowd"}, {"kind", "crowd"}, {"count", 12}}}});
   EXPECT_EQ(again.job->movers, made.job->movers);
   const auto removed = run("mover", made, {{"remove", "crowd"}});
   ASSERT_TRUE(removed);
   EXPECT_TRUE(removed->document.job->movers.empty());
+}
+
+TEST(MoverVerb, KeepsTheWaysOfACrowdWithTheProject) {
+  const TemporaryFolder folder;
+  const Document made = after(twoStoreyDocument(), {{"collide", json::object()},
+                                                    {"station", {{"add", "S1"}, {"on", {500003, 5600003, 0}}}},
+                                                    {"mover", {{"add", "crowd"}, {"kind", "crowd"}, {"count", 3}}}});
+  Progress progress;
+  ASSERT_TRUE(saveProject(made, folder.path() / "p", progress));
+  const auto back = loadProject(folder.path() / "p", progress);
+  ASSERT_TRUE(back) << describe(back.error());
+  EXPECT_EQ(back->job->movers, made.job->movers);
+  const auto bytesFrom = [&](const Document& document, const char* name) {
+    json options = kQuick;
+    options["output"] = (folder.path() / name).string();
+    EXPECT_TRUE(run("scan", document, options));
+    return standpoint::testing::bytesOf(folder.path() / name);
+  };
+  const std::string of_memory = bytesFrom(made, "memory.e57");
+  ASSERT_GT(of_memory.size(), 1000U);
+  EXPECT_TRUE(of_memory == bytesFrom(*back, "disk.e57"));
+}
+
+// Centres by the ways alone: between them it is some millimetres (Crowd tests).
+TEST(MoverVerb, LetsACrowdGiveWayToTripodsToEachOtherAndToWhoCarriesAScanner) {
+  const Document base = after(twoStoreyDocument(),
+                              {{"collide", json::object()},
+                               {"station", {{"add", "S1"}, {"on", {500001.5, 5600002, 0}}}},
+                               {"trajectory", {{"add", "walk"}, {"through", {"500001,5600001", "500005,5600001"}}}}});
+  const json crowd = {{"add", "crowd"}, {"kind", "crowd"}, {"count", 8}, {"gives-way-to", {"walk"}}};
+  const Document made = after(base, {{"mover", crowd}});
+  const auto& movers = made.job->movers;
+  ASSERT_GE(movers.size(), 6U);
+  for (std::size_t step = 0; step < movers[0].way_m.size(); ++step)
+    for (std::size_t i = 0; i < movers.size(); ++i) {
+      const Eigen::Vector3d& at = movers[i].way_m[step];
+      for (std::size_t k = 0; k < i; ++k)
+        if (std::abs(at.z() - movers[k].way_m[step].z()) < 1) {
+          EXPECT_GT((at - movers[k].way_m[step]).head<2>().norm(), 0.5);
+        }
+      if (at.z() < 1) {
+        EXPECT_GT((at.head<2>() - Eigen::Vector2d(1.5, 2)).norm(), 0.7);
+      }
+    }
+  json without = crowd;
+  without.erase("gives-way-to");
+  EXPECT_NE(after(base, {{"mover", without}}).job->movers, movers);
 }
 
 TEST(MoverVerb, RefusesWhatCannotMoveWithARemedy) {
@@ -250,6 +299,8 @@ TEST(MoverVerb, RefusesWhatCannotMoveWithARemedy) {
   refused({{"add", "B"}, {"kind", "sliding"}, {"product", {"table"}}}, "how far it slides");
   refused({{"add", "B"}, {"kind", "sliding"}, {"product", {"table"}}, {"turn", 5}}, "--speed and --way");
   refused({{"add", "a/b"}, {"through", {"500001,5600001", "500002,5600001"}}}, "cannot be a mover's name");
+  refused({{"add", "B"}, {"through", {"500001,5600001", "500002,5600001"}}, {"gives-way-to", {"walk"}}},
+          "only a crowd gives way");
   refused({{"remove", "Bob"}}, "available: Ada");
   refused({{"through", {"500001,5600001", "500002,5600001"}}}, "name the new mover");
 }
