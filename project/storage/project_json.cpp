@@ -92,12 +92,12 @@ json trajectoryToJson(const CarriedTrajectory& t) {
   json row = {{"name", t.name}, {"carrier", t.carrier}, {"seed", t.seed}};
   if (t.file.empty()) {
     row["waypoints"] = waypointsToJson(t.waypoints);
-    if (t.height_m > 0) row["height_m"] = t.height_m;
     if (t.speed_mps > 0) row["speed_mps"] = t.speed_mps;
   } else {
     row["file"] = t.file;
     row["format"] = t.format;
   }
+  if (t.height_m > 0) row["height_m"] = t.height_m;
   json& scans = row["scans"] = json::array();
   for (const auto& scan : t.scans) scans.push_back(scanToJson(scan));
   return row;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/motion/carriers.h"
+#include "core/motion/paced_way.h"
 #include "core/motion/rotation_vector.h"
 #include "core/random.h"
 #include "core/units.h"
@@ -40,6 +41,7 @@ Result<CarriedTrajectory> trajectoryNamed(const Job& job, const std::string& nam
     CarriedTrajectory of_file;
     of_file.name = fs::path(name).stem().string();
     of_file.file = name;
+    of_file.carrier.clear();  // nobody has said
     return of_file;
   }
   return failure(ErrorKind::usage, fmt::format("unknown trajectory '{}', and no such file", name), "--trajectory");
@@ -62,13 +64,18 @@ Result<Mounting> mountingFrom(const KeyValues& texts, const char* option) {
   return Mounting{{unitRotation(rotationOf(angles)), {figures[0], figures[1], figures[2]}}, figures[6]};
 }
 
-// Somebody on foot who holds the scanner, or has it on the back. Of a recorded trajectory it is not known by itself.
-std::optional<ScanOperator> operatorOf(const CarriedTrajectory& trajectory, const CarriedMotion& carried, bool on_foot,
-                                       const ScanVerbOptions& options) {
+// Somebody on foot who holds the scanner, or has it on the back. A file says nothing of that by itself: only where its
+// trajectory was added with a carrier.
+Result<std::optional<ScanOperator>> operatorOf(const CarriedTrajectory& trajectory, const CarriedMotion& carried,
+                                               bool on_foot, const ScanVerbOptions& options) {
   const auto carrier =
       std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == trajectory.carrier; });
-  if ((!trajectory.file.empty() && !on_foot) || carrier == kCarriers.end() || carrier->gait <= 0) return std::nullopt;
-  return ScanOperator{.scanner_path = carried.path,
+  if (carrier == kCarriers.end() || carrier->gait <= 0) return std::nullopt;
+  PoseFunctionPtr path = carried.path;
+  if (!trajectory.file.empty() && !on_foot) {
+    TRY_ASSIGN(path, wayOnFoot(*carried.truth));
+  }
+  return ScanOperator{.scanner_path = std::move(path),
                       .height_m = trajectory.height_m > 0 ? trajectory.height_m : carrier->limits.height_m,
                       .in_front = carrier->id == "hand",
                       .ahead_s = options.movers_from_s.value_or(0)};
@@ -146,9 +153,10 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
   if (company.carried) request.settings.firing_s *= company.carried->one_pulse_in;
   ScanSurroundings at_hand = company;
   const bool with_movers = options.movers == Switch::on;
-  const auto carries = options.operator_there == Switch::on
-                           ? operatorOf(trajectory, carried, company.carried != nullptr, options)
-                           : std::nullopt;
+  std::optional<ScanOperator> carries;
+  if (options.operator_there == Switch::on) {
+    TRY_ASSIGN(carries, operatorOf(trajectory, carried, company.carried != nullptr, options));
+  }
   if (carries || !at_hand.preparation || !at_hand.preparation->fits(document, with_movers)) {
     TRY_ASSIGN(at_hand.preparation, prepareScan(document, nullptr, progress, with_movers, carries));
   }

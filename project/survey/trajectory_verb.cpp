@@ -57,7 +57,8 @@ Result<CarriedTrajectory> newTrajectory(const RayScene& scene, const Georeferenc
   CarriedTrajectory made;
   made.name = *options.add;
   made.seed = options.seed.value_or(1);
-  made.carrier = options.carrier.empty() ? "hand" : options.carrier;
+  made.carrier = options.carrier;
+  made.height_m = options.height_m.value_or(0);
   if (!options.file.empty()) {
     if (!options.through.empty()) return failure(ErrorKind::usage, "use either waypoints or a file", "--through");
     made.file = options.file.string();
@@ -71,7 +72,8 @@ Result<CarriedTrajectory> newTrajectory(const RayScene& scene, const Georeferenc
     }
     return made;
   }
-  made.height_m = options.height_m.value_or(0), made.speed_mps = options.speed_mps.value_or(0);
+  if (made.carrier.empty()) made.carrier = "hand";
+  made.speed_mps = options.speed_mps.value_or(0);
   TRY_ASSIGN(made.waypoints, waypointsFrom(scene, georeference, made, options.through));
   return made;
 }
@@ -94,7 +96,7 @@ Result<CarriedTrajectory> changedTrajectory(const RayScene& scene, const Georefe
 
 // Of what it takes to go it; a trajectory that cannot be made is listed with the reason.
 TrajectoryRow trajectoryRow(const CarriedTrajectory& t, const Georeference& g, Report& report, Progress& progress) {
-  TrajectoryRow row{t.name, t.file.empty() ? t.carrier : "", t.waypoints.size(), {}, {}, {}, t.file, t.scans.size()};
+  TrajectoryRow row{t.name, t.carrier, t.waypoints.size(), {}, {}, {}, t.file, t.scans.size()};
   Report of_file;
   const auto carried = carriedMotion(t, g, of_file, progress);
   if (!carried) {
@@ -166,7 +168,7 @@ const Fields<TrajectoryOptions>& trajectoryFields() {
        {.choices = {"csv", "sbet", "tum", "euroc", "kitti", "helios", "helios-arinc"}}},
       {"carrier",
        &O::carrier,
-       "what bears the scanner: pace, gait and shaking follow from it",
+       "what bears the scanner: pace, gait and shaking follow from it, and of a file who is in the scanner's sight",
        {.choices = {"hand", "backpack", "trolley", "vehicle", "uav"}}},
       {"height",
        &O::height_m,

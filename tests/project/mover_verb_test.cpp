@@ -212,6 +212,26 @@ TEST(MoverVerb, ShowsWhoCarriesTheScanner) {
   EXPECT_EQ(of(scanOf(made, along, folder.path() / "without.e57"), "Operator").first, 0U);
 }
 
+TEST(MoverVerb, ShowsWhoCarriedAnImportedTrajectoryWhereACarrierIsStated) {
+  const TemporaryFolder folder;
+  Document made = after(twoStoreyDocument(),
+                        {{"trajectory", {{"add", "walk"}, {"through", {"500002,5600001", "500003,5600001"}}}}});
+  const std::string file = (folder.path() / "walk.csv").string();
+  made = after(made, {{"trajectory", {{"write", "walk"}, {"output", file}}},
+                      {"trajectory", {{"add", "held"}, {"file", file}, {"carrier", "hand"}}},
+                      {"trajectory", {{"add", "flown"}, {"file", file}, {"carrier", "uav"}}},
+                      {"trajectory", {{"add", "nobody"}, {"file", file}}}});
+  const auto seenAlong = [&](const std::string& trajectory) {
+    const json along = {{"trajectory", trajectory}, {"instrument", "leica-blk2go"}};
+    return of(scanOf(made, along, folder.path() / "s.e57"), "Operator").first;
+  };
+  const auto by_waypoints = static_cast<double>(seenAlong("walk"));
+  EXPECT_NEAR(static_cast<double>(seenAlong("held")), by_waypoints, 0.1 * by_waypoints);
+  EXPECT_EQ(seenAlong("flown"), 0U);
+  EXPECT_EQ(seenAlong("nobody"), 0U);
+  EXPECT_EQ(seenAlong(file), 0U);
+}
+
 TEST(MoverVerb, LetsACrowdWalkOnTheWalkableSurface) {
   const auto none = run("mover", twoStoreyDocument(), {{"add", "crowd"}, {"kind", "crowd"}});
   ASSERT_FALSE(none);
