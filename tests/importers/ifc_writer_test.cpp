@@ -245,9 +245,9 @@ TEST(IfcWriter, WritesSeveralValuesAndComplexPropertiesAsWhatTheyAre) {
       "#337=IFCELEMENTQUANTITY('0000000000000000000337',$,'Qto',$,$,(#335,#336));\n"
       "#338=IFCRELDEFINESBYPROPERTIES('0000000000000000000338',$,$,$,(#100),#337);\n"));
   const auto before = propertyTexts(productOf(source, "#100").properties);
-  EXPECT_THAT(before, testing::Contains("Set | Status | NEW, 30 | IFCPROPERTYENUMERATEDVALUE(IFCLABEL)"));
-  EXPECT_THAT(before, testing::Contains("Set › Outer › Inner | Deep | 7 | IFCINTEGER"));
-  EXPECT_THAT(before, testing::Contains("Qto › Layer | Net | 9.5 | IFCQUANTITYAREA"));
+  EXPECT_THAT(before, ::testing::Contains("Set | Status | NEW, 30 | IFCPROPERTYENUMERATEDVALUE(IFCLABEL)"));
+  EXPECT_THAT(before, ::testing::Contains("Set › Outer › Inner | Deep | 7 | IFCINTEGER"));
+  EXPECT_THAT(before, ::testing::Contains("Qto › Layer | Net | 9.5 | IFCQUANTITYAREA"));
   const Written w = written(source.environment, source.georeference);
   auto expected = before;
   // What its text alone does not take apart comes back as a label.

@@ -21,7 +21,7 @@ struct Rectangle {
   float x0, y0, x1, y1;
 };
 
-Mesh floorOf(const std::vector<Rectangle>& rectangles) {
+Mesh floorWith(const std::vector<Rectangle>& rectangles) {
   Mesh mesh;
   for (const auto& r : rectangles) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -62,7 +62,7 @@ double nearestPair_m(const std::vector<PoseFunctionPtr>& paths) {
 }
 
 // Of those who walk, in steps of half a second.
-std::vector<double> speeds(const PoseFunction& path) {
+std::vector<double> speedsAlong(const PoseFunction& path) {
   std::vector<double> found;
   for (double t = -25; t < 85; t += 0.5)
     if (const double speed = velocity(path, t).linear_mps.norm(); speed > 0.3) found.push_back(speed);
@@ -74,7 +74,7 @@ double meanSpeed(const std::vector<PoseFunctionPtr>& paths) {
   double sum = 0;
   std::size_t count = 0;
   for (const auto& path : paths)
-    for (const double speed : speeds(*path)) sum += speed, ++count;
+    for (const double speed : speedsAlong(*path)) sum += speed, ++count;
   return sum / static_cast<double>(std::max<std::size_t>(1, count));
 }
 
@@ -86,16 +86,16 @@ double meanFreeSpeed(const std::vector<Mover>& movers) {
 
 TEST(Crowd, NeverBringsTwoCentresNearerThanABody) {
   for (const int count : {20, 60}) {
-    const auto movers = crowdIn(floorOf({{0, 0, 8, 8}}), count);
+    const auto movers = crowdIn(floorWith({{0, 0, 8, 8}}), count);
     ASSERT_EQ(movers.size(), static_cast<std::size_t>(count));
     EXPECT_GE(nearestPair_m(pathsOf(movers)), kBodyDiameter_m) << count;
   }
 }
 
 TEST(Crowd, WalksAtItsOwnSpeedWhereThereIsRoom) {
-  const auto movers = crowdIn(floorOf({{0, 0, 40, 40}}), 10);  // 0.006 a square metre
+  const auto movers = crowdIn(floorWith({{0, 0, 40, 40}}), 10);  // 0.006 a square metre
   for (const Mover& mover : movers) {
-    const auto sorted = speeds(**moverPath(mover));
+    const auto sorted = speedsAlong(**moverPath(mover));
     ASSERT_GT(sorted.size(), 50U);
     EXPECT_NEAR(sorted[sorted.size() / 2], mover.speed, 0.05 * mover.speed) << mover.name;
   }
@@ -109,7 +109,7 @@ TEST(Crowd, IsTheSlowerTheDenserItIs) {
   EXPECT_NEAR(crowdedSpeed(5.4), 0, 1e-9);
   double before = 2;
   for (const auto& [count, density] : {std::pair{6, 0.1}, {32, 0.5}, {64, 1.0}}) {
-    const auto movers = crowdIn(floorOf({{0, 0, 8, 8}}), count);
+    const auto movers = crowdIn(floorWith({{0, 0, 8, 8}}), count);
     const double part = meanSpeed(pathsOf(movers)) / meanFreeSpeed(movers);
     EXPECT_LT(part, 1.05 * crowdedSpeed(density)) << density;
     EXPECT_GT(part, 0.3 * crowdedSpeed(density)) << density;
@@ -120,7 +120,7 @@ TEST(Crowd, IsTheSlowerTheDenserItIs) {
 
 TEST(Crowd, StaysOnTheSurfaceAndGetsThroughADoor) {
   // Two rooms and, of a door of 0.9 m, what a body leaves of it.
-  const auto floor = floorOf({{0, 0, 5, 4}, {5, 1.8F, 5.8F, 2.2F}, {5.8F, 0, 11, 4}});
+  const auto floor = floorWith({{0, 0, 5, 4}, {5, 1.8F, 5.8F, 2.2F}, {5.8F, 0, 11, 4}});
   const auto movers = crowdIn(floor, 12);
   std::size_t changed_rooms = 0;
   for (const Mover& mover : movers) {
@@ -149,7 +149,7 @@ TEST(Crowd, LeavesRoomForATripodAndMakesWayForWhoCarriesAScanner) {
   ASSERT_TRUE(walked);
   const auto walker = std::make_shared<TimedPose>(std::make_shared<PoseSpline>(walked->poses), 0, false);
   const std::vector<CrowdObstacle> obstacles = {{tripod, 0.45}, {walker, 0.4}};
-  const auto paths = pathsOf(crowdIn(floorOf({{0, 0, 8, 8}}), 20, obstacles));
+  const auto paths = pathsOf(crowdIn(floorWith({{0, 0, 8, 8}}), 20, obstacles));
   std::size_t moments = 0, near = 0;
   for (double t = -30; t < 90; t += 0.05)
     for (const auto& path : paths) {
@@ -164,7 +164,7 @@ TEST(Crowd, LeavesRoomForATripodAndMakesWayForWhoCarriesAScanner) {
 }
 
 TEST(Crowd, GoesTheSameWaysAgain) {
-  const auto floor = floorOf({{0, 0, 8, 8}});
+  const auto floor = floorWith({{0, 0, 8, 8}});
   EXPECT_EQ(crowdIn(floor, 30), crowdIn(floor, 30));
   Progress progress;
   Report report;
@@ -174,7 +174,7 @@ TEST(Crowd, GoesTheSameWaysAgain) {
 }
 
 TEST(Crowd, ComesBackTheWayItWentLookingAhead) {
-  const auto movers = crowdIn(floorOf({{0, 0, 20, 20}}), 3);
+  const auto movers = crowdIn(floorWith({{0, 0, 20, 20}}), 3);
   for (const auto& path : pathsOf(movers)) {
     std::size_t looks_ahead = 0, walks = 0;
     for (double t = -29; t < 205; t += 0.25) {
@@ -193,12 +193,12 @@ TEST(Crowd, WalksForAsLongAsATrajectoryLastsWithinABound) {
   Progress progress;
   Report report;
   CrowdWish wish{.name = "crowd", .count = 2, .until_s = 300};
-  const auto longer = crowdOn(floorOf({{0, 0, 8, 8}}), wish, {}, report, progress);
+  const auto longer = crowdOn(floorWith({{0, 0, 8, 8}}), wish, {}, report, progress);
   ASSERT_TRUE(longer);
   EXPECT_EQ((*longer)[0].way_m.size(), 330 / kWayStep_s + 1);
   EXPECT_TRUE(report.issues.empty());
   wish.until_s = 1e6;
-  const auto bounded = crowdOn(floorOf({{0, 0, 8, 8}}), wish, {}, report, progress);
+  const auto bounded = crowdOn(floorWith({{0, 0, 8, 8}}), wish, {}, report, progress);
   ASSERT_TRUE(bounded);
   EXPECT_EQ((*bounded)[0].way_m.size(), 3600 / kWayStep_s + 1);
   ASSERT_EQ(report.issues.size(), 1U);
@@ -207,12 +207,12 @@ TEST(Crowd, WalksForAsLongAsATrajectoryLastsWithinABound) {
 
 TEST(Crowd, SaysWhoFoundNoRoom) {
   Report report;
-  const auto movers = crowdIn(floorOf({{0, 0, 2, 1.5F}}), 40, {}, &report);
+  const auto movers = crowdIn(floorWith({{0, 0, 2, 1.5F}}), 40, {}, &report);
   EXPECT_LT(movers.size(), 20U);
   ASSERT_EQ(report.issues.size(), 1U);
   EXPECT_NE(report.issues[0].message.find("of 40 people found no room"), std::string::npos);
   Progress progress;
-  const auto none = crowdOn(floorOf({{0, 0, 1, 1}}), {.name = "crowd"}, {}, report, progress);
+  const auto none = crowdOn(floorWith({{0, 0, 1, 1}}), {.name = "crowd"}, {}, report, progress);
   ASSERT_FALSE(none);
   EXPECT_NE(none.error().message.find("no walkable surface has room"), std::string::npos);
 }
