@@ -226,7 +226,8 @@ TEST(MoverVerb, ShowsWhoCarriedAnImportedTrajectoryWhereACarrierIsStated) {
     return of(scanOf(made, along, folder.path() / "s.e57"), "Operator").first;
   };
   const auto by_waypoints = static_cast<double>(seenAlong("walk"));
-  EXPECT_NEAR(static_cast<double>(seenAlong("held")), by_waypoints, 0.1 * by_waypoints);
+  // The same person, whose way is found from where the scanner was instead of through waypoints.
+  EXPECT_NEAR(static_cast<double>(seenAlong("held")), by_waypoints, 0.25 * by_waypoints);
   EXPECT_EQ(seenAlong("flown"), 0U);
   EXPECT_EQ(seenAlong("nobody"), 0U);
   EXPECT_EQ(seenAlong(file), 0U);
