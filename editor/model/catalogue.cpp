@@ -49,9 +49,21 @@ const std::vector<PhysicalMaterial>& offeredMaterials(Catalogue& catalogue,
                                                       const std::shared_ptr<const MaterialChoice>& choice) {
   const auto& shipped = readCatalogue(catalogue).materials;
   if (!choice || choice->own.empty()) return shipped;
-  if (catalogue.offered_for != choice) catalogue.offered = withOwn(shipped, choice->own);
+  if (catalogue.offered_for != choice) {
+    catalogue.offered = withOwn(shipped, choice->own);
+    catalogue.by_name = {};
+  }
   catalogue.offered_for = choice;
   return catalogue.offered;
+}
+
+const std::vector<const PhysicalMaterial*>& offeredByName(Catalogue& catalogue,
+                                                          const std::shared_ptr<const MaterialChoice>& choice) {
+  const auto& offered = offeredMaterials(catalogue, choice);
+  auto& by_name = catalogue.by_name;
+  if (by_name.first != offered.data() || by_name.language != spoken())
+    by_name = {byShownName(offered), offered.data(), std::string(spoken())};
+  return by_name.sorted;
 }
 
 }  // namespace standpoint

@@ -21,6 +21,11 @@ struct Catalogue {
   std::string problem;                                // why something could not be read
   std::vector<PhysicalMaterial> offered;              // with the user's own in place of those that have their id …
   std::shared_ptr<const MaterialChoice> offered_for;  // … of this document
+  struct {
+    std::vector<const PhysicalMaterial*> sorted;
+    const PhysicalMaterial* first = nullptr;  // of the materials that are sorted
+    std::string language;                     // by whose names
+  } by_name;
 };
 
 const Catalogue& readCatalogue(Catalogue& catalogue);
@@ -31,5 +36,8 @@ const std::vector<PhysicalMaterial>& offeredMaterials(Catalogue& catalogue,
                                                       const std::shared_ptr<const MaterialChoice>& choice);
 // As people look for them: by the names that they have in the language of the editor.
 std::vector<const PhysicalMaterial*> byShownName(const std::vector<PhysicalMaterial>& materials);
+// Those that are offered, so: sorted anew only when they or the language have changed.
+const std::vector<const PhysicalMaterial*>& offeredByName(Catalogue& catalogue,
+                                                          const std::shared_ptr<const MaterialChoice>& choice);
 
 }  // namespace standpoint

@@ -41,6 +41,9 @@ Eigen::Vector3d Model::shift_m() const {
 const std::vector<PhysicalMaterial>& Model::offeredMaterials() const {
   return standpoint::offeredMaterials(catalogue_, session.document().materials);
 }
+const std::vector<const PhysicalMaterial*>& Model::offeredByName() const {
+  return standpoint::offeredByName(catalogue_, session.document().materials);
+}
 
 const PhysicalMaterial* Model::offeredMaterial(const std::string& id) const {
   const auto& all = offeredMaterials();

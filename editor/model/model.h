@@ -287,6 +287,7 @@ struct Model : Style {
   const Catalogue& catalogue() const { return readCatalogue(catalogue_); }
   const Instrument* instrument(const std::string& id) const { return instrumentIn(catalogue(), id); }
   const std::vector<PhysicalMaterial>& offeredMaterials() const;         // with the document's own
+  const std::vector<const PhysicalMaterial*>& offeredByName() const;     // sorted by the names that are shown
   const PhysicalMaterial* offeredMaterial(const std::string& id) const;  // null where there is no such id
   // What the next scan is set to; nothing when that cannot be scanned with.
   std::optional<ScanSettings> plannedSettings() const;

@@ -199,7 +199,7 @@ void drawAssign(const Model& model, InspectorState& state, Actions& actions, con
   }
   ui::searchField("material-filter", "Brick, glass, steel …", filter);
   ImGui::BeginChild("materials", {model.px(300), model.px(260)});
-  for (const auto* material : byShownName(model.offeredMaterials())) {
+  for (const auto* material : model.offeredByName()) {
     if (isGap(*material)) continue;
     Product searched;
     searched.name = material->label + " " + tr(material->label) + " " + material->id;

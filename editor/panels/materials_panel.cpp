@@ -155,7 +155,7 @@ void drawLibrary(const Model& model, MaterialsState& state, Actions& actions, fl
     return;
   ImGui::TableSetupColumn(ui::Label("Material"), ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("share", ImGuiTableColumnFlags_WidthFixed, model.px(40));
-  for (const auto* material : byShownName(model.offeredMaterials())) {
+  for (const auto* material : model.offeredByName()) {
     if (!isSearched(state, *material)) continue;
     ImGui::PushID(material->id.c_str());
     ImGui::TableNextRow();

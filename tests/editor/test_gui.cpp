@@ -19,6 +19,7 @@
 #include "editor/shell/shell.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
+#include "editor/words/words.h"
 #include "item_probe.h"
 #include "tests/temporary_folder.h"
 
@@ -285,6 +286,11 @@ TEST_F(Gui, ListsTheMaterialLibraryByTheNamesThatItShows) {
   };
   EXPECT_LT(place("Aerated concrete"), place("Basalt")) << "its id begins with concrete";
   EXPECT_LT(place("Brick, red, bare"), place("Brick, red, paving"));
+  EXPECT_EQ(editor.offeredByName(), listed);
+  EXPECT_EQ(&editor.offeredByName(), &editor.offeredByName());
+  speak("de");
+  EXPECT_EQ(editor.offeredByName(), byShownName(editor.offeredMaterials())) << "by German names";
+  speak("en");
 }
 
 // White letters on a white wall could not be seen.
