@@ -67,9 +67,8 @@ inline const std::array<Carrier, 5> kCarriers = {{
      0,
      {.roll = -0.09, .pitch = -0.05, .most_rad = 4 * kRadPerDeg, .response_s = 0.6, .axis_below_m = 1.7},
      {{{1, 2, {0, 0.002, 0.005}, {0.3 * kRadPerDeg, 0.3 * kRadPerDeg, 0.05 * kRadPerDeg}}, {}, {}}},
-     "unsourced: body modes of 1 to 2 Hz, 5 mm and 0.3 degrees, on a city road; leans out of a bend by 5 degrees at 1 "
-     "g, "
-     "about an axis 0.5 m above the road"},
+     "unsourced: body modes of 1 to 2 Hz, 5 mm and 0.3 degrees, on a city road; leans out of a bend by 5 degrees "
+     "at 1 g, about an axis 0.5 m above the road"},
     {"uav",
      "UAV",
      {.height_m = 20,

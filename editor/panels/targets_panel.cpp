@@ -6,6 +6,7 @@
 
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
+#include "editor/panels/survey_edit.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
@@ -69,11 +70,7 @@ Standing standingOf(const TargetRow& row) {
 
 void choose(const Model& model, Actions& actions, std::size_t index) {
   actions.choose(SurveyChoice{.target = static_cast<int>(index)});
-  const auto& target = model.session.document().job->targets[index];
-  Bounds around;
-  around.extend(target.centre - Eigen::Vector3d(3, 3, 2));
-  around.extend(target.centre + Eigen::Vector3d(3, 3, 2));
-  actions.bringIntoView(around);
+  bringNear(actions, model.session.document().job->targets[index].centre);
 }
 
 void drawRow(const Model& model, Actions& actions, const TargetRow& row, int index) {

@@ -157,8 +157,9 @@ float togglesWidth(const Editor& editor) {
   return width;
 }
 
-void drawTogglePlate(const Editor& editor) {
-  const ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + togglesWidth(editor), at.y + ImGui::GetFrameHeight());
+// Behind what is drawn next, as chips have it: what is behind may be as light as letters and switches.
+void drawPlate(const Editor& editor, float width) {
+  const ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + width, at.y + ImGui::GetFrameHeight());
   ImGui::GetWindowDrawList()->AddRectFilled(at, end, tone::kOverlay, editor.px(4));
 }
 
@@ -169,12 +170,11 @@ void toggle(Editor& editor, const char* icon, const char* id, bool lit) {
   ImGui::SameLine(0, editor.px(2));
 }
 
-// Said among the chips, on a plate as they have it: what is behind may be as light as the letters.
+// Said among the chips.
 void textChip(const Editor& editor, const std::string& text) {
   const ImVec2 at = ImGui::GetCursorScreenPos(), pad = ImGui::GetStyle().FramePadding;
   const float width = ImGui::CalcTextSize(text.c_str()).x + 2 * pad.x;
-  ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + width, at.y + ImGui::GetFrameHeight()}, tone::kOverlay,
-                                            editor.px(4));
+  drawPlate(editor, width);
   ImGui::GetWindowDrawList()->AddText({at.x + pad.x, at.y + pad.y}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
   ImGui::Dummy({width, ImGui::GetFrameHeight()});
 }
@@ -406,7 +406,7 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   cloudChip(editor);
   locateChip(editor);
   beside(editor, togglesWidth(editor));  // they stay together
-  drawTogglePlate(editor);
+  drawPlate(editor, togglesWidth(editor));
   toggle(editor, ICON_CUBE, "edges", editor.view.edges);
   toggle(editor, ICON_GRID, "grid", editor.view.grid);
   toggle(editor, ICON_WALK, "walkable", editor.view.walkable);

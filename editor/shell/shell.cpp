@@ -250,7 +250,8 @@ void drawToolbar(Editor& editor, const Box& box) {
   ImGui::SameLine(box.w - right - editor.px(8));
   if (ui::primaryButton(ICON_PLAY "  Scan###tool_scan", editor.session.whyNot("scan"), {scan, 0})) {
     // Who has the settings before them and presses it means to scan, as with the button below them.
-    const bool set = editor.workspace == Workspace::survey && editor.front_tab[1] == "scan";
+    const bool set =
+        editor.workspace == Workspace::survey && editor.front_tab[static_cast<std::size_t>(Area::right)] == "scan";
     if (set)
       editor.panels.of<ScanState>().pressed = true;
     else

@@ -405,7 +405,7 @@ Result<Answered<MaterialsAnswer>> runMaterials(const Document& document, const M
   if (!outcome) return outcome;
   const auto& choice = *outcome->document.materials;
   if (const auto& id = options.where; !id.empty()) {
-    TRY_ASSIGN(const auto shipped, readMaterialLibrary(libraryFolder()));
+    TRY_ASSIGN(const auto shipped, shippedMaterials());
     const auto library = withOwn(shipped, choice.own);
     if (std::none_of(library.begin(), library.end(), [&](const PhysicalMaterial& m) { return m.id == id; }))
       return failure(ErrorKind::usage, "not in the material library", id);

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "core/data_folder.h"
 #include "materials/materials.h"
 #include "project/answers.h"
+#include "project/materials/materials_verb.h"
 #include "project/materials/verification.h"
 #include "project/materials/verify_answer.h"
 #include "survey/instruments.h"
@@ -184,7 +184,7 @@ Result<Answered<VerifyAnswer>> runVerify(const Document& document, const VerifyO
   progress.stage("Verify", 0, 0.4);
   TRY_ASSIGN(auto underlay, underlayFor(document, options));
   if (!document.materials) return failure(ErrorKind::usage, "no materials assigned: assign them first", "verify");
-  TRY_ASSIGN(auto library, readMaterialLibrary(dataFolder() / "materials" / "library"));
+  TRY_ASSIGN(auto library, shippedMaterials());
   Answered<VerifyAnswer> outcome{document};
   progress.stage("Reading " + underlay->name, 0, 0.4);
   TRY_ASSIGN(const auto sample, usableSample(*underlay, options, progress));

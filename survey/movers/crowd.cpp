@@ -363,10 +363,6 @@ class Crowd {
   std::vector<std::uint32_t> close_;  // to the one who moves
 };
 
-}  // namespace
-
-namespace {
-
 // How long they walk before they come back.
 double secondsOf(const CrowdWish& wish, std::size_t people, Report& report) {
   const double wanted = std::max(wish.until_s + kUnderWay_s, kUsual_s);
