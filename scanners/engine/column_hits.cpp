@@ -44,7 +44,7 @@ ColumnHits::ColumnHits(const ScanPlan& plan, TimedScene& scene)
       scene_(scene),
       facets_(plan.settings.rows + kPacket, kNoFacet),
       ranges_(plan.settings.rows + kPacket, static_cast<float>(plan.farthest_m)),
-      near_bodies_(plan.settings.rows / kPacket + 1, 0) {
+      near_bodies_(plan.settings.rows / kPacket + 1) {
   if (plan.moves()) {
     moving_ = std::make_unique<MovingColumn>(plan);
     return;
@@ -84,8 +84,9 @@ void ColumnHits::traceRows(std::uint32_t first_row) {
   roundDirections(lanes_, rays_);
   if (scene_.moves())
     for (int k = 0; k < count; ++k) rays_.time_s[k] = bodiesTime_s(first_row + static_cast<std::uint32_t>(k));
-  near_bodies_[first_row / kPacket] = scene_.intersect(rays_, count, static_cast<float>(plan_.farthest_m),
-                                                       facets_.data() + first_row, ranges_.data() + first_row);
+  near_bodies_[first_row / kPacket].clear();
+  scene_.intersect(rays_, count, static_cast<float>(plan_.farthest_m), facets_.data() + first_row,
+                   ranges_.data() + first_row, &near_bodies_[first_row / kPacket]);
   if (moving_)
     for (int k = 0; k < count; ++k)
       if (!moving_->pulse(first_row + static_cast<std::uint32_t>(k)).measured)

@@ -33,8 +33,8 @@ class ColumnHits {
   Beam beam(std::uint32_t row) const;
   // When a row's pulse is sent, by the clock of what moves.
   double bodiesTime_s(std::uint32_t row) const;
-  // Rows whose beams come near something that moves, of sixteen from `first_row` on, as bits.
-  std::uint32_t nearBodies(std::uint32_t first_row) const { return near_bodies_[first_row / kPacket]; }
+  // What moves near the beams of sixteen rows from `first_row` on.
+  const std::vector<NearBody>& nearBodies(std::uint32_t first_row) const { return near_bodies_[first_row / kPacket]; }
   // For other rays from about where the axes begin; null of a scanner that moves.
   SeenFaces* seen() const { return seen_.get(); }
   const MovingColumn* moving() const { return moving_.get(); }  // null of a scanner that stands
@@ -66,7 +66,7 @@ class ColumnHits {
   RayPacket rays_{};
   std::vector<std::uint64_t> facets_;
   std::vector<float> ranges_;
-  std::vector<std::uint32_t> near_bodies_;
+  std::vector<std::vector<NearBody>> near_bodies_;
 };
 
 }  // namespace standpoint

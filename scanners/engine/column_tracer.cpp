@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <limits>
+#include <utility>
 
 #include "core/portable_math.h"
 
@@ -23,11 +24,9 @@ std::array<std::uint32_t, 4> interferenceDraw(const ScanOptions& options, std::u
 
 }  // namespace
 
-ColumnTracer::ColumnTracer(const ScanPlan& plan, const Edges& edges)
+ColumnTracer::ColumnTracer(const ScanPlan& plan, const Edges& edges, std::shared_ptr<SweptBodies> bodies)
     : plan_(plan),
-      scene_(plan.scene, plan.wideBeams() ? TimedScene::BeamWidth{plan.instrument.exit_diameter_m,
-                                                                  plan.instrument.divergence_rad, plan.farthest_m}
-                                          : TimedScene::BeamWidth{}),
+      scene_(std::move(bodies)),
       facets_(plan, scene_),
       paths_(plan, facets_, scene_),
       edges_(edges),
@@ -55,8 +54,10 @@ std::uint64_t ColumnTracer::trace(std::uint32_t from, std::uint32_t to, PointBlo
 void ColumnTracer::traceColumn() {
   points_.begin(column_);
   writer_.beginColumn(column_);
+  found_.begin(plan_.settings.rows);
+  found_corners_.begin(plan_.settings.rows);
   if (edges_.map != nullptr) edges_.map->mark(column_, facets_, found_);
-  if (edges_.tree != nullptr) edges_.tree->mark(column_, facets_, found_);
+  if (edges_.finder != nullptr) edges_.finder->mark(column_, scene_, facets_, found_);
   if (edges_.corners != nullptr) edges_.corners->mark(column_, facets_, found_corners_);
   for (std::uint32_t first = 0; first < plan_.settings.rows; first += kPacket) traceRows(first);
   writer_.endColumn();
@@ -145,16 +146,12 @@ ColumnTracer::Surfaces ColumnTracer::setSurfaces(std::uint32_t first_row) {
 std::uint32_t ColumnTracer::traceEdges(std::uint32_t first_row) {
   const std::uint32_t rows = std::min<std::uint32_t>(kPacket, plan_.settings.rows - first_row);
   const std::uint32_t all = plan_.everyBeamWide() ? column_.measured(first_row, rows) : 0;
-  // Bodies have no edges that are known.
-  const std::uint32_t bodies =
-      plan_.wideBeams() ? column_.nearBodies(first_row) & column_.measured(first_row, rows) : 0;
-  const std::uint32_t marked = (edgesKnown() ? found_.rows(first_row) : all) | bodies;
+  const std::uint32_t marked = edgesKnown() ? found_.rows(first_row) : all;
   if (marked == 0) return 0;
   wide_.clear();
   for (std::uint32_t left = marked; left != 0; left &= left - 1) {
     const std::uint32_t row = first_row + static_cast<std::uint32_t>(std::countr_zero(left));
-    const bool known = edgesKnown() && (bodies & left & -left) == 0;
-    wide_.add(column_, row, known ? &found_.of(row) : nullptr);
+    wide_.add(column_, row, edgesKnown() ? &found_.of(row) : nullptr);
   }
   wide_.trace();
   std::uint32_t edges = 0;
@@ -300,7 +297,7 @@ void ColumnTracer::light(ReturnLanes& r, int count) {
              day.towards());
   if (scene_.moves())
     for (int k = 0; k < count; ++k) rays.time_s[k] = column_.bodiesTime_s(r.row[k]);
-  scene_.intersect(rays, count, std::numeric_limits<float>::infinity(), shade, ranges);
+  scene_.intersect(rays, count, std::numeric_limits<float>::infinity(), shade, ranges, nullptr);
   for (int k = 0; k < count; ++k) {
     r.signal.background[k] = day.ofDirection(column_.axis(r.row[k]).direction);
     if (shade[k] != kNoFacet && !plan_.passes(*facets_.of(shade[k]).optics)) continue;

@@ -6,8 +6,8 @@
 #include "core/points.h"
 #include "scanners/engine/beam_paths.h"
 #include "scanners/engine/corner_light.h"
+#include "scanners/engine/edge_finder.h"
 #include "scanners/engine/edge_map.h"
-#include "scanners/engine/edge_tree.h"
 #include "scanners/engine/end_powers.h"
 #include "scanners/engine/plane_lanes.h"
 #include "scanners/engine/point_lanes.h"
@@ -26,11 +26,11 @@ class ColumnTracer {
  public:
   // Where edges are; both null where no beam is wide, or each is. `corners`: null where they are not lit.
   struct Edges {
-    const EdgeMap* map = nullptr;    // of a scanner that stands
-    const EdgeTree* tree = nullptr;  // of one that moves
+    const EdgeMap* map = nullptr;        // of what stands, before a scanner that stands
+    const EdgeFinder* finder = nullptr;  // where either moves
     const EdgeMap* corners = nullptr;
   };
-  ColumnTracer(const ScanPlan& plan, const Edges& edges);
+  ColumnTracer(const ScanPlan& plan, const Edges& edges, std::shared_ptr<SweptBodies> bodies);
   // How many pulses were sent.
   std::uint64_t trace(std::uint32_t from, std::uint32_t to, PointBlock& block);
 
@@ -57,7 +57,7 @@ class ColumnTracer {
   void traceColumn();
   void traceRows(std::uint32_t first_row);
   Surfaces setSurfaces(std::uint32_t first_row);
-  bool edgesKnown() const { return edges_.map != nullptr || edges_.tree != nullptr; }
+  bool edgesKnown() const { return edges_.map != nullptr || edges_.finder != nullptr; }
   std::uint32_t traceEdges(std::uint32_t first_row);
   void gatherEnds(std::uint32_t row, const WideBeam* wide);
   void gatherWide(const WideBeam& wide);

@@ -260,7 +260,6 @@ void ColumnEdges::addHidden(std::uint32_t row, float range_m) {
 }
 
 void EdgeMap::mark(const ColumnHits& hits, FacetCache& facets, ColumnEdges& found) const {
-  found.begin(plan_.settings.rows);
   const std::uint32_t column = hits.column();
   for (std::uint32_t level = 0; level < first_.size(); ++level) {
     const std::uint32_t cell = column >> level;
@@ -307,7 +306,7 @@ bool EdgeMap::visible(float range_m, float column, float row, std::uint32_t at_r
   const Eigen::Vector3d direction =
       beam.direction + static_cast<double>(column) * plan_.columnStep_rad() * plan_.cosine[at_row] * beam.across +
       static_cast<double>(row) * plan_.rowStep_rad() * beam.upward;
-  return edgeShows(plan_, facets, hits.hit(at_row), beam.origin, direction, range_m);
+  return edgeShows(plan_, facets, hits.hit(at_row), beam.origin, direction, range_m, hits.bodiesTime_s(at_row));
 }
 
 }  // namespace standpoint

@@ -39,14 +39,17 @@ double edgeReach(const Instrument& instrument, const Eigen::Vector3d& from, cons
 
 // `towards` meets the plane of what the axis meets before the edge.
 bool edgeShows(const ScanPlan& plan, FacetCache& facets, const NearestHit& axis, const Eigen::Vector3d& origin,
-               const Eigen::Vector3d& towards, float range_m) {
+               const Eigen::Vector3d& towards, float range_m, double time_s) {
   if (axis.facet == kNoFacet) return true;
   const MetFacet& met = facets.of(axis.facet);
   if (plan.passes(*met.optics)) return true;
   const auto range = static_cast<double>(range_m);
   const double aside = kBeamEdge * beamRadius(plan.instrument, range);
   if (range - static_cast<double>(axis.range_m) > kSteepest * aside) return false;
-  const double on_plane = (met.facet.offset - met.facet.normal.dot(origin)) / met.facet.normal.dot(towards);
+  const bool moves = met.facet.body != kNoBody;
+  const Facet moved = moves ? facets.met(axis.facet, origin, towards, time_s).facet : Facet{};
+  const Facet& facet = moves ? moved : met.facet;
+  const double on_plane = (facet.offset - facet.normal.dot(origin)) / facet.normal.dot(towards);
   return on_plane < 0 || range <= on_plane + edgeTolerance(plan.instrument, range);
 }
 

@@ -16,9 +16,10 @@ double edgeReach(const Instrument& instrument, const Eigen::Vector3d& from, cons
                  const Eigen::Vector3d& left, const Eigen::Vector3d& right);
 
 // Of an edge at a range, farther off than what the beam's axis meets: is it seen all the same, since that surface runs
-// away from the scanner, or is glass? `towards` is the way from the beam's origin to it, of about unit length.
+// away from the scanner, or is glass? `towards` is the way from the beam's origin to it, of about unit length;
+// `time_s` that of the pulse, by the clock of what moves.
 bool edgeShows(const ScanPlan& plan, FacetCache& facets, const NearestHit& axis, const Eigen::Vector3d& origin,
-               const Eigen::Vector3d& towards, float range_m);
+               const Eigen::Vector3d& towards, float range_m, double time_s);
 
 // No edge shows that is farther off than this.
 double farthestEdge_m(const ScanPlan& plan, FacetCache& facets, const NearestHit& axis);

@@ -1,71 +1,69 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
 #include <Eigen/Geometry>
 
-#include "scanners/engine/edge_map.h"
+#include "scanners/engine/beam_fan.h"
 
 namespace standpoint {
 
-// What EdgeMap is for a scanner that stands, for one that moves: outlines of the scene in a tree of boxes, asked for by
-// beams that start anywhere, sixteen at a time. 32 bytes for each edge and as much again for the tree; independent of
-// the way.
+// Edges in a tree of boxes, eight to a node, for beams that start anywhere in their frame: 40 to 80 bytes for each.
 class EdgeTree {
  public:
-  explicit EdgeTree(const ScanPlan& plan);
-  // The rows of a column whose beams may hold an edge that the axis' surface does not hide; `hits` has been traced
-  // throughout.
-  void mark(const ColumnHits& hits, FacetCache& facets, ColumnEdges& found) const;
+  struct Edge {
+    Eigen::Vector3f from, to;
+    std::uint64_t number = 0;
+  };
+  EdgeTree() = default;
+  // In any order; numbers differ.
+  explicit EdgeTree(std::vector<Edge> edges);
+  bool empty() const { return leaves_.empty(); }
+  double farthestCoordinate_m() const { return farthest_coordinate_m_; }
+
+  // `near(number, lanes)` of each edge that may be in one of the fan's beams; some are not.
+  template <class Near>
+  void find(const BeamFan& fan, const Near& near) const {
+    if (empty()) return;
+    std::array<std::uint32_t, kMostOpen> open{root_};
+    std::size_t count = 1;
+    while (count > 0) {
+      const std::uint32_t at = open[--count];
+      if ((at & kLeaf) == 0) {
+        const Node& node = nodes_[at];
+        for (std::uint32_t met = fan.meets(node.boxes); met != 0; met &= met - 1)
+          open[count++] = node.held[std::countr_zero(met)];
+        continue;
+      }
+      const Leaf& leaf = leaves_[at & ~kLeaf];
+      for (std::uint32_t met = fan.meets(leaf.edges); met != 0; met &= met - 1) {
+        const auto k = static_cast<std::uint32_t>(std::countr_zero(met));
+        if (const std::uint32_t lanes = fan.near(leaf.edges, k); lanes != 0) near(leaf.number[k], lanes);
+      }
+    }
+  }
 
  private:
-  // A box and what it holds: two boxes, the first of which follows, or leaves.
+  static constexpr std::uint32_t kLeaf = 1U << 31U;
+  static constexpr std::size_t kMostOpen = 128;  // seven a level; each level has an eighth of the one above
   struct Node {
-    Eigen::AlignedBox3f box;
-    std::uint32_t second = 0;  // 0: it is a leaf
-    std::uint32_t first_edge = 0, end_edge = 0;
+    EightBoxes boxes;
+    std::uint32_t held[kEight] = {};  // a node, or with kLeaf a leaf
   };
-  // What holds the beams of sixteen rows as far as they go.
-  struct Cone {
-    Eigen::Vector3d apex, axis;
-    double sine = 0, cosine = 1;  // of the half angle
-    double aside_m = 0;           // beside it
-    double reach_m = 0;
-    bool meets(const Eigen::AlignedBox3f& box) const;
+  struct Leaf {
+    EightEdges edges;
+    std::uint64_t number[kEight] = {};
   };
-  struct Placed {
-    Eigen::Vector3f from, to;
-    std::uint64_t edge = 0;  // placement << 32 | index
-    Eigen::AlignedBox3f box() const;
-  };
-  // Beams side by side.
-  struct alignas(64) BeamLanes {
-    double origin[3][kPacket] = {}, direction[3][kPacket] = {}, across[3][kPacket] = {}, upward[3][kPacket] = {};
-    // Those that an edge may be in, as bits; where it passes close by their origin, too.
-    std::uint32_t near(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double exit_m,
-                       double divergence_rad) const;
-  };
-  // Sixteen rows and what holds their beams.
-  struct Packet {
-    std::uint32_t first_row = 0, lanes = 0;
-    Cone cone;
-    Beam middle;
-    Beam beams[kPacket];
-    BeamLanes side_by_side;
-    bool has_beams = false;
-  };
+  std::uint32_t build(std::vector<Edge>& edges, std::size_t from, std::size_t to);
 
-  void build(std::size_t from, std::size_t to);
-  void setCone(const ColumnHits& hits, FacetCache& facets, Packet& packet) const;
-  bool mayHold(const Packet& packet, const Placed& edge) const;
-  void markEdge(std::uint64_t edge, const ColumnHits& hits, Packet& packet, FacetCache& facets,
-                ColumnEdges& found) const;
-
-  const ScanPlan& plan_;
+  double farthest_coordinate_m_ = 0;
+  std::uint32_t root_ = kLeaf;
   std::vector<Node> nodes_;
-  std::vector<Placed> edges_;
+  std::vector<Leaf> leaves_;
 };
 
 }  // namespace standpoint

@@ -112,6 +112,10 @@ class EmbreeScene final : public RayScene {
   RTCDevice device() const { return device_; }
   // Of what stands; those of bodies follow.
   std::size_t stillCount() const { return still_count_; }
+  std::size_t placedCount() const { return placements_.size(); }
+  std::uint32_t bodyOf(std::uint32_t placement) const {
+    return placement < still_count_ ? kNoBody : body_of_[placement - still_count_];
+  }
   bool isBall(std::uint32_t placement) const { return balls_.contains(placement); }
   // Of placement << 32 | index in `edges`: its ends, in the local frame.
   std::array<Eigen::Vector3d, 2> edgeEnds(std::uint64_t edge) const;
@@ -126,7 +130,7 @@ class EmbreeScene final : public RayScene {
   void attachInstanced(std::uint32_t placement);
   void attachBall(std::uint32_t placement, double radius_m);
   void buildTree(const std::vector<std::uint32_t>& uses, const std::vector<RoundInstance>& balls, Progress& progress);
-  void findEdges(const std::vector<std::uint32_t>& uses, Progress& progress);
+  void findEdges(Progress& progress);
   RTCScene meshScene(std::uint32_t mesh);
   double size() const;
 

@@ -61,7 +61,7 @@ Result<void> EmbreeScene::commit(std::shared_ptr<const Environment> environment,
   for (std::size_t k = 0; k < still_count_; ++k) ++uses[placed(k).mesh];
   size_m_ = size();
   for (const std::uint32_t i : placements_) placed_at_.push_back(environment_->instances[i].world_from_mesh);
-  tbb::parallel_invoke([&] { buildTree(uses, balls, progress); }, [&] { findEdges(uses, progress); });
+  tbb::parallel_invoke([&] { buildTree(uses, balls, progress); }, [&] { findEdges(progress); });
   buildBodies(bodies);
   if (auto go_on = progress.check(); !go_on) return go_on;
   return checkDevice(device_);
@@ -130,10 +130,12 @@ void EmbreeScene::buildTree(const std::vector<std::uint32_t>& uses, const std::v
   });
 }
 
-void EmbreeScene::findEdges(const std::vector<std::uint32_t>& uses, Progress& progress) {
-  edges_.resize(uses.size());
-  tbb::parallel_for(std::size_t{0}, uses.size(), [&](std::size_t mesh) {
-    if (uses[mesh] > 0 && !progress.cancelled()) edges_[mesh] = outlineEdges(*environment_->meshes[mesh]);
+void EmbreeScene::findEdges(Progress& progress) {
+  std::vector<std::uint8_t> used(environment_->meshes.size(), 0);
+  for (const std::uint32_t i : placements_) used[environment_->instances[i].mesh] = 1;
+  edges_.resize(used.size());
+  tbb::parallel_for(std::size_t{0}, used.size(), [&](std::size_t mesh) {
+    if (used[mesh] != 0 && !progress.cancelled()) edges_[mesh] = outlineEdges(*environment_->meshes[mesh]);
   });
 }
 
@@ -306,7 +308,7 @@ Facet EmbreeScene::facet(std::uint64_t number) const {
   const Instance& instance = environment_->instances[facet.instance];
   const Mesh& mesh = *environment_->meshes[instance.mesh];
   facet.product = instance.product;
-  if (const std::size_t k = number >> 32U; k >= still_count_) facet.body = body_of_[k - still_count_];
+  facet.body = bodyOf(static_cast<std::uint32_t>(number >> 32U));
   facet.surface = mesh.surface_of_triangle[facet.triangle];
   if (const auto ball = balls_.find(static_cast<std::uint32_t>(number >> 32U)); ball != balls_.end()) {
     facet.normal = Eigen::Vector3d::Zero();

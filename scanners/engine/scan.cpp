@@ -57,17 +57,19 @@ class Pipeline {
         sink_(sink),
         progress_(progress),
         columns_per_block_(std::max(1U, kPulsesPerBlock / plan.settings.rows)),
-        tracers_([this] { return ColumnTracer(plan_, known()); }),
+        swept_(TimedScene::swept(plan.scene, plan.wideBeams()
+                                                 ? BeamWidth{plan.instrument.exit_diameter_m,
+                                                             plan.instrument.divergence_rad, plan.farthest_m}
+                                                 : BeamWidth{})),
+        tracers_([this] { return ColumnTracer(plan_, known(), swept_); }),
         next_column_(std::min(plan.options.first_column, plan.endColumn())) {}
 
   Result<ScanCount> run(int threads) {
     tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
     arena.execute([&] {
       if (plan_.wideBeams() && !plan_.forReference()) {
-        if (plan_.moves())
-          edge_tree_.emplace(plan_);
-        else
-          edges_.emplace(plan_);
+        if (!plan_.moves()) edges_.emplace(plan_);
+        if (plan_.moves() || !plan_.scene.bodies().empty()) finder_.emplace(plan_);
       }
       if (plan_.field_of_view_rad > 0) corners_.emplace(plan_, EdgeMap::Edges::corners);
       // A block for each thread, one that is written and one that waits for its turn: a block of the finest grid has 90
@@ -131,11 +133,12 @@ class Pipeline {
   Progress& progress_;
   const std::uint32_t columns_per_block_;
   ColumnTracer::Edges known() const {
-    return {edges_ ? &*edges_ : nullptr, edge_tree_ ? &*edge_tree_ : nullptr, corners_ ? &*corners_ : nullptr};
+    return {edges_ ? &*edges_ : nullptr, finder_ ? &*finder_ : nullptr, corners_ ? &*corners_ : nullptr};
   }
 
   std::optional<EdgeMap> edges_, corners_;  // before any tracer
-  std::optional<EdgeTree> edge_tree_;
+  std::optional<EdgeFinder> finder_;
+  std::shared_ptr<SweptBodies> swept_;
   tbb::enumerable_thread_specific<ColumnTracer> tracers_;
   tbb::concurrent_queue<std::shared_ptr<PointBlock>> spare_;
   std::uint32_t next_column_;

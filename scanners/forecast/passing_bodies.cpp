@@ -9,7 +9,7 @@ namespace standpoint {
 
 struct PassingBodies::Threads {
   explicit Threads(const EmbreeScene& scene)
-      : scenes([&scene] { return std::make_unique<TimedScene>(scene, TimedScene::BeamWidth{}); }) {}
+      : scenes([swept = TimedScene::swept(scene, BeamWidth{})] { return std::make_unique<TimedScene>(swept); }) {}
   tbb::enumerable_thread_specific<std::unique_ptr<TimedScene>> scenes;
 };
 

@@ -308,6 +308,43 @@ TEST(MovingBodies, AreFlaggedAndHideWhatIsBehindThem) {
   EXPECT_LT(on_wall + on_walker, scan.count.pulses + scan.count.pulses / 20);
 }
 
+// A grille of bars with a surface close behind, one far behind and none. Of the points between edge and background that
+// there are where 64 rays of each beam are traced, as large a share is there where edges are looked for as of bars that
+// stand.
+TEST(MovingBodies, HaveMixedPointsAtTheirEdgesAsWhatStandsHas) {
+  const Instrument device = instrument("leica-rtc360");
+  ScanSettings settings = window(device, -12, 12, -14, 14, 300, 350);
+  settings.scan_seconds = 6;
+  std::map<bool, double> share;
+  for (const bool moving : {false, true}) {
+    MovingScene scene;
+    scene.builder.quad({9, -10, -4}, {0, 20, 0}, {0, 0, 4});
+    scene.builder.quad({6.3, -1, -2}, {0, 1, 0}, {0, 0, 4});
+    for (int k = 0; k < 10; ++k) {
+      const auto bar = scene.builder.box({6, -1 + 0.2 * k, -1}, {6.1, -0.95 + 0.2 * k, 1}, false);
+      if (moving) scene.move(bar, std::make_shared<Moves>(Eigen::Vector3d(0.02, 0.05 + 0.01 * k, 0), 0.02));
+    }
+    const auto rays = scene.build();
+    std::map<bool, std::size_t> points, mixed;
+    for (const bool reference : {false, true}) {
+      PointsKept sink;
+      Progress progress;
+      ScanOptions options{1, Effects::none().with(Effect::footprint)};
+      options.quality = reference ? ScanQuality::reference : ScanQuality::standard;
+      options.channels.truth = true;
+      ASSERT_TRUE(
+          scan(*rays, allOf(*scene.builder.environment(), 0.5), device, settings, Pose{}, options, sink, progress));
+      points[reference] = sink.all.size();
+      for (const auto flags : sink.all.truth.flags) mixed[reference] += (flags & point_flag::kMixed) != 0 ? 1 : 0;
+    }
+    EXPECT_GT(mixed[true], 1000U);
+    EXPECT_NEAR(static_cast<double>(points[false]), static_cast<double>(points[true]),
+                0.002 * static_cast<double>(points[true]));
+    share[moving] = static_cast<double>(mixed[false]) / static_cast<double>(mixed[true]);
+  }
+  EXPECT_NEAR(share[true], share[false], 0.06 * share[false]);
+}
+
 TEST(MovingBodies, GiveTheSamePointsOnAnyThreadsAndInAnyParts) {
   MovingScene scene;
   scene.builder.box({-4, -3, -1.7}, {5, 6, 2}, true);

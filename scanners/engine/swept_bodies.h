@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "scanners/engine/embree_scene.h"
+
+namespace standpoint {
+
+// A ray comes near a body that is in the beam about it: `exit_m` wide and spreading by `divergence_rad`. Rays go
+// `farthest_m` at most.
+struct BeamWidth {
+  double exit_m = 0, divergence_rad = 0, farthest_m = 0;
+  // As far out as rays of a beam go (footprint.h), which is w(R) ≤ (D0 + γR) / 2.
+  double aside_m(double range_m) const;
+};
+
+// Where bodies get in a quarter of a second: boxes around what they sweep, in a scene of Embree, and about where each
+// of them is meanwhile. How far it strays from where four poses say that it is, is taken from how far it gets between
+// them.
+class SweptWindow {
+ public:
+  static constexpr double kLength_s = 0.25;
+  // `meet` is asked about the rays that enter a box, with this as the geometry's data.
+  SweptWindow(const EmbreeScene& scene, const BeamWidth& beam, std::int64_t number, RTCIntersectFunctionN meet);
+  ~SweptWindow();
+  SweptWindow(const SweptWindow&) = delete;
+  SweptWindow& operator=(const SweptWindow&) = delete;
+
+  RTCScene scene() const { return scene_; }  // null: nothing is there
+  std::uint32_t body(std::size_t box) const { return bodies_[box]; }
+  // May the ray come near the body before it ends?
+  bool reaches(std::size_t box, double time_s, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+               double farthest_m) const;
+
+ private:
+  static constexpr int kPoses = 4;
+  // Where the middle of a body is about, from one pose to the next, and how far off at most.
+  struct Path {
+    Eigen::Vector3d centre[kPoses + 1];
+    double reach_m = 0;  // from there: of the body, too
+  };
+  static void bounds(const RTCBoundsFunctionArguments* arguments);
+  void addPath(std::uint32_t body);
+  void build(RTCIntersectFunctionN meet);
+
+  const EmbreeScene& of_;
+  BeamWidth beam_;
+  double beam_m_;  // aside, as far as rays go
+  std::int64_t number_;
+  std::vector<std::uint32_t> bodies_;  // those that are there, a box each
+  std::vector<Path> paths_;
+  std::vector<Eigen::AlignedBox3d> boxes_;
+  RTCScene scene_ = nullptr;
+};
+
+// The windows that are asked for about the same time: each is made once, for any number of threads.
+class SweptBodies {
+ public:
+  SweptBodies(const EmbreeScene& scene, const BeamWidth& beam, RTCIntersectFunctionN meet)
+      : scene_(scene), beam_(beam), meet_(meet) {}
+  const EmbreeScene& scene() const { return scene_; }
+  const BeamWidth& beam() const { return beam_; }
+  std::shared_ptr<const SweptWindow> window(std::int64_t number);
+
+ private:
+  struct Kept {
+    std::once_flag made;
+    std::shared_ptr<const SweptWindow> window;
+    std::uint64_t asked = 0;  // for, lately
+  };
+  static constexpr std::size_t kMostKept = 16;
+
+  const EmbreeScene& scene_;
+  BeamWidth beam_;
+  RTCIntersectFunctionN meet_;
+  std::mutex mutex_;
+  std::uint64_t asked_ = 0;
+  std::map<std::int64_t, std::shared_ptr<Kept>> kept_;
+};
+
+}  // namespace standpoint
