@@ -78,6 +78,21 @@ bool holdsOther(const fs::path& set) {
   return false;
 }
 
+// What a set begins with, and what is said of a set that has another one.
+struct BeginningFile {
+  fs::path in_set;
+  std::string text;
+  const char* other;
+};
+std::vector<BeginningFile> filesToBegin(const Recipe& recipe) {
+  std::vector<BeginningFile> files = {
+      {"recipe.json", recipe.text, "the set was begun with another recipe: choose a new folder"}};
+  for (const auto& map : recipe.classes)
+    files.push_back({fs::path("classes") / (map.id + ".json"), map.text,
+                     "the set was begun with other classes of this name: choose a new folder"});
+  return files;
+}
+
 tl::unexpected<Error> cannotMake(const fs::path& path, const std::error_code& error) {
   return failure(ErrorKind::file_system, "cannot create: " + error.message(), path.string());
 }
@@ -212,8 +227,8 @@ std::vector<std::string> workFoldersOf(const fs::path& set) {
 
 Result<SetFolder> SetFolder::open(const fs::path& set, const Recipe& recipe) {
   std::error_code error;
-  const bool is_new = !fs::exists(set / "recipe.json", error);
-  if (is_new && holdsOther(set))
+  const auto isBegun = [&] { return fs::exists(set / "recipe.json", error); };
+  if (!isBegun() && holdsOther(set) && !isBegun())  // the second time: another shard may begin it meanwhile
     return failure(ErrorKind::usage, "the folder is not empty and no set: choose a new folder", set.string());
   const auto work = set / kWorkFolder / fmt::format("{}{}{}", taskName(), machineName(), ::getpid());
   // Who finds the parent empty removes it: another may do so between the two folders that are made here.
@@ -227,11 +242,13 @@ Result<SetFolder> SetFolder::open(const fs::path& set, const Recipe& recipe) {
       fs::remove_all(entry.path(), ignored);
     }
   SetFolder made(set, work);
-  TRY(made.putSame("recipe.json", recipe.text, "the set was begun with another recipe: choose a new folder"));
-  for (const auto& map : recipe.classes)
-    TRY(made.putSame(fs::path("classes") / (map.id + ".json"), map.text,
-                     "the set was begun with other classes of this name: choose a new folder"));
+  for (const auto& file : filesToBegin(recipe)) TRY(made.hasSame(file.in_set, file.text, file.other));
   return made;
+}
+
+Result<void> SetFolder::begin(const Recipe& recipe) const {
+  for (const auto& file : filesToBegin(recipe)) TRY(putSame(file.in_set, file.text, file.other));
+  return {};
 }
 
 SetFolder::SetFolder(SetFolder&& other) noexcept
@@ -258,12 +275,17 @@ Result<void> SetFolder::putText(const fs::path& in_set, const std::string& text)
   return put(in_set);
 }
 
-Result<void> SetFolder::putSame(const fs::path& in_set, const std::string& text, const std::string& other) const {
+Result<bool> SetFolder::hasSame(const fs::path& in_set, const std::string& text, const std::string& other) const {
   std::error_code error;
-  if (!fs::exists(set_ / in_set, error)) return putText(in_set, text);
+  if (!fs::exists(set_ / in_set, error)) return false;
   TRY_ASSIGN(const auto before, readWholeFile(set_ / in_set, kLargestJsonFile));
   if (before != text) return failure(ErrorKind::unusable, other, (set_ / in_set).string());
-  return {};
+  return true;
+}
+
+Result<void> SetFolder::putSame(const fs::path& in_set, const std::string& text, const std::string& other) const {
+  TRY_ASSIGN(const bool is_there, hasSame(in_set, text, other));
+  return is_there ? Result<void>() : putText(in_set, text);
 }
 
 }  // namespace standpoint

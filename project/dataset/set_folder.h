@@ -54,9 +54,12 @@ Result<SetEnvironmentRecord> readEnvironmentRecord(const std::filesystem::path& 
 // given to another, never meet in a file.
 class SetFolder {
  public:
-  // Makes the set, or opens one of the same recipe; one of another is an error. Takes away what processes of this
-  // machine left that have ended.
+  // Opens the set of this recipe, or a folder that can become it; a set of another recipe is an error. Takes away what
+  // processes of this machine left that have ended.
   static Result<SetFolder> open(const std::filesystem::path& set, const Recipe& recipe);
+  // Puts the recipe and its classes in, where they are not there yet: once the first file of the set can be made, so
+  // that a recipe whose model turns out to be wrong can be corrected.
+  Result<void> begin(const Recipe& recipe) const;
   SetFolder(SetFolder&& other) noexcept;
   SetFolder(const SetFolder&) = delete;
   ~SetFolder();
@@ -72,6 +75,7 @@ class SetFolder {
  private:
   explicit SetFolder(std::filesystem::path set, std::filesystem::path work)
       : set_(std::move(set)), work_(std::move(work)) {}
+  Result<bool> hasSame(const std::filesystem::path& in_set, const std::string& text, const std::string& other) const;
   std::filesystem::path set_, work_;
 };
 

@@ -124,6 +124,7 @@ class SetRun {
       InnerProgress opening(progress, "Open " + recipe_.environments[index].id, fraction(first), fraction(first));
       TRY_ASSIGN(opened, openEnvironment(recipe_, index, report_, *opening));
     }
+    TRY(folder_.begin(recipe_));
     constexpr const char* kChanged = "this environment has changed since the set was begun: choose a new folder";
     TRY(folder_.putSame(pictureFile(recipe_.environments[index]), opened->picture, kChanged));
     TRY(folder_.putSame(environmentFile(recipe_.environments[index]), opened->described, kChanged));

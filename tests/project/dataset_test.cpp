@@ -324,6 +324,38 @@ TEST_F(Dataset, RefusesClassesThatMapNothingAndShardsOutOfRange) {
   }
 }
 
+// What a model alone shows: a run finds it when it opens the first environment.
+TEST_F(Dataset, LetsARecipeBeCorrectedThatMadeNothingYet) {
+  const auto set = folder / "set";
+  folder.write("broken.ifc", "not a model");
+  auto no_model = recipe();
+  no_model["environments"][0] = {{"id", "house"}, {"model", "broken.ifc"}};
+  auto no_material = recipe();
+  no_material["materials"] = {{{"id", "painted"}, {"assign", {"class:IfcWall=nothing-like-it"}}}};
+  for (const auto& wrong : {no_model, no_material}) {
+    ASSERT_FALSE(dataset("run", write(wrong), {{"output", set.string()}}));
+    EXPECT_FALSE(fs::exists(set / "recipe.json"));
+    EXPECT_FALSE(fs::exists(set / "classes"));
+  }
+  const auto corrected = dataset("run", write(recipe()), {{"output", set.string()}});
+  ASSERT_TRUE(corrected) << describe(corrected.error());
+  auto other = recipe();
+  other["seed"] = 2;
+  const auto refused = dataset("run", write(other), {{"output", set.string()}, {"resume", true}});
+  ASSERT_FALSE(refused) << "scans of another recipe are in it";
+  EXPECT_THAT(refused.error().message, HasSubstr("begun with another recipe"));
+}
+
+TEST_F(Dataset, NeverReplacesARecipeThatSomebodyPutIntoTheFolder) {
+  auto own = recipe();
+  own["seed"] = 2;
+  fs::create_directories(folder / "set");
+  std::ofstream(folder / "set/recipe.json") << own.dump();
+  ASSERT_FALSE(dataset("run", write(recipe()), {{"output", (folder / "set").string()}}));
+  std::ifstream in(folder / "set/recipe.json");
+  EXPECT_EQ(json::parse(in), own);
+}
+
 TEST_F(Dataset, SplitsPlacesIntoShardsThatFollowEachOther) {
   const auto read = readRecipe(write(recipe()));
   ASSERT_TRUE(read) << describe(read.error());
