@@ -68,6 +68,18 @@ std::vector<CardRow> axesOf(const Recipe& recipe) {
   return rows;
 }
 
+// What of the materials the models have nothing for, in the order of the environments.
+struct IdleRow {
+  std::string environment, materials, what;
+};
+std::vector<IdleRow> withoutEffect(const Recipe& recipe, const SetCheck& check) {
+  std::vector<IdleRow> rows;
+  for (std::size_t e = 0; e < check.environments.size(); ++e)
+    for (const auto& idle : check.environments[e].without_effect)
+      rows.push_back({recipe.environments[e].id, idle.materials, idle.what});
+  return rows;
+}
+
 }  // namespace
 
 std::string cardMarkdown(const Recipe& recipe, const SetCheck& check) {
@@ -82,6 +94,10 @@ std::string cardMarkdown(const Recipe& recipe, const SetCheck& check) {
     text += fmt::format("\n{}\n\n![Plan with its stations]({})\n", e.id, pictureFile(e).generic_string());
   text += "\n## Axes\n\n| id | what |\n|---|---|\n";
   for (const auto& row : axesOf(recipe)) text += fmt::format("| {} | {} |\n", row.id, row.what);
+  const auto idle = withoutEffect(recipe, check);
+  if (!idle.empty())
+    text += "\n## Materials without effect\n\n| environment | materials | matches nothing |\n|---|---|---|\n";
+  for (const auto& row : idle) text += fmt::format("| {} | {} | `{}` |\n", row.environment, row.materials, row.what);
   for (std::size_t m = 0; m < recipe.classes.size(); ++m) {
     const auto balance = balanceOf(recipe, check, m);
     text += fmt::format("\n## Classes: {}\n\n![Balance of the classes]({})\n\n| id | class |",
@@ -116,6 +132,13 @@ std::string cardHtml(const Recipe& recipe, const SetCheck& check) {
   for (const auto& row : axesOf(recipe))
     text += fmt::format("<tr><td>{}<td>{}</tr>\n", htmlText(row.id), htmlText(row.what));
   text += "</table>\n";
+  if (const auto idle = withoutEffect(recipe, check); !idle.empty()) {
+    text += "<h2>Materials without effect</h2>\n<table><tr><th>Environment<th>Materials<th>Matches nothing</tr>\n";
+    for (const auto& row : idle)
+      text += fmt::format("<tr><td>{}<td>{}<td>{}</tr>\n", htmlText(row.environment), htmlText(row.materials),
+                          htmlText(row.what));
+    text += "</table>\n";
+  }
   text += "<h2>Plans</h2>\n";
   for (const auto& e : recipe.environments)
     text += fmt::format("<h3>{0}</h3>\n<p><img src=\"{1}\" alt=\"Plan of {0} with its stations\"></p>\n",

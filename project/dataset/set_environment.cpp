@@ -186,18 +186,44 @@ Result<void> checkMaps(const Recipe& recipe, const RecipeEnvironment& environmen
   return {};
 }
 
-// The licences of the sources that figures of materials come from, by material: of all entries of that axis.
-Result<Json> materialLicences(const Recipe& recipe, const Document& document, Progress& progress) {
-  std::map<std::string, std::set<std::string>> licences;
-  for (const auto& materials : recipe.materials) {
-    TRY_ASSIGN(const auto assigned, withMaterials(document, materials, progress));
-    for (const auto& material : assigned.materials->result.assignment.materials)
-      for (const auto& source : material.sources)
-        if (auto& of_material = licences[material.id]; !source.licence.empty()) of_material.insert(source.licence);
+// What the entries of the axis of materials come to in a model.
+struct MaterialEntries {
+  std::map<std::string, std::set<std::string>> licences;  // of the sources that figures come from, by material
+  Json without_effect = Json::array();                    // selectors and rules that match nothing of it
+};
+
+// A recipe is for many models: what matches nothing of one is said, not refused.
+void addWithoutEffect(const std::string& environment, const RecipeMaterials& entry,
+                      const std::vector<MaterialFinding>& findings, MaterialEntries& all, Report& report) {
+  const auto is_found = [&](const std::string& kind, const std::string& source) {
+    return std::any_of(findings.begin(), findings.end(), [&](const MaterialFinding& f) {
+      return f.kind == kind && (source.empty() || f.source == source);
+    });
+  };
+  for (const auto& assigned : overridesFrom(entry.assign)) {
+    if (assigned.material == "rules" || !is_found("selector", assigned.selector)) continue;
+    all.without_effect.push_back({{"materials", entry.id}, {"assign", assigned.selector}});
+    report.warn(environment, fmt::format("materials '{}': the selector {} matches no surface and has no effect",
+                                         entry.id, assigned.selector));
   }
-  Json json = Json::array();
-  for (const auto& [id, texts] : licences) json.push_back({{"id", id}, {"licenses", texts}});
-  return json;
+  if (entry.rules.empty() || !is_found("idle-rules", {})) return;
+  const auto file = entry.rules.filename().string();
+  all.without_effect.push_back({{"materials", entry.id}, {"rules", file}});
+  report.warn(environment, fmt::format("materials '{}': none of the rules in {} match", entry.id, file));
+}
+
+Result<MaterialEntries> materialEntries(const Recipe& recipe, const std::string& environment, const Document& document,
+                                        Report& report, Progress& progress) {
+  MaterialEntries all;
+  for (const auto& entry : recipe.materials) {
+    TRY_ASSIGN(const auto assigned, withMaterials(document, entry, progress));
+    const auto& result = assigned.materials->result;
+    for (const auto& material : result.assignment.materials)
+      for (const auto& source : material.sources)
+        if (auto& of_material = all.licences[material.id]; !source.licence.empty()) of_material.insert(source.licence);
+    addWithoutEffect(environment, entry, result.report.findings, all, report);
+  }
+  return all;
 }
 
 // Where it is on a map: the corners of its plan and its heights, in metres of the CRS; null where it is nowhere.
@@ -222,7 +248,7 @@ Json placeOnMap(const Document& document) {
 }
 
 Result<std::string> describedEnvironment(const Recipe& recipe, std::size_t index, const SetEnvironment& made,
-                                         Progress& progress) {
+                                         Report& report, Progress& progress) {
   const auto& environment = recipe.environments[index];
   const auto& document = made.document;
   const Eigen::Vector3d shift = document.georeference->shift_m;
@@ -255,7 +281,10 @@ Result<std::string> describedEnvironment(const Recipe& recipe, std::size_t index
   json["products"] = document.environment()->products.size();
   json["triangles"] = sceneTriangleCount(*document.environment());
   json["map"] = placeOnMap(document);
-  TRY_ASSIGN(json["materials"], materialLicences(recipe, document, progress));
+  TRY_ASSIGN(const auto entries, materialEntries(recipe, environment.id, document, report, progress));
+  json["materials"] = Json::array();
+  for (const auto& [id, texts] : entries.licences) json["materials"].push_back({{"id", id}, {"licenses", texts}});
+  if (!entries.without_effect.empty()) json["without_effect"] = entries.without_effect;
   json["picture"] = {{"path", pictureFile(environment).generic_string()},
                      {"bytes", made.picture.size()},
                      {"sha256", sha256Of(made.picture)}};
@@ -287,7 +316,7 @@ Result<SetEnvironment> openEnvironment(const Recipe& recipe, std::size_t index, 
   TRY_ASSIGN(made.scene, RayScene::build(made.document.environment(), progress));
   TRY(StationFinder(environment, recipe.seed, made, report).find(progress));
   made.picture = plansOf(made.document);
-  TRY_ASSIGN(made.described, describedEnvironment(recipe, index, made, progress));
+  TRY_ASSIGN(made.described, describedEnvironment(recipe, index, made, report, progress));
   return made;
 }
 

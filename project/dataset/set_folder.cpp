@@ -202,6 +202,10 @@ Result<SetEnvironmentRecord> readEnvironmentRecord(const fs::path& set, const Re
     auto id = one.text("id");
     record.materials.emplace_back(std::move(id), one.texts("licenses"));
   });
+  root.list("without_effect", [&](JsonFields& one) {
+    auto entry = one.text("materials");
+    record.without_effect.push_back({std::move(entry), one.text(one.has("rules") ? "rules" : "assign")});
+  });
   root.object("picture", [&](JsonFields& one) {
     record.picture = {one.text("path"), wholeAt(one, "bytes"), one.text("sha256")};
   });

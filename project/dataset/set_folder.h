@@ -45,6 +45,10 @@ struct SetEnvironmentRecord {
   };
   std::optional<MapPlace> map;
   std::vector<std::pair<std::string, std::vector<std::string>>> materials;  // id, and the licences of its figures
+  struct WithoutEffect {
+    std::string materials, what;  // id of the entry; a selector or a file of rules that matches nothing of the model
+  };
+  std::vector<WithoutEffect> without_effect;
 };
 Result<SetEnvironmentRecord> readEnvironmentRecord(const std::filesystem::path& set,
                                                    const RecipeEnvironment& environment);

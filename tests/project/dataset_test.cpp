@@ -346,6 +346,38 @@ TEST_F(Dataset, LetsARecipeBeCorrectedThatMadeNothingYet) {
   EXPECT_THAT(refused.error().message, HasSubstr("begun with another recipe"));
 }
 
+TEST_F(Dataset, NamesMaterialsThatMatchNothingOfAModel) {
+  auto text = recipe();
+  folder.write("own.json", R"({"rules": [{"name": "*marzipan*", "assign": "bark"}]})");
+  text["effects"].erase(1);
+  text["stations"][0]["count"] = 1;
+  text["materials"] = {{{"id", "painted"}, {"assign", {"class:IfcWall=bark", "name:*marzipan*=bark"}}},
+                       {{"id", "ruled"}, {"rules", "own.json"}},
+                       {{"id", "plain"}}};
+  const auto set = folder / "set";
+  const auto made = dataset("run", write(text), {{"output", set.string()}});
+  ASSERT_TRUE(made) << describe(made.error());
+  std::vector<std::string> warnings;
+  for (const auto& issue : made->report.issues)
+    if (issue.severity == Severity::warning) warnings.push_back(issue.source + ": " + issue.message);
+  std::vector<std::string> expected;
+  for (const std::string environment : {"house", "tower"}) {
+    expected.push_back(environment +
+                       ": materials 'painted': the selector name:*marzipan* matches no surface and has no effect");
+    expected.push_back(environment + ": materials 'ruled': none of the rules in own.json match");
+  }
+  EXPECT_EQ(warnings, expected);
+  std::ifstream in(set / "environments/tower.json");
+  EXPECT_EQ(json::parse(in)["without_effect"], json({{{"materials", "painted"}, {"assign", "name:*marzipan*"}},
+                                                     {{"materials", "ruled"}, {"rules", "own.json"}}}));
+  std::ifstream card(set / "README.md");
+  EXPECT_THAT(std::string(std::istreambuf_iterator<char>(card), {}),
+              HasSubstr("| house | painted | `name:*marzipan*` |\n| house | ruled | `own.json` |\n"));
+  const auto checked = dataset("check", write(text));
+  ASSERT_TRUE(checked);
+  EXPECT_EQ(checked->report.issues.front().message, made->report.issues.front().message);
+}
+
 TEST_F(Dataset, NeverReplacesARecipeThatSomebodyPutIntoTheFolder) {
   auto own = recipe();
   own["seed"] = 2;
