@@ -6,6 +6,7 @@ STANDPOINT_WEB_IFC is a folder in which `npm install web-ifc` was run; skipped w
 """
 import json
 import os
+import re
 import subprocess
 import sys
 import unittest
@@ -25,6 +26,23 @@ PLACE_M = 1e-5  # web-ifc computes in float
 ROUND_M = 0.002  # its circles have other corners than ours
 SLIVER_M2 = 1e-7  # it drops smaller triangles
 LEFT_OUT = ("IfcOpeningElement", "IfcGrid", "IfcAnnotation")
+
+# Each kind of property that is not a single value, from id 900000 on, for the object in {}.
+KINDS = """#900001=IFCSIUNIT(*,.LENGTHUNIT.,.MILLI.,.METRE.);
+#900002=IFCPROPERTYENUMERATEDVALUE('Status',$,(IFCLABEL('NEW'),IFCLABEL('30')),$);
+#900003=IFCPROPERTYLISTVALUE('Widths',$,(IFCLENGTHMEASURE(12.),IFCLENGTHMEASURE(15.5)),#900001);
+#900004=IFCPROPERTYBOUNDEDVALUE('Range',$,IFCREAL(8.),IFCREAL(2.),$,IFCREAL(5.));
+#900005=IFCPROPERTYBOUNDEDVALUE('Least',$,$,IFCPOWERMEASURE(2.),$,$);
+#900006=IFCPROPERTYSINGLEVALUE('Deep',$,IFCINTEGER(7),$);
+#900007=IFCCOMPLEXPROPERTY('Inner',$,'Inner',(#900006,#900003));
+#900008=IFCCOMPLEXPROPERTY('Outer',$,'Outer',(#900007,#900006));
+#900009=IFCPROPERTYSET('0000000000000000900009',$,'Kinds',$,(#900002,#900003,#900004,#900005,#900008));
+#900010=IFCRELDEFINESBYPROPERTIES('0000000000000000900010',$,$,$,({}),#900009);
+#900011=IFCQUANTITYAREA('Net',$,$,9.5,$);
+#900012=IFCPHYSICALCOMPLEXQUANTITY('Layer',$,(#900011),'Layer',$,$);
+#900013=IFCELEMENTQUANTITY('0000000000000000900013',$,'Kinds of quantities',$,$,(#900011,#900012));
+#900014=IFCRELDEFINESBYPROPERTIES('0000000000000000900014',$,$,$,({}),#900013);
+"""
 
 
 def found(file: object) -> dict:
@@ -66,6 +84,21 @@ class WebIfc(InFolder):
                 self.assertEqual(after["sets"][name], rows, f"{name} of {before['class']} {global_id}")
                 compared += len(rows)
         self.assertGreater(compared, 80)
+
+    def test_lists_bounds_and_complex_properties_are_what_they_were(self):
+        text = HOUSE.read_text()
+        wall, global_id = re.search(r"(#\d+)=IFCWALL\('([^']+)'", text).groups()
+        head, tail = text.rsplit("ENDSEC;", 1)
+        Path("kinds.ifc").write_text(head + KINDS.format(wall, wall) + "ENDSEC;" + tail)
+        standpoint("import", "kinds.ifc", "-o", "kinds")
+        standpoint("export", "kinds", "-o", "kinds_out.ifc")
+        before, after = (found(file)["objects"][global_id]["sets"] for file in ("kinds.ifc", "kinds_out.ifc"))
+        kinds = {name: row[0] for name, row in before["Kinds"].items()}
+        self.assertEqual(kinds, {"Status": "IfcPropertyEnumeratedValue", "Widths": "IfcPropertyListValue", "Range": "IfcPropertyBoundedValue",
+                                 "Least": "IfcPropertyBoundedValue", "Outer": "IfcComplexProperty"})
+        self.assertEqual(after["Kinds"], before["Kinds"])
+        self.assertEqual(before["Kinds of quantities"]["Layer"], ["IfcPhysicalComplexQuantity", {"Net": ["IfcQuantityArea", 9.5, None]}, None])
+        self.assertEqual(after["Kinds of quantities"], before["Kinds of quantities"])
 
     def test_meshes_are_where_they_were(self):
         standpoint("export", "house", "-o", "house.glb")

@@ -24,15 +24,23 @@ function valueOf(handle) { return handle === null || handle === undefined ? null
     }
     return of_line[id];
   };
+  const typed = value => value ? [value.constructor?.name ?? null, value.value] : null;
+  // Kind or type of the value, value, unit. The value of one with several is a list, and of one with bounds or parts an object.
+  const rowOf = property => {
+    const kind = property.constructor.name, several = property.ListValues ?? property.EnumerationValues;
+    const parts = property.HasProperties ?? property.HasQuantities;
+    if (parts) return [kind, Object.fromEntries(parts.map(p => line(p.value)).map(p => [valueOf(p.Name), rowOf(p)])), null];
+    const unit = property.Unit ? line(property.Unit.value) : null, named = unit ? [valueOf(unit.Prefix), valueOf(unit.Name)] : null;
+    if (several) return [kind, several.map(typed), named];
+    if ('SetPointValue' in property) return [kind, ['LowerBoundValue', 'UpperBoundValue', 'SetPointValue'].map(k => typed(property[k])), named];
+    const value = property[Object.keys(property).find(k => /^(NominalValue|\w+Value)$/.test(k))];
+    return [kind.startsWith('IfcQuantity') ? kind : value?.constructor?.name ?? null, value ? value.value : null, named];
+  };
   for (const id of all(W.IFCRELDEFINESBYPROPERTIES)) {
     const relation = line(id), set = line(relation.RelatingPropertyDefinition.value), rows = {};
     for (const p of set.HasProperties ?? set.Quantities ?? []) {
       const property = line(p.value);
-      const key = Object.keys(property).find(k => /^(NominalValue|\w+Value)$/.test(k));
-      const value = property[key];
-      const unit = property.Unit ? line(property.Unit.value) : null;
-      const kind = set.Quantities ? property.constructor.name : value?.constructor?.name ?? null;
-      rows[valueOf(property.Name)] = [kind, value ? value.value : null, unit ? [valueOf(unit.Prefix), valueOf(unit.Name)] : null];
+      rows[valueOf(property.Name)] = rowOf(property);
     }
     for (const o of relation.RelatedObjects) {
       const sets = object(o.value).sets;
