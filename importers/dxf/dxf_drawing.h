@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -14,13 +13,15 @@
 namespace standpoint {
 
 constexpr std::int32_t kColourByLayer = -1, kColourByBlock = -2;
-constexpr std::uint32_t kLayerZero = 0;  // of the layers: what is on it in a block is on the layer of the insert
+constexpr std::uint32_t kMaterialByLayer = 0;  // of the materials: none is stated
+constexpr std::uint32_t kLayerZero = 0;        // of the layers: what is on it in a block is on the layer of the insert
 
 // How an entity says that it looks.
 struct DxfLook {
   std::uint32_t layer = kLayerZero;
   std::int32_t colour = kColourByLayer;  // else 0x00RRGGBB
   std::uint8_t alpha = 255;
+  std::uint32_t material = kMaterialByLayer;
   bool operator==(const DxfLook&) const = default;
 };
 
@@ -28,6 +29,7 @@ struct DxfLayer {
   std::string name;  // as in the file
   std::int32_t colour = 0xFFFFFF;
   bool off = false, frozen = false;
+  std::uint32_t material = kMaterialByLayer;
 };
 
 constexpr std::uint32_t kLooseFaces = 0;
@@ -61,6 +63,22 @@ struct DxfTally {
 };
 using DxfTallies = std::map<std::string, DxfTally>;
 
+// A MATERIAL object, or the handle of one that the file does not have.
+struct DxfMaterial {
+  enum class Kind {
+    none,      // it is not in the file, or is "Global", which is no more than a colour
+    by_layer,  // that of the layer
+    by_block,  // that of the insert
+    own
+  };
+  Kind kind = Kind::none;
+  std::string handle, name;              // as in the file
+  std::int32_t colour = kColourByLayer;  // 0x00RRGGBB; else that of the entity
+  double opacity = 1;                    // 0..1
+  bool painted = false;                  // with an image or a pattern
+  DxfTally users;                        // entities and layers
+};
+
 struct DxfBlock {
   std::string name;  // as in the file
   std::size_t line = 0;
@@ -88,11 +106,12 @@ struct DxfDrawing {
   std::map<std::string, std::uint32_t> layer_of_key{{"0", kLayerZero}};
   DxfBlock model;
   std::map<std::string, DxfBlock> blocks;
+  std::vector<DxfMaterial> materials{{.kind = DxfMaterial::Kind::by_layer}};
+  std::map<std::string, std::uint32_t> material_of_handle;
   DxfTally paper, invisible, clipped, geodata, twice;  // twice: blocks defined again
-  std::map<std::string, DxfTally> users_of_material;   // entities and layers, by handle
-  std::set<std::string> materials;                     // handles of those that are more than a colour
 
   std::uint32_t layerNamed(std::string_view layer);
+  std::uint32_t materialOf(std::string_view handle);
 };
 
 // Names differ by more than the case of A to Z.

@@ -18,7 +18,7 @@ constexpr std::size_t kLongestText = 2048, kLongestName = 512, kLongestHandle = 
 
 bool isNumber(int code) {
   return (code >= 10 && code <= 79 && code != 48) || (code >= 90 && code <= 95) || code == 210 || code == 220 ||
-         code == 230 || code == 420 || code == 440;
+         code == 230 || code == 140 || code == 420 || code == 440;
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ void DxfEntity::begin(std::string_view new_kind, std::size_t new_line) {
   for (const auto code : touched_) stated_[code] = false;
   touched_.clear();
   points.clear(), bulges.clear(), widths.clear(), face_corners.clear(), face_ends.clear(), face_lines.clear();
-  in_application_ = closed_ = false;
+  in_application_ = closed_ = has_file = false;
   list_left_ = 0;
   corners_left_ = 0;
 }
@@ -42,6 +42,7 @@ Result<void> DxfEntity::take(const DxfGroup& group, const DxfGroups& groups) {
   switch (group.code) {
     case 1: text = group.value.substr(0, kLongestText); return {};
     case 2: name = group.value.substr(0, kLongestName); return {};
+    case 3: has_file = has_file || !group.value.empty(); return {};
     case 5: handle = group.value.substr(0, kLongestHandle); return {};
     case 8: layer = group.value.substr(0, kLongestName); return {};
     case 347: material = group.value.substr(0, kLongestHandle); return {};

@@ -23,6 +23,7 @@ class DxfEntity {
   Result<void> take(const DxfGroup& group, const DxfGroups& groups);
 
   std::string kind, name, text, handle, layer, material;  // material: the handle of one
+  bool has_file = false;                                  // an image's, of group 3
   std::size_t line = 0;
 
   bool has(int code) const { return stated_[static_cast<std::size_t>(code)]; }

@@ -48,9 +48,9 @@ DxfTallies allLosses(const DxfFindings& findings, const DxfDrawing& drawing) {
   all["clipped blocks, read whole"].add(drawing.clipped);
   all["geographic locations (GEODATA), not read; specify the CRS on import"].add(drawing.geodata);
   DxfTally users;
-  for (const auto& [handle, tally] : drawing.users_of_material)
-    if (drawing.materials.contains(handle)) users.add(tally);
-  all["entities and layers with a MATERIAL, read with their colour alone"].add(users);
+  for (const DxfMaterial& m : drawing.materials)
+    if (m.kind == DxfMaterial::Kind::own && m.painted) users.add(m.users);
+  all["entities and layers whose MATERIAL has an image or a pattern, read with its colour alone"].add(users);
   return all;
 }
 

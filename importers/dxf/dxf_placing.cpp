@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -18,6 +19,7 @@ constexpr std::uint64_t kMostPlacedCorners = 20'000'000, kMostPlacedBlocks = 1'0
 constexpr int kDeepestBlock = 64;
 constexpr double kLargestPlaced = 1e13;
 constexpr std::int32_t kNoProduct = -1;
+constexpr std::uint32_t kNoMaterial = kMaterialByLayer;
 constexpr std::int32_t kWhite = 0xFFFFFF;
 
 // What a block gets to when everything in it is placed once.
@@ -33,10 +35,11 @@ class Placing {
 
   Result<FaceSoup> run() {
     for (DxfLayer& l : drawing_.layers) l.name = utf8OfDxf(l.name, drawing_.code_page);
+    for (DxfMaterial& m : drawing_.materials) m.name = utf8OfDxf(m.name, drawing_.code_page);
     for (auto& [key, block] : drawing_.blocks) block.name = utf8OfDxf(block.name, drawing_.code_page);
     Reach all;
     TRY(reach(drawing_.model, all));
-    place(drawing_.model, {Eigen::Affine3d::Identity(), kLayerZero, kWhite, nullptr, 0});
+    place(drawing_.model, {Eigen::Affine3d::Identity(), kLayerZero, kWhite, kNoMaterial, nullptr, 0});
     if (error_) return failure(*error_);
     tellDxf(findings_, drawing_, report_);
     return std::move(soup_);
@@ -56,8 +59,9 @@ class Placing {
   };
   struct Where {
     Eigen::Affine3d world_from_block;
-    std::uint32_t layer;  // of what is on layer 0
-    std::int32_t colour;  // of what has that of its block
+    std::uint32_t layer;     // of what is on layer 0
+    std::int32_t colour;     // of what has that of its block
+    std::uint32_t material;  // likewise; kNoMaterial, or one of its own kind
     Placed* placed;
     std::size_t line;  // of the insert
   };
@@ -136,8 +140,8 @@ class Placing {
           outer_from_block.pretranslate(column * insert.column_step + row * insert.row_step);
           outer_from_block.translate(-inner->base);
           placed.cell = row * insert.columns + column;
-          place(*inner,
-                {world_from_outer * outer_from_block, layer, colourOf(insert.look, where), &placed, insert.line});
+          place(*inner, {world_from_outer * outer_from_block, layer, colourOf(insert.look, where),
+                         materialOf(insert.look, where), &placed, insert.line});
         }
     }
   }
@@ -160,7 +164,7 @@ class Placing {
         product = newProduct(block.entity_ids[faces.entity], drawing_.layers[layer].name, layer);
         entity = faces.entity;
       }
-      beginRun(static_cast<std::uint32_t>(product), surfaceOf(layer, colourOf(faces.look, where), faces.look.alpha));
+      beginRun(static_cast<std::uint32_t>(product), surfaceOf(faces.look, where));
       for (std::size_t f = faces.begin; f < faces.end; ++f)
         if (!placeFace(block, f, where, mirrored)) return;
     }
@@ -198,16 +202,31 @@ class Placing {
     return look.colour == kColourByLayer ? drawing_.layers[layerOf(look, where)].colour : look.colour;
   }
 
-  std::uint32_t surfaceOf(std::uint32_t layer, std::int32_t rgb, std::uint8_t alpha) {
+  std::uint32_t materialOf(const DxfLook& look, const Where& where) const {
+    using M = DxfMaterial::Kind;
+    const auto kind = [&](std::uint32_t index) { return drawing_.materials[index].kind; };
+    std::uint32_t material = look.material;
+    if (kind(material) == M::by_block) return where.material;
+    if (kind(material) == M::by_layer) material = drawing_.layers[layerOf(look, where)].material;
+    return kind(material) == M::own ? material : kNoMaterial;
+  }
+
+  // Of a material in all layers alike, else of the layer.
+  std::uint32_t surfaceOf(const DxfLook& look, const Where& where) {
+    const std::uint32_t material = materialOf(look, where), layer = layerOf(look, where);
+    const DxfMaterial& m = drawing_.materials[material];
+    const std::int32_t rgb = m.colour >= 0 ? m.colour : colourOf(look, where);
+    const auto alpha = static_cast<std::uint8_t>(std::lround(m.opacity * look.alpha));
     const auto [known, is_new] =
-        surface_of_.try_emplace({layer, rgb, alpha}, static_cast<std::uint32_t>(soup_.surfaces.size()));
+        surface_of_.try_emplace({material, material == kNoMaterial ? layer : kLayerZero, rgb, alpha},
+                                static_cast<std::uint32_t>(soup_.surfaces.size()));
     if (!is_new) return known->second;
     const auto part = [&](unsigned shift) {
       return static_cast<float>(static_cast<std::uint32_t>(rgb) >> shift & 255U) / 255;
     };
     Surface s;
-    s.name = drawing_.layers[layer].name;
-    s.source = "layer " + s.name;
+    s.name = material == kNoMaterial ? drawing_.layers[layer].name : m.name;
+    s.source = material == kNoMaterial ? "layer " + s.name : "#" + m.handle;
     s.colour = {part(16), part(8), part(0), static_cast<float>(alpha) / 255};
     soup_.surfaces.push_back(std::move(s));
     return known->second;
@@ -256,7 +275,7 @@ class Placing {
   std::vector<std::size_t> lines_;  // of faces
   std::map<const DxfBlock*, Reach> reach_;
   int depth_ = 0;
-  std::map<std::tuple<std::uint32_t, std::int32_t, std::uint8_t>, std::uint32_t> surface_of_;
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::int32_t, std::uint8_t>, std::uint32_t> surface_of_;
   std::map<std::uint32_t, std::int32_t> product_of_layer_;
   DxfFindings findings_;
   std::optional<Error> error_;

@@ -43,6 +43,10 @@ constexpr std::array kUnits{0.0,
                             5280 * kSurveyFoot};
 // What is no shape, so that nothing is lost without it.
 constexpr std::array<std::string_view, 4> kNoShape{"SEQEND", "ENDBLK", "VIEWPORT", "ATTDEF"};
+// Of a MATERIAL: name, image, handle, factor and kind of the diffuse colour, kind of its map, the colour, opacity. The
+// first of each counts.
+constexpr std::array kOfMaterial{1, 3, 5, 41, 71, 72, 91, 140};
+constexpr int kOverridesColour = 1, kProceduralMap = 2;
 constexpr int kFrozen = 1, kExternal = 4, kExternalOverlay = 8;
 constexpr int kFaceOfPolyface = 128, kCornerOfPolyface = 64, kFrameOfCurve = 16;
 constexpr int kPolyfaceHead = 64;
@@ -60,6 +64,14 @@ std::uint32_t DxfDrawing::layerNamed(std::string_view layer) {
   if (layer.empty()) return kLayerZero;
   const auto [known, is_new] = layer_of_key.try_emplace(dxfKey(layer), static_cast<std::uint32_t>(layers.size()));
   if (is_new) layers.push_back({.name = std::string(layer)});
+  return known->second;
+}
+
+std::uint32_t DxfDrawing::materialOf(std::string_view handle) {
+  if (handle.empty()) return kMaterialByLayer;
+  const auto [known, is_new] =
+      material_of_handle.try_emplace(dxfKey(handle), static_cast<std::uint32_t>(materials.size()));
+  if (is_new) materials.push_back({.handle = std::string(handle)});
   return known->second;
 }
 
@@ -138,7 +150,8 @@ Result<void> DxfReader::take(const DxfGroup& group) {
   const bool block = section_ == Section::blocks && entity_.kind == "BLOCK";
   if (kind_ != nullptr || table || block) return entity_.take(group, groups_);
   const bool material = section_ == Section::objects && entity_.kind == "MATERIAL";
-  if (material && (group.code == 1 || group.code == 5)) return entity_.take(group, groups_);
+  if (material && std::find(kOfMaterial.begin(), kOfMaterial.end(), group.code) != kOfMaterial.end())
+    return entity_.take(group, groups_);
   // Of others it matters only whether they are there to see.
   if (group.code == 67 || group.code == 60) return entity_.take(group, groups_);
   return {};
@@ -211,9 +224,15 @@ DxfLook DxfReader::look() {
   DxfLook look;
   look.layer = drawing_.layerNamed(entity_.layer);
   look.colour = colour(kColourByLayer);
-  if (!entity_.material.empty()) drawing_.users_of_material[dxfKey(entity_.material)].add({1, entity_.line});
+  look.material = usedMaterial();
   if ((transparency & kStated) != 0) look.alpha = static_cast<std::uint8_t>(transparency & 0xFF);
   return look;
+}
+
+std::uint32_t DxfReader::usedMaterial() {
+  const std::uint32_t material = drawing_.materialOf(entity_.material);
+  drawing_.materials[material].users.add({1, entity_.line});
+  return material;
 }
 
 void DxfReader::layer() {
@@ -223,14 +242,33 @@ void DxfReader::layer() {
   if (stated >= 0) layer.colour = stated;
   layer.off = entity_.number(62) < 0;
   layer.frozen = (entity_.flags() & kFrozen) != 0;
-  if (!entity_.material.empty()) drawing_.users_of_material[dxfKey(entity_.material)].add({1, entity_.line});
+  layer.material = usedMaterial();
 }
 
-// Each drawing has three that are no more than a colour.
+// Each drawing has three whose names say that they are none of their own.
 void DxfReader::material() {
-  const std::string name = dxfKey(entity_.text);
-  if (name != "byblock" && name != "bylayer" && name != "global") drawing_.materials.insert(dxfKey(entity_.handle));
   entity_.kind.clear();
+  if (entity_.handle.empty()) return;
+  using M = DxfMaterial::Kind;
+  auto& material = drawing_.materials[drawing_.materialOf(entity_.handle)];
+  material.handle = entity_.handle;
+  material.name = entity_.text;
+  const std::string name = dxfKey(entity_.text);
+  material.kind = name == "bylayer"   ? M::by_layer
+                  : name == "byblock" ? M::by_block
+                  : name == "global"  ? M::none
+                                      : M::own;
+  const auto whole = [&](int code) { return static_cast<std::int64_t>(entity_.number(code)); };
+  if (whole(71) == kOverridesColour && entity_.has(91)) {
+    const double share = std::clamp(entity_.number(41, 1), 0.0, 1.0);
+    const auto part = [&](unsigned shift) {
+      const auto value = static_cast<double>(static_cast<std::uint64_t>(whole(91)) >> shift & 255U);
+      return static_cast<std::int32_t>(std::lround(value * share)) << shift;
+    };
+    material.colour = part(16) | part(8) | part(0);
+  }
+  material.opacity = std::clamp(entity_.number(140, 1), 0.0, 1.0);
+  material.painted = entity_.has_file || whole(72) == kProceduralMap;
 }
 
 void DxfReader::block() {

@@ -50,6 +50,7 @@ class DxfReader {
   bool isHere();  // counts what is in paper space or invisible
   DxfLook look();
   std::int32_t colour(std::int32_t otherwise) const;
+  std::uint32_t usedMaterial();
 
   DxfGroups& groups_;
   const ImportOptions& options_;

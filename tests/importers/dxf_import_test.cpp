@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
 #include <numbers>
+
+#include <fmt/format.h>
 
 #include "tests/importers/dxf_files.h"
 
@@ -353,22 +356,69 @@ TEST(Dxf, TellsWhatHasNoFaces) {
   EXPECT_THAT(told, Not(HasSubstr("VIEWPORT")));
 }
 
-TEST(Dxf, TellsOfMaterialsClippingAndPlacesOnTheMap) {
-  auto faces = kDxfTriangle;
-  faces.replace(faces.find("|8 0"), 4, "|8 Brick|347 A1") += "|" + kDxfTriangle + "|347 9";
-  const DxfText drawing{.layers = "0 LAYER|2 Brick|70 0|62 1|347 A1|0 LAYER|2 Plain|70 0|62 4|347 9",
-                        .entities = faces};
+// The drawing with these objects after its entities.
+ImportedModel dxfWithObjects(const DxfText& drawing, const std::string& objects) {
   std::string text = drawing.text();
-  text.insert(text.rfind("  0\nEOF"), dxfSection("OBJECTS",
-                                                 "0 MATERIAL|5 9|1 Global|40 x|0 MATERIAL|5 a1|1 Masonry"
-                                                 "|0 MATERIAL|5 B2|1 Unused|0 SPATIAL_FILTER|70 2|0 GEODATA"));
-  const auto model = dxf(text);
-  ASSERT_TRUE(model) << describe(model.error());
-  const std::string told = toldByDxf(*model);
-  EXPECT_THAT(told, HasSubstr("loss line 24: entities and layers with a MATERIAL, read with their colour alone: 2"));
+  text.insert(text.rfind("  0\nEOF"), dxfSection("OBJECTS", objects));
+  auto model = dxf(text);
+  EXPECT_TRUE(model) << describe(model.error());
+  if (!model) return {};
+  EXPECT_EQ(validate(model->environment), "");
+  return *std::move(model);
+}
+
+// At this height.
+std::string dxfTriangle(int z, const std::string& layer_and_more) {
+  auto face = kDxfTriangle;
+  for (const char* group : {"|30 ", "|31 ", "|32 ", "|33 "}) face.replace(face.find(group) + 4, 1, std::to_string(z));
+  return face.replace(face.find("|8 0"), 4, layer_and_more);
+}
+
+// "Name RRGGBBAA source" of each surface.
+std::vector<std::string> dxfSurfaces(const ImportedModel& model) {
+  std::vector<std::string> all;
+  for (const Surface& s : model.environment.surfaces) {
+    const auto part = [](float value) { return std::lround(255 * value); };
+    all.push_back(fmt::format("{} {:02x}{:02x}{:02x}{:02x} {}", s.name, part(s.colour.r), part(s.colour.g),
+                              part(s.colour.b), part(s.colour.a), s.source));
+  }
+  return all;
+}
+
+const std::string kDxfMaterials =
+    "0 MATERIAL|5 9|1 Global|71 1|91 -16777216|0 MATERIAL|5 7|1 ByLayer|0 MATERIAL|5 8|1 ByBlock"
+    // 0xC2804020, with 0.5 of its light, and its later groups of the same code, of other maps
+    "|0 MATERIAL|5 a1|1 Masonry|70 1|90 -1|71 1|41 0.5|91 -1031782368|72 1|3 |73 1|43 1|44 0.5|73 0|49 1|140 0.8"
+    "|0 MATERIAL|5 B2|1 Paint|71 0|91 255|140 1";
+
+TEST(Dxf, ReadsMaterialsOfEntitiesLayersAndBlocks) {
+  const DxfText drawing{
+      .layers = "0 LAYER|2 Brick|70 0|62 1|347 A1|0 LAYER|2 Plain|70 0|62 5",
+      .blocks = "0 BLOCK|2 B|70 0|" + dxfTriangle(0, "|8 0|347 8") + "|" + dxfTriangle(1, "|8 0") + "|0 ENDBLK",
+      .entities = dxfTriangle(0, "|8 Brick") + "|" + dxfTriangle(1, "|8 Brick|347 7") + "|" +
+                  dxfTriangle(2, "|8 Plain|347 a1") + "|" + dxfTriangle(3, "|8 Brick|347 b2") + "|" +
+                  dxfTriangle(4, "|8 Brick|347 9") + "|" + dxfTriangle(5, "|8 Plain|347 FF") +
+                  "|0 INSERT|5 10|8 Plain|2 B|347 B2|10 5|20 0|30 0"};
+  const auto model = dxfWithObjects(drawing, kDxfMaterials);
+  EXPECT_THAT(dxfSurfaces(model),
+              ElementsAre("Masonry 402010cc #a1", "Paint ff0000ff #B2", "Brick ff0000ff layer Brick",
+                          "Plain 0000ffff layer Plain", "Paint 0000ffff #B2"));
+  EXPECT_EQ(toldByDxf(model), "");
+}
+
+TEST(Dxf, TellsOfPaintedMaterialsClippingAndPlacesOnTheMap) {
+  const DxfText drawing{.layers = "0 LAYER|2 Brick|70 0|62 1|347 A1|0 LAYER|2 Plain|70 0|62 4|347 B2",
+                        .entities = dxfTriangle(0, "|8 Brick|347 A1") + "|" + dxfTriangle(1, "|8 Plain|347 C3")};
+  const auto model = dxfWithObjects(drawing,
+                                    "0 MATERIAL|5 a1|1 Masonry|72 1|3 bricks.jpg|0 MATERIAL|5 B2|1 Plain|3 "
+                                    "|0 MATERIAL|5 c3|1 Marble|72 2|0 SPATIAL_FILTER|70 2|0 GEODATA");
+  const std::string told = toldByDxf(model);
+  EXPECT_THAT(told,
+              HasSubstr("loss line 24: entities and layers whose MATERIAL has an image or a pattern, read with its "
+                        "colour alone: 3"));
   EXPECT_THAT(told, HasSubstr("clipped blocks, read whole: 1"));
   EXPECT_THAT(told, HasSubstr("geographic locations (GEODATA), not read; specify the CRS on import: 1"));
-  EXPECT_EQ(model->report.losses(), 3U);
+  EXPECT_EQ(model.report.losses(), 3U);
 }
 
 TEST(Dxf, ReadsAllLineEndsAndComments) {
