@@ -62,10 +62,11 @@ std::string warningText(const Editor& editor) {
   const WalkPace& pace = recording.pace;
   if (!recording.record.active()) return {};
   std::string text;
-  if (pace.tooFast()) text = trf("Slow down: {:.1f} m/s, at most {:.3g}", pace.speed_mps(), pace.limits().speed_mps);
+  if (pace.tooFast())
+    text = trf("Slow down: {:.1f} m/s, at most {:.3g} m/s", pace.speed_mps(), pace.limits().speed_mps);
   if (!pace.turnsTooFast()) return text;
   if (!text.empty()) text += "   ";
-  return text + trf("Turn more slowly: {:.0f}°/s, at most {:.0f}", pace.turn_radps() / kRadPerDeg,
+  return text + trf("Turn more slowly: {:.0f}°/s, at most {:.0f}°/s", pace.turn_radps() / kRadPerDeg,
                     pace.limits().turn_radps / kRadPerDeg);
 }
 

@@ -441,7 +441,7 @@ TEST_F(LiveWalk, WarnsInWordsOfAPaceThatIsTooFast) {
   walk();
   begin();
   EXPECT_THAT(textsOf([&] { hold('W', 30); }),
-              testing::Contains(testing::HasSubstr("Slow down: 1.8 m/s, at most 1.05")));
+              testing::Contains(testing::HasSubstr("Slow down: 1.8 m/s, at most 1.05 m/s")));
   gui.frames(60);
   editor.walk.changeSpeed(-3);  // 0.92 m/s
   EXPECT_THAT(textsOf([&] { hold('S', 40); }), testing::Not(testing::Contains(testing::HasSubstr("Slow down"))));
@@ -451,14 +451,14 @@ TEST_F(LiveWalk, WarnsInWordsOfAPaceThatIsTooFast) {
       gui.frame();
     }
   });
-  EXPECT_THAT(turned, testing::Contains(testing::HasSubstr("Turn more slowly: 115°/s, at most 69")));
+  EXPECT_THAT(turned, testing::Contains(testing::HasSubstr("Turn more slowly: 115°/s, at most 69°/s")));
 }
 
 TEST_F(LiveWalk, WarnsWhileItOnlyRecordsToo) {
   walk();
   ASSERT_TRUE(invoke(editor, "record-walk"));
   EXPECT_THAT(textsOf([&] { hold('W', 30); }),
-              testing::Contains(testing::HasSubstr("Slow down: 1.8 m/s, at most 1.05")));
+              testing::Contains(testing::HasSubstr("Slow down: 1.8 m/s, at most 1.05 m/s")));
   EXPECT_FALSE(editor.recording.live.casts());
   ASSERT_TRUE(invoke(editor, "record-walk"));
   takeIn();
