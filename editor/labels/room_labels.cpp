@@ -12,8 +12,25 @@ namespace {
 
 constexpr double kAboveFloor_m = 1.0;  // under the cut of a plan, over most furniture
 
+// Boxes of stairs: who looks down sees their steps, which a name on them would hide.
+std::vector<Bounds> stairBoxes(const Environment& environment) {
+  std::vector<Bounds> boxes;
+  const auto all = productBounds(environment);
+  for (std::size_t p = 0; p < all.size(); ++p)
+    if (environment.products[p].ifc_class.starts_with("IfcStair") && !all[p].empty()) boxes.push_back(all[p]);
+  return boxes;
+}
+
+// In a room's floor plan, of a stair that stands in the room or comes up into it.
+bool onStair(const Eigen::Vector3d& place, const SpaceBody& space, const std::vector<Bounds>& stairs) {
+  return std::any_of(stairs.begin(), stairs.end(), [&](const Bounds& b) {
+    return b.min.z() < space.box.max.z() && b.max.z() > space.box.min.z() && place.x() > b.min.x() &&
+           place.x() < b.max.x() && place.y() > b.min.y() && place.y() < b.max.y();
+  });
+}
+
 // Of a grid over the floor plan, a place whose nearest one outside of the room is about the farthest.
-Eigen::Vector3d middleOf(const SpaceBody& space) {
+Eigen::Vector3d middleOf(const SpaceBody& space, const std::vector<Bounds>& stairs) {
   constexpr int kSteps = 12;
   const Eigen::Vector3d span = space.box.max - space.box.min;
   const double z = space.box.min.z() + std::min(kAboveFloor_m, span.z() / 2);
@@ -25,7 +42,10 @@ Eigen::Vector3d middleOf(const SpaceBody& space) {
   for (int row = -1; row <= kSteps; ++row)  // with a frame of places that are outside of it for sure
     for (int column = -1; column <= kSteps; ++column)
       (space.contains(place(column, row)) ? inside : outside).push_back(place(column, row));
-  std::vector<double> clear;  // from the nearest place outside, squared
+  std::vector<Eigen::Vector3d> free, taken = outside;
+  for (const auto& p : inside) (onStair(p, space, stairs) ? taken : free).push_back(p);
+  if (!free.empty()) inside = std::move(free), outside = std::move(taken);  // a stairwell is nothing but stairs
+  std::vector<double> clear;                                                // from the nearest place outside, squared
   for (const auto& p : inside) {
     clear.push_back(1e300);
     for (const auto& q : outside) clear.back() = std::min(clear.back(), (p - q).squaredNorm());
@@ -45,6 +65,7 @@ Eigen::Vector3d middleOf(const SpaceBody& space) {
 
 std::vector<RoomLabel> roomLabels(const Environment& environment) {
   std::vector<RoomLabel> labels;
+  const auto stairs = stairBoxes(environment);
   for (const auto& space : spaceBodies(environment)) {
     const auto& product = environment.products[space.product];
     const std::string longer = longNameOf(product);
@@ -52,7 +73,7 @@ std::vector<RoomLabel> roomLabels(const Environment& environment) {
     const bool both = !longer.empty() && longer != product.name;
     const std::string& name = both ? longer : product.name;
     if (name.empty()) continue;
-    labels.push_back({space.product, both ? product.name : "", name, middleOf(space), span.x() * span.y()});
+    labels.push_back({space.product, both ? product.name : "", name, middleOf(space, stairs), span.x() * span.y()});
   }
   std::stable_sort(labels.begin(), labels.end(),
                    [](const RoomLabel& a, const RoomLabel& b) { return a.floor_area_m2 > b.floor_area_m2; });

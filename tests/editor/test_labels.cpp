@@ -128,6 +128,24 @@ TEST(RoomLabels, StandWithinTheRoomAwayFromItsWalls) {
   EXPECT_NEAR(p.z(), 1, 1e-9);
 }
 
+TEST(RoomLabels, StandBesideTheStairOfTheirRoom) {
+  auto e = angledRoom();
+  const auto before = roomLabels(e).at(0).anchor;
+  Mesh stair = *e.meshes[0];
+  for (auto& p : stair.positions)  // a box around the place, through the whole height
+    p = {static_cast<float>(before.x()) + (p.x() > 1 ? 0.6F : -0.6F),
+         static_cast<float>(before.y()) + (p.y() > 1 ? 0.6F : -0.6F), p.z()};
+  e.products.push_back(e.products[0]);
+  e.products[1].ifc_class = "IfcStairFlight";
+  e.meshes.push_back(std::make_shared<const Mesh>(stair));
+  e.instances.push_back({1, 1, Eigen::Affine3d::Identity()});
+  const auto labels = roomLabels(e);
+  ASSERT_EQ(labels.size(), 1U);
+  const auto& p = labels[0].anchor;
+  EXPECT_TRUE(p.x() < 2 || p.y() < 2) << "still in its room";
+  EXPECT_GT(std::max(std::abs(p.x() - before.x()), std::abs(p.y() - before.y())), 0.6) << p.transpose();
+}
+
 class Plan : public ::testing::Test {
  protected:
   void SetUp() override {
