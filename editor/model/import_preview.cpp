@@ -58,12 +58,13 @@ ImportFacts factsOf(const Document& document, const Report& report) {
         environment.meshes[instance.mesh]->triangles.size();
   for (auto& [name, count] : classes) {
     count.ifc_class = name;
-    facts.triangles += count.triangles;
     facts.classes.push_back(count);
   }
   std::stable_sort(facts.classes.begin(), facts.classes.end(),
                    [](const ClassCount& a, const ClassCount& b) { return a.triangles > b.triangles; });
   facts.products = environment.products.size();
+  facts.triangles = sceneTriangleCount(environment);
+  facts.triangles_of_spaces = triangleCount(environment) - facts.triangles;
   facts.bounds_file_m = bounds(environment);
   if (!facts.bounds_file_m.empty()) {
     facts.size_m = facts.bounds_file_m.max - facts.bounds_file_m.min;

@@ -35,9 +35,10 @@ struct ClassCount {
 
 // What the preview says of a model that was read, but not taken in.
 struct ImportFacts {
-  std::vector<ClassCount> classes;  // most triangles first
-  std::size_t products = 0;         // with those that have no geometry
-  std::uint64_t triangles = 0;
+  std::vector<ClassCount> classes;        // most triangles first
+  std::size_t products = 0;               // with those that have no geometry
+  std::uint64_t triangles = 0;            // of the scene, as the model has them when it is taken in
+  std::uint64_t triangles_of_spaces = 0;  // of what is not in the scene: spaces, annotations
   Bounds bounds_file_m;
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();
   std::size_t notes = 0, warnings = 0, losses = 0;

@@ -108,6 +108,12 @@ void drawClasses(const Model& model, float height) {
       table.push_back({row.ifc_class, std::to_string(row.products), std::to_string(row.triangles)});
     return table;
   });
+  if (facts.triangles_of_spaces > 0) {
+    const auto others =
+        trf("and {} of spaces and annotations, which no beam meets", groupedDigits(facts.triangles_of_spaces));
+    ui::dimWrapped(others);
+    height -= ImGui::GetTextLineHeightWithSpacing();
+  }
   const auto flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoPadOuterX;
   if (!ImGui::BeginTable("preview-classes", 3, flags, {0, height})) return;
   ImGui::TableSetupColumn("class", ImGuiTableColumnFlags_WidthStretch);

@@ -93,6 +93,8 @@ TEST_F(Preview, CountsProductsPerClassAndIssuesPerSeverity) {
   for (const auto& row : facts.classes) products += row.products, triangles += row.triangles;
   EXPECT_EQ(products, house.imported->products.size());
   EXPECT_EQ(triangles, triangleCount(*house.imported));
+  EXPECT_EQ(facts.triangles, sceneTriangleCount(*house.imported)) << "as they are counted once it is taken in";
+  EXPECT_EQ(facts.triangles + facts.triangles_of_spaces, triangles);
   EXPECT_EQ(facts.losses, 1u);
   EXPECT_EQ(facts.warnings, 1u);
   EXPECT_EQ(facts.notes, 1u);
