@@ -210,6 +210,7 @@ void Model::update() {
     followLocated();
     followScans();
   }
+  followMaterials();
   followPointColours();
   followWalking(*this);
   followRecord(*this);
@@ -236,6 +237,17 @@ void Model::update() {
   for (auto& error : underlays.takeErrors())
     session.errors().push_back(
         {"Cannot display an underlay: restore its file, or remove the underlay in the outliner", std::move(error)});
+}
+
+// In model colours nothing would be seen of what was assigned.
+void Model::followMaterials() {
+  const auto assigns = [](const auto& task) { return std::string_view(task->verb().name) == "materials"; };
+  if (!materials_asked || std::any_of(session.running().begin(), session.running().end(), assigns)) return;
+  materials_asked = false;
+  const auto* last = session.lastOf("materials");
+  if (last == nullptr || last->revision != session.revision() || view.colour != ColourMode::model) return;
+  view.colour = ColourMode::material;
+  say(tr("The view shows the assigned materials. Its colour button leads back to the model colours."));
 }
 
 // The camera looks at what is previewed, and back where it was when that is given up.

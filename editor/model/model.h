@@ -271,6 +271,7 @@ struct Model : Style {
     std::chrono::steady_clock::time_point until;
   };
   Notice notice;
+  bool materials_asked = false;  // somebody assigns some by hand: they are shown when they are there
   void say(std::string text);
   std::string keeping_problem;  // why unsaved work is not being kept; "" when it is
 
@@ -356,6 +357,7 @@ struct Model : Style {
   void followOnlyCloud();
   void followLocated();
   void followScans();
+  void followMaterials();
   void followPreview();
   void startWaitingCloud();
   void followLiveScan();

@@ -60,8 +60,8 @@ void drawMaterialMenu(Editor& editor) {
     const auto label = scope.products > 1 ? trf("{}   {} products###{}", scope.title, scope.products, scope.selector)
                                           : fmt::format("{}###{}", scope.title, scope.selector);
     if (ImGui::MenuItem(label.c_str(), nullptr, false, why.empty()))
-      editor.session.start(MaterialsOptions{{.assign = {{scope.selector, material->id}}}},
-                           trf("Assign {} to {}", tr(material->label), scope.title));
+      editor.materials_asked |= editor.session.start(MaterialsOptions{{.assign = {{scope.selector, material->id}}}},
+                                                     trf("Assign {} to {}", tr(material->label), scope.title));
   }
   ui::tooltip(why);
   ImGui::EndPopup();

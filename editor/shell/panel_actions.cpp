@@ -11,11 +11,24 @@
 #include "editor/shell/import_preview.h"
 #include "editor/shell/shell.h"
 #include "editor/words/sentences.h"
+#include "project/materials/materials_verb.h"
 
 namespace standpoint {
 
+namespace {
+
+// What is accepted or taken into the library changes no surface.
+bool assigns(const MaterialsOptions& options) {
+  return !options.assign.empty() || (options.accept.empty() && options.reopen.empty() && options.libraries.empty());
+}
+
+}  // namespace
+
 bool PanelActions::start(const VerbOptions& options, std::string title) {
-  return editor_.session.start(options, std::move(title));
+  if (!editor_.session.start(options, std::move(title))) return false;
+  const auto* materials = std::any_cast<MaterialsOptions>(&options.held());
+  editor_.materials_asked |= materials != nullptr && assigns(*materials);
+  return true;
 }
 bool PanelActions::startScan(const ScanVerbOptions& options, std::string title) {
   return editor_.startScan(options, std::move(title));

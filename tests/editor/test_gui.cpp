@@ -562,6 +562,28 @@ TEST_F(Gui, FollowsTheBudgetsSliderAtOnceAndForgetsItWhenOptimised) {
   EXPECT_EQ(editor.viewState().environment, editor.session.document().simplified->environment);
 }
 
+TEST_F(Gui, ShowsTheMaterialsThatSomebodyHasAssigned) {
+  open();
+  editor.workspace = Workspace::materials;
+  gui.frames(3);
+  ASSERT_EQ(editor.view.colour, ColourMode::model);
+  ASSERT_TRUE(gui.click("###assign-rules"));
+  gui.settle();
+  gui.frames(2);
+  EXPECT_EQ(editor.view.colour, ColourMode::material);
+  EXPECT_TRUE(gui.says("shows the assigned materials")) << "and how to come back";
+  editor.view.colour = ColourMode::model;
+  ASSERT_TRUE(editor.session.start("materials", nlohmann::json::object()));
+  gui.settle();
+  gui.frames(2);
+  EXPECT_EQ(editor.view.colour, ColourMode::model) << "nobody has asked for it";
+  editor.view.colour = ColourMode::reflectance;
+  ASSERT_TRUE(gui.click("###assign-rules"));
+  gui.settle();
+  gui.frames(2);
+  EXPECT_EQ(editor.view.colour, ColourMode::reflectance) << "it shows them already";
+}
+
 // Whatever is drawn in these windows ends before their right edge.
 void expectNothingCut(const char* window_name) {
   const auto* window = ImGui::FindWindowByName(window_name);
