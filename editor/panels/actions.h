@@ -24,6 +24,7 @@ class Actions {
 
   // The document. False when Session::whyNot() says why not.
   virtual bool start(const VerbOptions& options, std::string title) = 0;
+  virtual bool optimise(const SimplificationRequest& request) = 0;  // towards its budget, as far as it can be reached
   virtual bool startScan(const ScanVerbOptions& options, std::string title) = 0;  // its points are shown as they come
   virtual void report(std::string title, Error error) = 0;
   // Why the task of this title was refused, once: whoever asks says it himself, instead of a dialog. "" when it was

@@ -20,7 +20,7 @@ namespace standpoint {
 
 namespace {
 
-void drawResult(const Model& model, const SimplifiedModel& light) {
+void drawResult(const Model& model, const OptimiseState& state, const SimplifiedModel& light) {
   ui::heading(model, "Result");
   const auto& all = light.all;
   const double fraction = all.triangles_before > 0
@@ -35,7 +35,10 @@ void drawResult(const Model& model, const SimplifiedModel& light) {
     ui::property("Normal deviation", trf("{:.2f}° mean", all.mean_turn_rad / kRadPerDeg));
     ui::endProperties();
   }
-  if (light.request.budget.value_or(0) > 0 && all.triangles_after > *light.request.budget)
+  if (state.asked > 0 && all.triangles_after > state.asked && light.request.budget == all.triangles_after)
+    ui::dimWrapped(
+        trf("{} triangles cannot be reached within this deviation: these are the fewest.", groupedDigits(state.asked)));
+  else if (light.request.budget.value_or(0) > 0 && all.triangles_after > *light.request.budget)
     ImGui::TextColored(colour(tone::kWarning), "%s  %s", ICON_WARNING,
                        tr("Budget not reachable within this deviation").c_str());
 }
@@ -225,15 +228,18 @@ void draw(const Model& model, OptimiseState& state, Actions& actions) {
   ui::checkbox(ui::Label("Live preview"), &state.live);
   ui::tooltip("The view follows the sliders. Choose Optimise to measure and keep the result.");
   if (state.live) drawPreview(model, state, actions, budget);
+  if (!state.only_lossless)
+    ui::dimWrapped("Goes as far towards the budget as the maximum deviation allows. Nothing moves further than that.");
   ImGui::EndDisabled();
   if (ui::primaryButton(ICON_COMPRESS "  Optimise###run-optimise", model.session.whyNot("optimize"), {-FLT_MIN, 0})) {
     state.live = false;
     auto request = requestOf(model, state, budget);
     request.engine = state.engine;
-    actions.start(std::move(request), "Optimise the model");
+    state.asked = request.budget.value_or(0);
+    actions.optimise(request);
   }
   if (!document.simplified) return;
-  drawResult(model, *document.simplified);
+  drawResult(model, state, *document.simplified);
   drawHistogram(model, actions);
   drawWorst(model, actions, *document.simplified);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "project/document.h"
@@ -9,6 +10,7 @@ namespace standpoint {
 
 struct OptimiseState {
   double budget_fraction = 0.25;  // of the imported model's triangles
+  std::uint64_t asked = 0;        // triangles, when it was started last
   bool only_lossless = false;
   double max_deviation_mm = SimplificationRequest().max_deviation_m * 1000;
   bool by_view = false;  // what walkers see weighs more

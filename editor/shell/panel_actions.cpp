@@ -12,6 +12,7 @@
 #include "editor/shell/shell.h"
 #include "editor/words/sentences.h"
 #include "project/materials/materials_verb.h"
+#include "project/model/optimize_verb.h"
 
 namespace standpoint {
 
@@ -29,6 +30,13 @@ bool PanelActions::start(const VerbOptions& options, std::string title) {
   const auto* materials = std::any_cast<MaterialsOptions>(&options.held());
   editor_.materials_asked |= materials != nullptr && assigns(*materials);
   return true;
+}
+bool PanelActions::optimise(const SimplificationRequest& request) {
+  const auto work = [request](const Document& document, Progress& progress) -> Result<Outcome> {
+    TRY_ASSIGN(auto answered, optimizeTowards(document, request, progress));
+    return outcomeOf(std::move(answered));
+  };
+  return editor_.session.start(request, "Optimise the model", work);
 }
 bool PanelActions::startScan(const ScanVerbOptions& options, std::string title) {
   return editor_.startScan(options, std::move(title));

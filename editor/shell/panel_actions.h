@@ -13,6 +13,7 @@ class PanelActions final : public Actions {
   explicit PanelActions(Editor& editor) : editor_(editor) {}
 
   bool start(const VerbOptions& options, std::string title) override;
+  bool optimise(const SimplificationRequest& request) override;
   bool startScan(const ScanVerbOptions& options, std::string title) override;
   void report(std::string title, Error error) override;
   std::string refused(const std::string& title) override;

@@ -172,4 +172,23 @@ Result<Answered<OptimizeAnswer>> runOptimize(const Document& document, const Sim
   return outcome;
 }
 
+Result<Answered<OptimizeAnswer>> optimizeTowards(const Document& document, const SimplificationRequest& request,
+                                                 Progress& progress) {
+  TRY_ASSIGN(auto outcome, runOptimize(document, request, progress));
+  auto& answer = outcome.answer;
+  if (answer.budget_reached || !request.budget || !request.lod_rules.empty()) return outcome;
+  const auto least = *answer.smallest_budget;
+  auto& issues = outcome.report.issues;
+  std::erase_if(issues,
+                [](const Issue& issue) { return issue.severity == Severity::loss && issue.source == "budget"; });
+  outcome.report.note("budget", fmt::format("the maximum deviation allows no fewer than {} triangles; asked for {}",
+                                            least, *request.budget));
+  auto kept = *outcome.document.simplified;
+  kept.request.budget = least;
+  outcome.document.simplified = std::make_shared<const SimplifiedModel>(std::move(kept));
+  answer.budget_reached = true;
+  answer.smallest_budget.reset();
+  return outcome;
+}
+
 }  // namespace standpoint

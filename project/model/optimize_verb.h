@@ -34,5 +34,9 @@ struct OptimizeAnswer : ProductLoss {  // of all products
 const AnswerFields<OptimizeAnswer>& answerFields(const OptimizeAnswer*);
 Result<Answered<OptimizeAnswer>> runOptimize(const Document& document, const SimplificationRequest& request,
                                              Progress& progress);
+// The same towards a budget that is a wish: where the deviations do not allow it, the least that they allow takes its
+// place in the request that is kept, and a note says so.
+Result<Answered<OptimizeAnswer>> optimizeTowards(const Document& document, const SimplificationRequest& request,
+                                                 Progress& progress);
 
 }  // namespace standpoint

@@ -518,6 +518,24 @@ TEST_F(Gui, ExportsUnderTheProjectsNameWhereNothingIsYet) {
   EXPECT_NE(offered(), first);
 }
 
+// Boxes cannot have fewer triangles: any budget below theirs is out of reach.
+TEST_F(Gui, OptimisesByItsDefaultsWithoutALoss) {
+  open();
+  editor.workspace = Workspace::optimise;
+  editor.wanted_tab[1] = "optimise";
+  gui.frames(3);
+  EXPECT_TRUE(gui.says("as far towards the budget as the maximum deviation allows")) << "before it is pressed";
+  editor.session.clearLog();
+  ASSERT_TRUE(gui.click("###run-optimise"));
+  gui.settle();
+  const auto& light = editor.session.document().simplified;
+  ASSERT_NE(light, nullptr);
+  for (const auto& entry : editor.session.log()) EXPECT_LT(entry.level, LogLevel::loss) << entry.message;
+  EXPECT_EQ(light->request.budget, light->all.triangles_after) << "which the verb reaches again, without a loss";
+  EXPECT_GT(light->all.triangles_after, sceneTriangleCount(*editor.session.document().imported) / 4);
+  EXPECT_TRUE(gui.says("cannot be reached within this deviation"));
+}
+
 TEST_F(Gui, TakesTheBudgetInTrianglesToo) {
   open();
   editor.workspace = Workspace::optimise;
