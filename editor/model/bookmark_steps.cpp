@@ -5,6 +5,7 @@
 
 #include "core/units.h"
 #include "editor/model/model.h"
+#include "editor/words/words.h"
 #include "project/model/bookmarks.h"
 
 namespace standpoint {
@@ -37,7 +38,7 @@ void addBookmark(Model& model) {
   options.parallel = camera.orthographic;
   if (model.visibility.cut_height_m) options.cut_m = *model.visibility.cut_height_m + shift.z();
   options.on_foot = model.walk.active();
-  model.session.start(options, "Add bookmark " + name);
+  model.session.start(options, trf("Add bookmark {}", name));
 }
 
 void goToBookmark(Model& model, std::size_t bookmark) {

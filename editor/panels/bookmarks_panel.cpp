@@ -29,7 +29,8 @@ void drawName(BookmarksState& state, Actions& actions, const Bookmark& bookmark)
   if (!state.begun) ui::focusNext();
   const bool changed = ui::textField("###bookmark-name", state.name);
   if (changed && state.name != bookmark.name)
-    actions.start(BookmarkOptions{.rename = bookmark.name, .name = state.name}, "Rename bookmark " + bookmark.name);
+    actions.start(BookmarkOptions{.rename = bookmark.name, .name = state.name},
+                  trf("Rename bookmark {}", bookmark.name));
   if (changed || (state.begun && !ImGui::IsItemActive())) state.renamed = -1;
   state.begun = true;
 }
@@ -64,7 +65,7 @@ void drawRow(const Model& model, BookmarksState& state, Actions& actions, const 
   ImGui::SameLine(ImGui::GetContentRegionMax().x - button);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(model.px(4), 0));
   if (ui::iconButton(ICON_TRASH "###remove-bookmark", "Remove", model.session.whyNot("bookmark")))
-    actions.start(BookmarkOptions{.remove = bookmark.name}, "Remove bookmark " + bookmark.name);
+    actions.start(BookmarkOptions{.remove = bookmark.name}, trf("Remove bookmark {}", bookmark.name));
   ImGui::PopStyleVar();
   ImGui::PopID();
 }

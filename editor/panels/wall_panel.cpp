@@ -148,7 +148,7 @@ void keep(const Model& model, Actions& actions, const WallResult& wall) {
   options.kind = MeasurementKind::plane;
   for (const auto& corner : cornersOf(wall)) options.points.push_back(corner + model.shift_m());
   options.note = wallNote(wall);
-  actions.start(options, "Keep wall " + name);
+  actions.start(options, trf("Keep wall {}", name));
 }
 
 void drawButtons(const Model& model, Actions& actions, const WallResult& wall) {

@@ -294,6 +294,12 @@ void drawAbout(Editor& editor) {
 
 namespace {
 
+// Of a task: shorter than the verb's summary, which heads the form.
+std::string taskTitle(const VerbDialogState& form) {
+  if (!form.exports) return tr(readableOption(form.verb.c_str()));
+  return form.verb == "convert" ? "Export points" : "Export model";
+}
+
 // Model or points: whoever looks for one of them finds it in the form of the other, too.
 void chooseExport(Editor& editor) {
   const bool points = editor.dialogs.verb.verb == "convert";
@@ -329,7 +335,7 @@ void drawVerbDialog(Editor& editor) {
   std::string why = editor.session.whyNot(state.verb);
   if (why.empty()) why = state.form.problem();
   if (ui::primaryButton(state.exports ? "Export###run" : "Run###run", why, {editor.px(110), 0})) {
-    editor.session.startAndShow(state.verb, state.form.options());
+    editor.session.startAndShow(state.verb, state.form.options(), taskTitle(state));
     state.open = false;
   }
   ImGui::SameLine();

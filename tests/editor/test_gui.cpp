@@ -602,6 +602,18 @@ TEST_F(Gui, ShowsTheMaterialsThatSomebodyHasAssigned) {
   EXPECT_EQ(editor.view.colour, ColourMode::reflectance) << "it shows them already";
 }
 
+TEST_F(Gui, NamesTheTaskOfAnExportShortly) {
+  open();
+  const TemporaryFolder folder;
+  editor.settings.last_folder = folder.path().string();
+  ASSERT_TRUE(invoke(editor, "export"));
+  gui.frames(3);
+  ASSERT_TRUE(gui.click("###run"));
+  gui.settle();
+  ASSERT_FALSE(editor.session.finished().empty());
+  EXPECT_EQ(editor.session.finished().front().title, "Export model");
+}
+
 // Whatever is drawn in these windows ends before their right edge.
 void expectNothingCut(const char* window_name) {
   const auto* window = ImGui::FindWindowByName(window_name);
