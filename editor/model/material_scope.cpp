@@ -8,6 +8,7 @@
 #include "core/face_normal.h"
 #include "core/face_patches.h"
 #include "core/presentation_layers.h"
+#include "editor/model/outliner_rows.h"
 #include "editor/words/words.h"
 #include "materials/materials.h"
 #include "materials/pattern.h"
@@ -43,9 +44,9 @@ std::vector<MaterialScope> materialScopes(const Environment& environment, const 
   if (!product.type_name.empty())
     add(trf("All of type '{}'", product.type_name), "type:" + literalPattern(product.type_name));
   if (!product.ifc_class.empty() && !product.storey.empty())
-    add(trf("All {} on storey '{}'", product.ifc_class, product.storey),
+    add(trf("All of class {} on storey '{}'", tr(readableClass(product.ifc_class)), product.storey),
         in_class + "&storey:" + literalPattern(product.storey));
-  if (!product.ifc_class.empty()) add(trf("All {}", product.ifc_class), in_class);
+  if (!product.ifc_class.empty()) add(trf("All of class {}", tr(readableClass(product.ifc_class))), in_class);
   // a layer may hold fewer products than a class, and others
   anyPresentationLayer(product, [&](const std::string& layer) {
     const auto selector = "layer:" + literalPattern(layer);

@@ -33,7 +33,9 @@ struct InspectorState {
 
 constexpr std::uint64_t kMostCounted = 200'000;  // triangles
 
-const std::string& nodeLabel(const SpatialNode& node) { return node.name.empty() ? node.ifc_class : node.name; }
+std::string nodeLabel(const SpatialNode& node) {
+  return node.name.empty() ? tr(readableClass(node.ifc_class)) : node.name;
+}
 
 // "House › Block A › Ground"
 std::string placeOf(const Environment& environment, const Product& product) {

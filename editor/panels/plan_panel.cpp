@@ -77,7 +77,8 @@ void drawCoverage(const Model& model, const PlanAnswer& answer) {
   }
   ui::heading(model, "By class");
   if (!ui::beginProperties("By class", 0.56F)) return;
-  for (const auto& row : answer.classes) coverageRow(row.ifc_class, row);
+  for (const auto& row : answer.classes)
+    coverageRow(row.ifc_class.empty() ? row.ifc_class : tr(readableClass(row.ifc_class)), row);
   ui::endProperties();
 }
 
@@ -125,7 +126,9 @@ void drawHoles(const Model& model, Actions& actions, const std::vector<PlanHole>
   for (std::size_t k = 0; k < holes.size(); ++k) {
     const auto& hole = holes[k];
     ImGui::PushID(static_cast<int>(k));
-    if (ImGui::Selectable(fmt::format("{:.1f} m²   {} {}###hole", hole.unseen_m2, hole.ifc_class, hole.name).c_str()))
+    if (ImGui::Selectable(
+            fmt::format("{:.1f} m²   {} {}###hole", hole.unseen_m2, tr(readableClass(hole.ifc_class)), hole.name)
+                .c_str()))
       for (std::uint32_t p = 0; p < products.size(); ++p)
         if (products[p].id == hole.id) actions.reveal(p);
     ImGui::PopID();

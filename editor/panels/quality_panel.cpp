@@ -72,7 +72,8 @@ void goTo(const Model& model, Actions& actions, const AssessPlace& place) {
 std::string placeText(const AssessPlace& place) {
   std::string text = tr("Go to the worst place");
   if (!place.stations.empty()) text += fmt::format("\n{}", fmt::join(place.stations, " – "));
-  if (const auto& p = place.product) text += fmt::format("\n{} {}", p->ifc_class, p->name.empty() ? p->id : p->name);
+  if (const auto& p = place.product)
+    text += fmt::format("\n{} {}", tr(readableClass(p->ifc_class)), p->name.empty() ? p->id : p->name);
   return text;
 }
 

@@ -142,7 +142,7 @@ std::string areaText(double area_m2) { return fmt::format("{:.{}f} m²", area_m2
 
 std::string aboutHole(const PlanPatch& hole) {
   auto text = trf("Not covered: {} of {}", areaText(hole.area_m2),
-                  fmt::format("{} {}", hole.ifc_class, hole.name.empty() ? hole.id : hole.name));
+                  fmt::format("{} {}", tr(readableClass(hole.ifc_class)), hole.name.empty() ? hole.id : hole.name));
   if (const BlindReason* const reason = reasonOf(hole)) return text + "\n" + tr(reason->words);
   return text + "\n" +
          (hole.spacing_m ? trf("Point spacing on the rest of it: {:.1f} mm", *hole.spacing_m * 1000)
