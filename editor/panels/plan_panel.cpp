@@ -160,9 +160,16 @@ void drawPlanPanel(const Model& model, PanelStates&, Actions& actions) {
   ui::dimText(instrument == nullptr ? tr("Choose an instrument in the Scan panel")
                                     : trf("{} {}, as set in the Scan panel", instrument->maker, instrument->model));
   drawWishes(model, actions);
-  const std::string why =
-      instrument == nullptr ? "Choose an instrument in the Scan panel first" : model.session.whyNot("plan");
+  const std::string why = instrument == nullptr ? "Choose an instrument in the Scan panel first"
+                          : model.session.document().job->stations.empty()
+                              ? "Add a station first: press Shift+T and click the floor"
+                              : model.session.whyNot("plan");
   if (ui::primaryButton(ICON_EYE "  Compute coverage###run-plan", why, {-FLT_MIN, model.px(28)})) start(model, actions);
+  if (!why.empty() && model.session.whyNot("plan").empty()) ui::dimWrapped(tr(why));
+  if (instrument != nullptr && model.session.document().job->stations.empty() &&
+      ui::button(ICON_MAGIC "  Find a first place###first-place", model.session.whyNot("plan"), {-FLT_MIN, 0},
+                 "Computes which place sees most, and proposes a station there"))
+    start(model, actions);
   drawMapSwitch(model, actions);
   const auto* last = model.session.lastOf("plan");
   const auto* answer = last == nullptr ? nullptr : answerAs<PlanAnswer>(last->answer);

@@ -178,6 +178,24 @@ TEST_F(ScanPanel, SaysWithoutBeingAskedWhyItCannotScanYet) {
   EXPECT_TRUE(gui.says("Add a station first"));
 }
 
+TEST_F(ScanPanel, PlansNoCoverageWithoutAStationButFindsAPlaceForTheFirst) {
+  Document document = editor.session.document();
+  Job job = *document.job;
+  job.stations.clear();
+  document.job = std::make_shared<const Job>(std::move(job));
+  ASSERT_TRUE(editor.session.adopt({document, {}, {}, "no stations yet"}));
+  editor.wanted_tab[1] = "plan";
+  gui.frames(3);
+  ASSERT_NE(gui.find("###run-plan"), nullptr);
+  EXPECT_TRUE(gui.find("###run-plan")->disabled);
+  EXPECT_TRUE(gui.says("Add a station first"));
+  ASSERT_TRUE(gui.click("###first-place"));
+  gui.settle();
+  gui.frames(2);
+  EXPECT_NE(gui.find("###add-proposed"), nullptr);
+  for (const auto& text : gui.texts()) EXPECT_FALSE(text.starts_with("Ifc")) << "a class has one name: " << text;
+}
+
 TEST_F(ScanPanel, RefusesWeatherThatCannotBe) {
   editor.panels.of<ScanState>().folder = "/anywhere";
   gui.frames(2);
