@@ -58,7 +58,7 @@ void drawList(const Model& model, FindingsState& state, Actions& actions,
       ImGui::SameLine();
       const auto area = fmt::format("{:.1f} m²", finding.area_m2);
       const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(area.c_str()).x - model.px(14);
-      ui::fitted(trSentence(finding.message), room);
+      ui::fitted(shownSentence(finding.message), room);
       ImGui::SameLine();
       ui::textRightAligned(area);
       ImGui::PopID();
@@ -71,9 +71,9 @@ void drawRemedy(const Model& model, Actions& actions, const Remedy& remedy, cons
   const auto& material = open ? model.material.id : remedy.material;
   const auto* known = model.offeredMaterial(material);
   const std::string blocked = !why.empty() ? why : known == nullptr ? "Select a material in the list first" : "";
-  const std::string text = open ? fmt::format("{}: {}", trSentence(remedy.text),
+  const std::string text = open ? fmt::format("{}: {}", shownSentence(remedy.text),
                                               known == nullptr ? tr("Select a material") : tr(known->label))
-                                : trSentence(remedy.text);
+                                : shownSentence(remedy.text);
   if (ui::button(fmt::format("{}  {}###{}{}", ICON_MAGIC, text, remedy.selector, remedy.material).c_str(), blocked,
                  {-FLT_MIN, 0}))
     actions.start(MaterialsOptions{{.assign = overridesBy(remedy, material)}}, remedy.text);
@@ -97,9 +97,9 @@ void drawAcceptance(const Model& model, FindingsState& state, Actions& actions, 
 }
 
 void drawFinding(const Model& model, FindingsState& state, Actions& actions, const MaterialFinding& finding) {
-  ui::wrapped(trSentence(finding.message));
+  ui::wrapped(shownSentence(finding.message));
   ImGui::PushStyleColor(ImGuiCol_Text, tone::kDim);
-  ui::wrapped(trSentence(finding.why));
+  ui::wrapped(shownSentence(finding.why));
   ImGui::PopStyleColor();
   if (ui::iconButton(ICON_CROSSHAIRS "  Isolate###look", "Hides everything else and frames the products",
                      finding.products.empty() ? "This finding has no products" : ""))

@@ -92,7 +92,7 @@ void drawPlace(const Model& model, Actions& actions) {
   }
   if (!preview.error().message.empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, tone::kBad);
-    ui::wrapped(std::string(ICON_WARNING "  ") + trSentence(preview.error().message));
+    ui::wrapped(std::string(ICON_WARNING "  ") + shownSentence(preview.error().message));
     ImGui::PopStyleColor();
   }
   actions.setOverrides(chosen, changed);
@@ -150,7 +150,7 @@ void drawIssue(const Model& model, Actions& actions, const LogEntry& issue, int 
     actions.frameSelection();
   }
   ImGui::SetCursorPos(at);
-  const std::string text = (issue.source.empty() ? "" : issue.source + "  ") + trSentence(issue.message);
+  const std::string text = (issue.source.empty() ? "" : issue.source + "  ") + shownSentence(issue.message);
   if (product) ImGui::PushStyleColor(ImGuiCol_Text, tone::kLink);
   ui::fitted(text, ImGui::GetContentRegionAvail().x);
   if (product) ImGui::PopStyleColor();
@@ -205,7 +205,7 @@ void drawFailure(const Model& model) {
   ui::gap(model, 6);
   ImGui::TextColored(colour(tone::kBad), "%s  %s", ICON_WARNING, tr("Cannot read the file").c_str());
   ui::gap(model, 2);
-  ui::wrapped(trSentence(error.message));
+  ui::wrapped(shownSentence(error.message));
   if (!error.source.empty()) ui::dimWrapped(trf("in {}", error.source));
 }
 

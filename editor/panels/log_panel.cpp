@@ -93,7 +93,7 @@ void drawEntry(const Model& model, Actions& actions, const LogEntry& entry, int 
     }
   }
   ImGui::TableNextColumn();
-  ui::fitted(trSentence(entry.message), ImGui::GetContentRegionAvail().x);
+  ui::fitted(shownSentence(entry.message), ImGui::GetContentRegionAvail().x);
   ImGui::PopID();
 }
 

@@ -58,7 +58,7 @@ std::filesystem::path drawOneError(Editor& editor, const ShownError& shown, std:
   ui::wrapped(tr(shown.title));
   if (editor.fonts.bold != nullptr) ImGui::PopFont();
   ui::gap(editor, 2);
-  ui::wrapped(trSentence(shown.error.message));
+  ui::wrapped(shownSentence(shown.error.message));
   if (!shown.error.source.empty()) ui::dimWrapped(trf("in {}", shown.error.source));
   ui::gap(editor, 2);
   ui::wrapped(remedy(shown.error));

@@ -2,6 +2,7 @@
 #include "editor/words/sentences.h"
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <memory>
 #include <optional>
@@ -94,6 +95,17 @@ std::string trSentence(std::string_view english) {
 void printReportsAsSpoken() {
   printReportsIn(std::make_shared<const ReportWords>(
       ReportWords{[] { return std::string(spoken()); }, [](std::string_view english) { return trSentence(english); }}));
+}
+
+std::string shownSentence(std::string_view english) {
+  std::string text = trSentence(english);
+  const auto word = text.substr(0, text.find(' '));
+  const auto isLetter = [](unsigned char c) { return std::isalpha(c) != 0 || c == '-'; };
+  const auto letters = word.ends_with(':') || word.ends_with(',') ? word.size() - 1 : word.size();
+  const bool plain = letters > 0 && text[0] != '-' &&
+                     std::all_of(word.begin(), word.begin() + static_cast<std::ptrdiff_t>(letters), isLetter);
+  if (plain) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
 }
 
 std::string trError(const Error& error) { return describe(Error{error.kind, trSentence(error.message), error.source}); }

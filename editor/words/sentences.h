@@ -18,6 +18,10 @@ const std::vector<std::string>& sentences();
 // itself. Others stay English.
 std::string trSentence(std::string_view english);
 
+// The same as the interface shows it: as a sentence it begins with a capital, unless its first word is a name, an
+// option or a unit.
+std::string shownSentence(std::string_view english);
+
 // describe(error), with its message so.
 std::string trError(const Error& error);
 

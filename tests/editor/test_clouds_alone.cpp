@@ -248,7 +248,7 @@ TEST_F(CloudAlone, ErrorsThatWaitAreAllShownAndClosedTogether) {
   editor.session.errors().push_back({"Open a", {ErrorKind::unusable, "the first is broken", "a.e57"}});
   editor.session.errors().push_back({"Open b", {ErrorKind::unusable, "the second is broken", "b.e57"}});
   gui.frames(3);
-  EXPECT_THAT(gui.texts(), IsSupersetOf({"the first is broken", "the second is broken"}));
+  EXPECT_THAT(gui.texts(), IsSupersetOf({"The first is broken", "The second is broken"}));
   ASSERT_TRUE(gui.click("Copy text"));
   EXPECT_THAT(std::string(ImGui::GetClipboardText()), testing::AllOf(HasSubstr("a.e57"), HasSubstr("b.e57")));
   ASSERT_TRUE(gui.click("###close"));

@@ -332,7 +332,7 @@ TEST_F(Gui, ShowsAnErrorUntilItIsClosed) {
 
 TEST_F(Gui, TheLogOpensAtItsNewestLineAndFollowsItUnlessSomebodyScrollsUp) {
   open();
-  for (int i = 0; i < 200; ++i) editor.session.say(LogLevel::note, "", "entry " + std::to_string(i));
+  for (int i = 0; i < 200; ++i) editor.session.say(LogLevel::note, "", "Entry " + std::to_string(i));
   editor.workspace = Workspace::environment;
   const auto shows = [&](const std::string& text) {
     itemProbe().texts.clear();
@@ -343,18 +343,18 @@ TEST_F(Gui, TheLogOpensAtItsNewestLineAndFollowsItUnlessSomebodyScrollsUp) {
   };
   openPanel(editor, Workspace::environment, "log");
   gui.frames(4);
-  EXPECT_TRUE(shows("entry 199"));
-  EXPECT_FALSE(shows("entry 0"));
-  editor.session.say(LogLevel::note, "", "entry 200");
+  EXPECT_TRUE(shows("Entry 199"));
+  EXPECT_FALSE(shows("Entry 0"));
+  editor.session.say(LogLevel::note, "", "Entry 200");
   gui.frames(2);
-  EXPECT_TRUE(shows("entry 200"));
+  EXPECT_TRUE(shows("Entry 200"));
   openPanel(editor, Workspace::environment, "tasks");
   gui.frames(3);
-  for (int i = 201; i < 300; ++i) editor.session.say(LogLevel::note, "", "entry " + std::to_string(i));
+  for (int i = 201; i < 300; ++i) editor.session.say(LogLevel::note, "", "Entry " + std::to_string(i));
   gui.frames(3);
   openPanel(editor, Workspace::environment, "log");
   gui.frames(4);
-  EXPECT_TRUE(shows("entry 299")) << "also after it was behind another panel";
+  EXPECT_TRUE(shows("Entry 299")) << "also after it was behind another panel";
   const auto* table = gui.find("###log-clear");
   ASSERT_NE(table, nullptr);
   gui.moveTo({table->rect.Min.x, table->rect.Max.y + 40});
@@ -364,10 +364,10 @@ TEST_F(Gui, TheLogOpensAtItsNewestLineAndFollowsItUnlessSomebodyScrollsUp) {
     ImGui::GetIO().MouseWheel = 0;
     gui.frame();
   }
-  EXPECT_FALSE(shows("entry 299"));
-  editor.session.say(LogLevel::note, "", "entry 300");
+  EXPECT_FALSE(shows("Entry 299"));
+  editor.session.say(LogLevel::note, "", "Entry 300");
   gui.frames(3);
-  EXPECT_FALSE(shows("entry 300")) << "what somebody reads stays in place";
+  EXPECT_FALSE(shows("Entry 300")) << "what somebody reads stays in place";
 }
 
 TEST_F(Gui, AMessageThatTheLogHasNoRoomForIsWholeInItsTooltip) {

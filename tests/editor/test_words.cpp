@@ -171,6 +171,17 @@ TEST_F(Words, TranslateWhatTheRoomsBelowCompose) {
   EXPECT_EQ(trSentence("Added station S1"), "Added station S1");
 }
 
+TEST_F(Words, BeginWithACapitalWhereTheyAreSentences) {
+  EXPECT_EQ(shownSentence("the model has no georeference"), "The model has no georeference");
+  EXPECT_EQ(shownSentence("georeference: none is set"), "Georeference: none is set");
+  EXPECT_EQ(shownSentence("low-confidence rule matched"), "Low-confidence rule matched");
+  for (const char* other :
+       {"--budget and --lod", "#12 has no shape", "house.ifc: no unit", "18 cm from wall", "", "x2 is"})
+    EXPECT_EQ(shownSentence(other), other) << "a name, an option or a figure stays";
+  speak("de");
+  EXPECT_EQ(shownSentence("Added station S1"), "Standpunkt S1 hinzugefügt");
+}
+
 TEST_F(Words, TranslateErrorsAndKeepTheirSource) {
   speak("de");
   EXPECT_EQ(trError({ErrorKind::usage, "unknown dataset 'x'", "--dataset"}), "--dataset: Unbekannter Datensatz „x“");
