@@ -23,6 +23,7 @@
 #include "editor/viewport/vtk_scene_view.h"
 #include "editor/widgets/keyboard.h"
 #include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 
@@ -164,15 +165,15 @@ class Window {
   void waitForWork() {
     const auto untilFine = [&] { return last_moved_s_ + stillFor_s(fine_picture_s_) - glfwGetTime(); };
     pacer_.waitForWork(events_, [&] {
-      FramePacer::Reasons reasons{.input = input_.pending(),
-                                  .key_held = keyboard::anyHeld(),
-                                  .walker_moves = editor_.walk.moves() || editor_.fly.moves() ||
-                                                  (editor_.held.moves && editor_.device_drawn) ||
-                                                  editor_.flight.flies() || editor_.recording.record.active(),
-                                  .text_edited = ImGui::GetIO().WantTextInput,
-                                  .job_runs = editor_.jobRuns(),
-                                  .refining = refining(),
-                                  .until_due_s = sooner(keeper_.untilGrown_s(), settings_keeper_.untilDue_s())};
+      FramePacer::Reasons reasons{
+          .input = input_.pending(),
+          .key_held = keyboard::anyHeld(),
+          .walker_moves = editor_.walk.moves() || editor_.fly.moves() || (editor_.held.moves && editor_.device_drawn) ||
+                          editor_.flight.flies() || editor_.recording.record.active(),
+          .text_edited = ImGui::GetIO().WantTextInput,
+          .job_runs = editor_.jobRuns(),
+          .refining = refining(),
+          .until_due_s = sooner(ui::tooltipDue_s(), sooner(keeper_.untilGrown_s(), settings_keeper_.untilDue_s()))};
       if (reasons.walker_moves || (reasons.key_held && (editor_.walk.active() || editor_.view.tool == Tool::fly)))
         moveOn();
       if (!editor_.fine_picture) reasons.until_fine_s = std::max(0.0, untilFine());

@@ -95,11 +95,66 @@ bool radioButton(const char* label, bool chosen) {
   return withEdge([&] { return ImGui::RadioButton(label, chosen); });
 }
 
+namespace {
+
+constexpr double kTooltipWaits_s = 0.4;
+
+// What the pointer rests on. Items without an id differ in their place.
+struct Rested {
+  ImVec2 place{-1, -1};
+  double since_s = 0;  // of ImGui's clock
+  int frame = -1;      // in which it was seen last
+  bool shown = false;  // its tooltip
+  int shown_for = 0;   // frames; Dear ImGui measures it in the first, and draws it from the second on
+};
+Rested rested;
+
+// Whether it has rested there for long enough. Beside one whose tooltip is shown, the next is shown at once.
+bool hasRested(ImVec2 place) {
+  const double now_s = ImGui::GetTime();
+  const int frame = ImGui::GetFrameCount();
+  const bool followed = frame == rested.frame + 1;
+  if (!followed || place.x != rested.place.x || place.y != rested.place.y)
+    rested = {place, followed && rested.shown ? now_s - kTooltipWaits_s : now_s, frame};
+  rested.frame = frame;
+  rested.shown = now_s - rested.since_s >= kTooltipWaits_s;
+  if (rested.shown) ++rested.shown_for;
+  return rested.shown;
+}
+
+// Where the tooltip covers no other control: beside the panel that the item is in, where that is narrow; else below
+// the item, or above it.
+void placeTooltip(ImVec2 size) {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax(), screen = ImGui::GetIO().DisplaySize;
+  const auto* panel = ImGui::GetCurrentWindow()->RootWindow;
+  const float gap = ImGui::GetFontSize() * 0.4F, left = panel->Pos.x, right = panel->Pos.x + panel->Size.x;
+  ImVec2 at{low.x, high.y + gap};
+  if (panel->Size.x < screen.x * 0.36F && panel->Size.y > 4 * (high.y - low.y))
+    at = {screen.x - right >= size.x + gap ? right + gap : left - gap - size.x, low.y};
+  else if (at.y + size.y > screen.y)
+    at.y = low.y - gap - size.y;
+  ImGui::SetNextWindowPos({std::clamp(at.x, 0.0F, std::max(0.0F, screen.x - size.x)),
+                           std::clamp(at.y, 0.0F, std::max(0.0F, screen.y - size.y))});
+}
+
+}  // namespace
+
+double tooltipDue_s() {
+  if (ImGui::GetFrameCount() != rested.frame || rested.shown_for > 1) return -1;
+  return std::max(0.0, rested.since_s + kTooltipWaits_s - ImGui::GetTime());
+}
+
 void tooltip(const Text& text) {
   if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  const bool another = ImGui::GetFrameCount() == rested.frame;  // of a row and of a text in it: one below the other
+  if (another ? !rested.shown : !hasRested(ImGui::GetItemRectMin())) return;
+  const float wrap = ImGui::GetFontSize() * 26;
+  const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+  const ImVec2 words = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+  if (!another) placeTooltip({words.x + 2 * padding.x, words.y + 2 * padding.y});
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1.0F);  // also inside a disabled block
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26);
+  ImGui::PushTextWrapPos(wrap + padding.x);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();

@@ -64,7 +64,10 @@ void filterButton(const Style& style, const char* list, const char* icon, const 
                   ImU32 shade, bool& shown);
 // Whether a list shows each issue, also those alike.
 void listEach(const char* list, bool& each);
-void tooltip(const Text& text);  // of the last item, also when it is disabled
+// Of the last item, also when it is disabled, once the pointer has rested on it. It covers no other control of its
+// panel.
+void tooltip(const Text& text);
+double tooltipDue_s();  // until one is to be shown; less than 0: none waits
 
 void heading(const Style& style, const char* text);
 void dimText(const Text& text);

@@ -19,6 +19,7 @@
 #include "editor/shell/shell.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 #include "editor/words/words.h"
 #include "item_probe.h"
 #include "tests/temporary_folder.h"
@@ -381,7 +382,7 @@ TEST_F(Gui, AMessageThatTheLogHasNoRoomForIsWholeInItsTooltip) {
     if (window->WasActive && std::string(window->Name).find("entries") != std::string::npos) panel = window;
   ASSERT_NE(panel, nullptr);
   gui.moveTo({panel->Pos.x + panel->Size.x - 60, panel->Pos.y + ImGui::GetTextLineHeight()});
-  gui.frames(2);
+  gui.frames(30);
   const auto* tooltip = ImGui::FindWindowByName("##Tooltip_00");
   ASSERT_NE(tooltip, nullptr);
   EXPECT_TRUE(tooltip->WasActive || tooltip->Active);
@@ -612,6 +613,32 @@ TEST_F(Gui, NamesTheTaskOfAnExportShortly) {
   gui.settle();
   ASSERT_FALSE(editor.session.finished().empty());
   EXPECT_EQ(editor.session.finished().front().title, "Export model");
+}
+
+TEST_F(Gui, ShowsATooltipBesideThePanelOnceThePointerHasRested) {
+  open();
+  editor.workspace = Workspace::optimise;
+  editor.wanted_tab[1] = "optimise";
+  gui.frames(3);
+  const auto* item = gui.find("Lossless only");
+  ASSERT_NE(item, nullptr);
+  gui.moveTo(item->rect.GetCenter());
+  const auto shown = [] {
+    const auto* tooltip = ImGui::FindWindowByName("##Tooltip_00");
+    return tooltip != nullptr && tooltip->Active ? tooltip : nullptr;
+  };
+  gui.frames(5);
+  EXPECT_EQ(shown(), nullptr) << "who passes by is not held up";
+  for (int i = 0; i < 30 && shown() == nullptr; ++i) {
+    EXPECT_GE(ui::tooltipDue_s(), 0) << "the window wakes for it";
+    gui.frame();
+  }
+  EXPECT_EQ(ui::tooltipDue_s(), 0) << "its first frame only measures it";
+  gui.frame();
+  const auto* tooltip = shown();
+  ASSERT_NE(tooltip, nullptr);
+  EXPECT_LT(ui::tooltipDue_s(), 0);
+  EXPECT_LE(tooltip->Pos.x + tooltip->Size.x, ImGui::FindWindowByName("###right")->Pos.x) << "over no control of it";
 }
 
 // Whatever is drawn in these windows ends before their right edge.
