@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,7 @@ struct Editor : Model {
   ShotDialog shots;
   PanelStates panels;
   Workspace workspace = Workspace::environment;
+  std::optional<Workspace> laid_out;       // in the frame drawn last
   std::array<std::string, 3> wanted_tab;   // by Area: the panel to bring to the front in the next frame
   std::array<std::string, 3> front_tab;    // by Area: the panel that was in front in the frame drawn last
   std::pair<RayHit, std::string> painted;  // where a material was dropped, and its id: a menu asks how far it goes

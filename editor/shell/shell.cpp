@@ -460,4 +460,16 @@ void drawShell(Editor& editor) {
   drawMessages(editor);
 }
 
+void drawFrame(Editor& editor) {
+  const auto draw = [&] {
+    ImGui::NewFrame();
+    drawShell(editor);
+    ImGui::Render();
+  };
+  draw();
+  if (std::exchange(editor.laid_out, editor.workspace) == editor.workspace) return;
+  ImGui::GetIO().DeltaTime = 1e-4F;
+  draw();
+}
+
 }  // namespace standpoint

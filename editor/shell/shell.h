@@ -12,6 +12,10 @@ struct Editor;
 // One frame of the whole interface, between ImGui::NewFrame and ImGui::Render.
 void drawShell(Editor& editor);
 
+// The whole frame. Where the workspace has changed, at once another one: what Dear ImGui lays out for the first time
+// has its tabs in the second, and the first is not to be seen.
+void drawFrame(Editor& editor);
+
 // The picture of the scene with what lies over it, in the current window.
 void drawViewport(Editor& editor);
 

@@ -258,11 +258,9 @@ class Window {
     rescale();
     const auto moved_pictures = scene_->movedPictures(), worked_pictures = scene_->workedPictures();
     ImGui_ImplOpenGL3_NewFrame();
-    ImGui::NewFrame();
     const auto not_measured = editor_.graphics.notMeasured();
-    drawShell(editor_);
+    standpoint::drawFrame(editor_);
     if (editor_.graphics.notMeasured() != not_measured) pacer_.drawSome();  // its line has grown
-    ImGui::Render();
     glViewport(0, 0, w, h);
     glClearColor(0.09F, 0.10F, 0.11F, 1);
     glClear(GL_COLOR_BUFFER_BIT);

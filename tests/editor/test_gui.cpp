@@ -615,6 +615,22 @@ TEST_F(Gui, NamesTheTaskOfAnExportShortly) {
   EXPECT_EQ(editor.session.finished().front().title, "Export model");
 }
 
+TEST_F(Gui, HasItsTabsInTheFirstFrameOfAWorkspace) {
+  open();
+  editor.laid_out = editor.workspace;
+  editor.workspace = Workspace::survey;
+  itemProbe().texts.clear();
+  itemProbe().listens = true;
+  const int before = ImGui::GetFrameCount();
+  drawFrame(editor);
+  itemProbe().listens = false;
+  EXPECT_EQ(ImGui::GetFrameCount(), before + 2) << "of which the second is seen";
+  const auto& drawn = itemProbe().texts;
+  EXPECT_TRUE(std::any_of(drawn.begin(), drawn.end(), [](const auto& t) { return t.ends_with("Inspector"); }));
+  drawFrame(editor);
+  EXPECT_EQ(ImGui::GetFrameCount(), before + 3);
+}
+
 TEST_F(Gui, ShowsATooltipBesideThePanelOnceThePointerHasRested) {
   open();
   editor.workspace = Workspace::optimise;
