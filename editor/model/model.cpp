@@ -552,7 +552,9 @@ void Model::bringIntoView(const Bounds& box) { frame(view.camera, box, view.size
 
 void Model::choose(const SurveyChoice& choice) {
   survey = choice;
-  if (choice != SurveyChoice()) selection.clear();
+  if (choice == SurveyChoice()) return;
+  selection.clear();
+  inspect_wanted = true;
 }
 
 void Model::select(std::uint32_t product, bool reveal) {

@@ -251,6 +251,7 @@ struct Model : Style {
   SurveyChoice survey;
   std::string survey_wanted;      // the station of this name, as soon as it is there
   std::string trajectory_wanted;  // likewise
+  bool inspect_wanted = false;    // what was chosen there is to be seen in the Inspector
   bool rename_wanted = false;     // the field of the chosen one's name is to be edited
   ChosenMaterial material;
   ScanChoice scan_choice{.instrument = "leica-rtc360"};  // what the next scan is set to

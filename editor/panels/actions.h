@@ -60,6 +60,7 @@ class Actions {
 
   // What several panels and the view share.
   virtual void choose(const SurveyChoice& choice) = 0;
+  virtual void inspect(const SurveyChoice& choice) = 0;  // chooses it, and brings the Inspector to the front
   virtual void choose(const ChosenMaterial& material) = 0;
   virtual void chooseTrajectory(const std::string& name) = 0;  // as soon as it is there
   virtual void renameBegun() = 0;
@@ -100,8 +101,9 @@ class Actions {
   // The shell's own. A file is chosen frames later, when these actions are no longer there.
   using WhenChosen = std::function<void(Actions& later, const std::filesystem::path& chosen)>;
   virtual void open(Workspace workspace, const char* panel) = 0;
-  virtual void run(const char* command) = 0;       // of those that menus and keys have
-  virtual void menuItem(const char* command) = 0;  // in an open menu
+  virtual bool offers(const char* panel) const = 0;  // this workspace has it
+  virtual void run(const char* command) = 0;         // of those that menus and keys have
+  virtual void menuItem(const char* command) = 0;    // in an open menu
   virtual void button(const char* command, const char* text, float width) = 0;
   virtual void openForm(const VerbOptions& filled) = 0;
   virtual void askForFile(FileDialogState::Purpose purpose, std::string title, std::string accept,

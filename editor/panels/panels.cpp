@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/panels/panels.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "editor/widgets/icons.h"
 
 namespace standpoint {
@@ -50,5 +53,11 @@ constexpr Panel kPanels[] = {STANDPOINT_PANELS(LISTED)};
 }  // namespace
 
 std::span<const Panel> panels() { return kPanels; }
+
+Area areaOf(std::string_view panel, Workspace workspace) {
+  const auto found =
+      std::find_if(std::begin(kPanels), std::end(kPanels), [&](const Panel& p) { return p.id == panel; });
+  return found == std::end(kPanels) ? Area::none : found->area[static_cast<std::size_t>(workspace)];
+}
 
 }  // namespace standpoint

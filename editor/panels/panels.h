@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 
 #include "editor/panels/panel.h"
 
@@ -9,5 +10,6 @@ namespace standpoint {
 
 // The table of panels; within an area they stand in this order.
 std::span<const Panel> panels();
+Area areaOf(std::string_view panel, Workspace workspace);  // none: this workspace does not have it
 
 }  // namespace standpoint

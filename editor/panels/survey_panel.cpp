@@ -42,7 +42,7 @@ void drawStationRow(const Model& model, Actions& actions, const Station& station
   if (ImGui::Selectable("###station", model.survey.station == i,
                         ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap |
                             ImGuiSelectableFlags_AllowDoubleClick)) {
-    actions.choose(SurveyChoice{.station = i});
+    actions.inspect(SurveyChoice{.station = i});
     if (ImGui::IsMouseDoubleClicked(0)) lookAt(actions, station.true_pose.translation);
   }
   ImGui::SameLine(0, 0);
@@ -106,7 +106,7 @@ void drawTargets(const Model& model, Actions& actions, const Job& job) {
     const float button = ImGui::GetFrameHeight();
     if (ImGui::Selectable("###target", model.survey.target == i, ImGuiSelectableFlags_AllowItemOverlap,
                           {ImGui::GetContentRegionAvail().x - button, 0})) {
-      actions.choose(SurveyChoice{.target = i});
+      actions.inspect(SurveyChoice{.target = i});
       lookAt(actions, target.centre);
     }
     ImGui::SameLine(model.px(10));
@@ -154,7 +154,7 @@ void draw(const Model& model, PanelStates& states, Actions& actions) {
     actions.choose(SurveyChoice{-1, model.survey.target, model.survey.underlay});
   drawTargets(model, actions, *job);
   drawTrajectories(model, actions);
-  drawSurveyInspector(model, states, actions);
+  if (!actions.offers("inspector")) drawSurveyInspector(model, states, actions);  // else its fields are there
 }
 
 }  // namespace

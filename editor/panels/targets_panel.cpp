@@ -69,7 +69,7 @@ Standing standingOf(const TargetRow& row) {
 }
 
 void choose(const Model& model, Actions& actions, std::size_t index) {
-  actions.choose(SurveyChoice{.target = static_cast<int>(index)});
+  actions.inspect(SurveyChoice{.target = static_cast<int>(index)});
   bringNear(actions, model.session.document().job->targets[index].centre);
 }
 

@@ -117,7 +117,7 @@ void drawRow(const Model& model, Actions& actions, const CarriedTrajectory& traj
   ImGui::TableNextColumn();
   if (ImGui::Selectable("###trajectory", model.survey.trajectory == i,
                         ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick)) {
-    actions.choose(SurveyChoice{.trajectory = i});
+    actions.inspect(SurveyChoice{.trajectory = i});
     if (ImGui::IsMouseDoubleClicked(0)) bringPathIntoView(model, actions, trajectory);
   }
   if (troubled)

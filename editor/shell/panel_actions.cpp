@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "editor/model/bookmark_steps.h"
+#include "editor/panels/panels.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
@@ -84,7 +85,12 @@ void PanelActions::showShapes(bool shown) { editor_.view.shapes = shown; }
 void PanelActions::showScans(const std::vector<std::filesystem::path>& files) { editor_.showClouds(files); }
 void PanelActions::drawScansAt(ScanPoses poses) { editor_.view.poses = poses; }
 
-void PanelActions::choose(const SurveyChoice& choice) { editor_.choose(choice); }
+void PanelActions::choose(const SurveyChoice& choice) {
+  const bool inspected = editor_.inspect_wanted;
+  editor_.choose(choice);
+  editor_.inspect_wanted = inspected;
+}
+void PanelActions::inspect(const SurveyChoice& choice) { editor_.choose(choice); }
 void PanelActions::choose(const ChosenMaterial& material) { editor_.material = material; }
 void PanelActions::chooseTrajectory(const std::string& name) { editor_.trajectory_wanted = name; }
 void PanelActions::renameBegun() { editor_.rename_wanted = false; }
@@ -143,6 +149,7 @@ void PanelActions::setOverrides(const ImportOverrides& overrides, bool read_agai
 void PanelActions::selectInPreview(std::uint32_t product) { editor_.preview_selection.set(product); }
 
 void PanelActions::open(Workspace workspace, const char* panel) { openPanel(editor_, workspace, panel); }
+bool PanelActions::offers(const char* panel) const { return areaOf(panel, editor_.workspace) != Area::none; }
 void PanelActions::run(const char* command) { invoke(editor_, command); }
 void PanelActions::menuItem(const char* command) { actionMenuItem(editor_, command); }
 void PanelActions::button(const char* command, const char* text, float width) {

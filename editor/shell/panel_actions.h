@@ -43,6 +43,7 @@ class PanelActions final : public Actions {
   void drawScansAt(ScanPoses poses) override;
 
   void choose(const SurveyChoice& choice) override;
+  void inspect(const SurveyChoice& choice) override;
   void choose(const ChosenMaterial& material) override;
   void chooseTrajectory(const std::string& name) override;
   void renameBegun() override;
@@ -77,6 +78,7 @@ class PanelActions final : public Actions {
   void selectInPreview(std::uint32_t product) override;
 
   void open(Workspace workspace, const char* panel) override;
+  bool offers(const char* panel) const override;
   void run(const char* command) override;
   void menuItem(const char* command) override;
   void button(const char* command, const char* text, float width) override;

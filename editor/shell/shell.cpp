@@ -407,7 +407,16 @@ void drawPreviewShell(Editor& editor) {
   drawMessages(editor);
 }
 
+// Once for each choice; whoever asks for another panel meanwhile has it.
+void bringInspectorForward(Editor& editor) {
+  const Area area = areaOf("inspector", editor.workspace);
+  if (!std::exchange(editor.inspect_wanted, false) || area == Area::none) return;
+  auto& wanted = editor.wanted_tab[static_cast<std::size_t>(area)];
+  if (wanted.empty()) wanted = "inspector";
+}
+
 void drawWorkspace(Editor& editor, const Box& all) {
+  bringInspectorForward(editor);
   const Layout l = layOut(editor, all);
   drawArea(editor, "###left", l.left, Area::left);
   drawArea(editor, "###right", l.right, Area::right);
@@ -422,9 +431,8 @@ void drawWorkspace(Editor& editor, const Box& all) {
 
 void openPanel(Editor& editor, Workspace workspace, std::string_view panel) {
   editor.workspace = workspace;
-  for (const auto& known : panels())
-    if (const Area area = known.area[static_cast<std::size_t>(workspace)]; known.id == panel && area != Area::none)
-      editor.wanted_tab[static_cast<std::size_t>(area)] = known.id;
+  if (const Area area = areaOf(panel, workspace); area != Area::none)
+    editor.wanted_tab[static_cast<std::size_t>(area)] = panel;
 }
 
 void drawShell(Editor& editor) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +9,7 @@
 #include "editor/panels/scan_panel.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/panel_actions.h"
+#include "editor/shell/shell.h"
 #include "editor/widgets/keyboard.h"
 #include "item_probe.h"
 #include "survey/stations/levelling.h"
@@ -78,6 +81,28 @@ TEST_F(Inspector, OffersToScanFromTheStationItShowsAndNotFromAll) {
   gui.frames(2);
   EXPECT_FALSE(editor.panels.of<ScanState>().all_stations);
   EXPECT_EQ(editor.workspace, Workspace::survey);
+}
+
+TEST_F(Inspector, ComesForwardForWhatIsChosenInTheSurveyAndAloneHasItsFields) {
+  openPanel(editor, Workspace::survey, "scan");
+  editor.wanted_tab[0] = "survey";
+  gui.frames(3);
+  const auto fields = [&] {
+    gui.frames(3);
+    const auto& items = itemProbe().items;
+    return std::count_if(items.begin(), items.end(), [](const auto& i) { return i.label == "###inspected-X"; });
+  };
+  EXPECT_EQ(fields(), 0);
+  ASSERT_TRUE(gui.click("###station"));
+  EXPECT_EQ(fields(), 1);
+  EXPECT_EQ(editor.front_tab[1], "inspector");
+  openPanel(editor, Workspace::survey, "scan");
+  gui.frames(3);
+  PanelActions(editor).choose(SurveyChoice{.station = 1});  // as in a list of another panel
+  gui.frames(3);
+  EXPECT_EQ(editor.front_tab[1], "scan");
+  openPanel(editor, Workspace::instrument, "survey");
+  EXPECT_EQ(fields(), 1) << "where there is no Inspector";
 }
 
 TEST_F(Inspector, TurnsAStationToATypedHeading) {

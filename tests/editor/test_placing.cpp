@@ -406,7 +406,7 @@ TEST_F(Placing, AScanThatIsOlderThanATargetSaysSo) {
   outcome.document = editor.session.document();
   outcome.document.job = std::make_shared<const Job>(with_record);
   ASSERT_TRUE(editor.session.adopt(std::move(outcome)));
-  editor.survey.station = 1;
+  editor.choose({.station = 1});
   gui.frames(4);
   EXPECT_EQ(gui.find("###older-S2"), nullptr);
   EXPECT_EQ(gui.find("###scan-again"), nullptr);
