@@ -154,7 +154,7 @@ void takeProof(InstrumentDesk& desk) {
 void record(InstrumentDesk& desk, Editor& editor) {
   takeProof(desk);
   ui::gap(editor);
-  if (!ImGui::CollapsingHeader(ui::Label("Record an exercise"))) return;
+  if (!ui::foldedSection(std::string(ui::Label("Record an exercise")))) return;
   ui::dimWrapped(
       "Perform the task once. Your actions become the solution of a new exercise; tick the criteria to mark.");
   if (ui::button(desk.records() ? "Stop###record" : "Record###record",
@@ -241,7 +241,7 @@ void questions(InstrumentDesk& desk, const std::string& language) {
 // What will be marked besides the steps; in a test that is told at the end.
 void demands(const InstrumentDesk& desk, const std::string& language) {
   const auto& rules = desk.rehearsal->exercise().rules;
-  if (rules.empty() || !ImGui::CollapsingHeader(ui::Label("Other marking criteria###demands"))) return;
+  if (rules.empty() || !ui::foldedSection(std::string(ui::Label("Other marking criteria###demands")))) return;
   const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
   for (const auto& rule : rules)
     marked("·", rule.text.in(language) + (rule.must ? tr("  (required to pass)") : ""), dim);

@@ -86,7 +86,7 @@ void drawHands(InstrumentDesk& desk, Editor& editor) {
   }
   if (desk.rehearsal && desk.guidance == Guidance::tested) return;
   ui::gap(editor);
-  if (!ImGui::CollapsingHeader(ui::Label("Simulate a fault"))) return;
+  if (!ui::foldedSection(std::string(ui::Label("Simulate a fault")))) return;
   first = true;
   for (const auto& trouble : troubleRows()) {
     const std::string id = trouble.id;

@@ -170,8 +170,12 @@ void drawLibrary(const Model& model, MaterialsState& state, Actions& actions, fl
 
 // Many at once: what a selector means gets the chosen material.
 void drawBulk(const Model& model, MaterialsState& state, Actions& actions) {
+  ImGui::AlignTextToFramePadding();
+  ui::dimText("Selector");
+  ImGui::SameLine();
   ImGui::SetNextItemWidth(-FLT_MIN);
   ImGui::InputTextWithHint("###bulk", "class:IfcWall & storey:EG & name:*außen*", &state.bulk);
+  ui::tooltip("The products that get the chosen material, by class, storey, name, type or material");
   if (state.bulk.empty()) return;
   const auto meant = select(*model.environment(), state.bulk);
   const auto* material = model.offeredMaterial(model.material.id);

@@ -24,7 +24,7 @@ namespace {
 
 // A part that says what is in it while it is folded.
 bool folded(const char* title, const std::string& summary, const char* id) {
-  return ImGui::CollapsingHeader(fmt::format("{}   {}###{}", tr(title), summary, id).c_str());
+  return ui::foldedSection(fmt::format("{}   {}###{}", tr(title), summary, id));
 }
 
 void drawQuality(ScanChoice& asked) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <imgui_internal.h>
@@ -210,6 +212,15 @@ void heading(const Style& style, const char* text) {
   if (style.fonts.bold != nullptr) ImGui::PopFont();
 }
 
+bool foldedSection(const std::string& label) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 end{at.x + ImGui::GetContentRegionAvail().x, at.y + ImGui::GetFrameHeight()};
+  ImGui::GetWindowDrawList()->AddRectFilled(at, end, ImGui::GetColorU32(ImGuiCol_Header),
+                                            ImGui::GetStyle().FrameRounding);
+  return ImGui::TreeNodeEx(label.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_FramePadding |
+                                              ImGuiTreeNodeFlags_SpanAvailWidth);
+}
+
 void copyTable(const char* id, const std::function<TableRows()>& table) {
   ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::GetFrameHeight());
   if (iconButton(fmt::format("{}###copy-{}", ICON_COPY, id).c_str(), "Copy table"))
@@ -263,6 +274,22 @@ void emptyState(const Style& style, const char* icon, const char* title, const c
   gap(style, 6);
 }
 
+namespace {
+
+// In as many lines as it takes; a word that is too long for one is cut.
+void wholeLabel(const Text& text) {
+  const float room = ImGui::GetContentRegionAvail().x;
+  const auto fits = [&](const std::string& part) { return ImGui::CalcTextSize(part.c_str()).x <= room; };
+  std::istringstream words(text);
+  if (fits(text) || !std::all_of(std::istream_iterator<std::string>(words), std::istream_iterator<std::string>(), fits))
+    return fitted(text, room);
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + room);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+}
+
+}  // namespace
+
 bool beginProperties(const char* id, float label_fraction) {
   if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_NoPadOuterX)) return false;
   ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthStretch, label_fraction);
@@ -274,7 +301,7 @@ void propertyLabel(const Text& label) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
-  fitted(label, ImGui::GetContentRegionAvail().x);
+  wholeLabel(label);
   ImGui::TableNextColumn();
   ImGui::SetNextItemWidth(-FLT_MIN);
 }
@@ -283,7 +310,7 @@ void property(const Text& label, const Text& value) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  fitted(label, ImGui::GetContentRegionAvail().x);
+  wholeLabel(label);
   ImGui::PopStyleColor();
   ImGui::TableNextColumn();
   ImGui::PushTextWrapPos(0);

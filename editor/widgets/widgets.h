@@ -70,6 +70,8 @@ void tooltip(const Text& text);
 double tooltipDue_s();  // until one is to be shown; less than 0: none waits
 
 void heading(const Style& style, const char* text);
+// A part that can be folded, and is; its head is as wide as the column. `label` may have an id.
+bool foldedSection(const std::string& label);
 void dimText(const Text& text);
 void wrapped(const Text& text);
 void dimWrapped(const Text& text);

@@ -389,6 +389,15 @@ TEST_F(Gui, AMessageThatTheLogHasNoRoomForIsWholeInItsTooltip) {
   EXPECT_GT(tooltip->Size.y, 3 * ImGui::GetTextLineHeight()) << "all of it, in lines";
 }
 
+TEST_F(Gui, ShowsTheLabelsOfItsFieldsWholeInALanguageWithLongerWords) {
+  open();
+  openPanel(editor, Workspace::georeference, "georeference");
+  speak("de");
+  gui.frames(3);
+  EXPECT_TRUE(gui.says("Ursprung auf der Karte"));
+  speak("en");
+}
+
 TEST_F(Gui, TypingDoesNotTriggerShortcuts) {
   open();
   const auto* search = gui.find("###search");

@@ -196,6 +196,18 @@ TEST_F(ScanPanel, PlansNoCoverageWithoutAStationButFindsAPlaceForTheFirst) {
   for (const auto& text : gui.texts()) EXPECT_FALSE(text.starts_with("Ifc")) << "a class has one name: " << text;
 }
 
+TEST_F(ScanPanel, KeepsTheHeadsOfItsPartsInItsColumn) {
+  gui.frames(3);
+  const auto* button = gui.find("###run-scan");
+  ASSERT_NE(button, nullptr);
+  for (const char* id : {"###effects", "###weather"}) {
+    const auto* head = gui.find(id);
+    ASSERT_NE(head, nullptr) << id;
+    EXPECT_NEAR(head->rect.Min.x, button->rect.Min.x, 1) << id;
+    EXPECT_LE(head->rect.Max.x, button->rect.Max.x + 1) << id;
+  }
+}
+
 TEST_F(ScanPanel, RefusesWeatherThatCannotBe) {
   editor.panels.of<ScanState>().folder = "/anywhere";
   gui.frames(2);
