@@ -10,7 +10,8 @@ set(data_folders
 set(data_files materials/schema.json project/dataset/schema.json)
 # The page of a SCORM package. The code for its signatures is a file of Debian's, as it is.
 set(page_folder emulated-ui/classroom/sco)
-set(sample_pictures samples/pictures/house.ifc.png samples/pictures/street.ifc.png)
+set(sample_pictures samples/pictures/house.ifc.png samples/pictures/street.ifc.png samples/pictures/corridor.ifc.png
+  samples/pictures/turbine.ifc.png)
 set(built_data ${CMAKE_BINARY_DIR}/share/standpoint)
 
 function(standpoint_link from to)

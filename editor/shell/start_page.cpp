@@ -27,6 +27,8 @@ struct Sample {
 constexpr std::array kSamples = {
     Sample{"house.ifc", "House", "Two storeys with stairs and furniture"},
     Sample{"street.ifc", "Street", "Six houses, trees, parked cars, lamp posts"},
+    Sample{"corridor.ifc", "Corridor", "70 m, with few shapes to register by"},
+    Sample{"turbine.ifc", "Turbine", "A wind turbine, its rotor 120 m up"},
 };
 
 // Null where there is none: then the card has an icon.
@@ -39,7 +41,7 @@ std::shared_ptr<const PixelPicture> pictureOf(const std::string& file) {
 }
 
 void sampleCard(Editor& editor, const Sample& sample, float width) {
-  const float picture = width * 0.6F, height = picture + 3 * ImGui::GetTextLineHeight() + editor.px(20);
+  const float picture = width * 0.6F, height = picture + 4 * ImGui::GetTextLineHeight() + editor.px(20);
   const auto why = editor.session.whyNot("import");
   ImGui::PushID(sample.file);
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -114,7 +116,7 @@ bool wantsStartPage(const Editor& editor) {
 }
 
 void drawStartPage(Editor& editor, ImVec2 size) {
-  const float width = std::min(editor.px(940), size.x - editor.px(40)), left = (size.x - width) / 2;
+  const float width = std::min(editor.px(1500), size.x - editor.px(40)), left = (size.x - width) / 2;
   const float begin = editor.px(250), gap = editor.px(36), rest = width - begin - gap;
   ImGui::SetCursorPos({left, std::max(editor.px(16), size.y * 0.09F)});
   ImGui::BeginChild("start-page", {width, 0}, false, ImGuiWindowFlags_NoBackground);
@@ -130,7 +132,8 @@ void drawStartPage(Editor& editor, ImVec2 size) {
   ImGui::BeginChild("start-rest", {rest, 0}, false, ImGuiWindowFlags_NoBackground);
   ui::heading(editor, "Samples");
   ui::gap(editor, 4);
-  const float card = (rest - editor.px(14)) / 2;
+  const auto count = static_cast<float>(kSamples.size());
+  const float card = (rest - (count - 1) * editor.px(14)) / count;
   for (const auto& sample : kSamples) {
     if (&sample != kSamples.data()) ImGui::SameLine(0, editor.px(14));
     sampleCard(editor, sample, card);

@@ -38,6 +38,23 @@ TEST_F(Start, ShowsHowToBeginInsteadOfEmptyPanels) {
   EXPECT_NE(gui.find("###outliner"), nullptr);
 }
 
+TEST_F(Start, ShowsAllItsSamplesAndUsesTheWidth) {
+  for (const ImVec2 size : {ImVec2(1280, 800), ImVec2(1920, 1080)}) {
+    ImGui::GetIO().DisplaySize = size;
+    gui.frames(3);
+    float right = 0;
+    for (const char* id :
+         {"###sample-house.ifc", "###sample-street.ifc", "###sample-corridor.ifc", "###sample-turbine.ifc"}) {
+      const auto* card = gui.find(id);
+      ASSERT_NE(card, nullptr) << id;
+      EXPECT_FALSE(card->clipped) << id;
+      EXPECT_LE(card->rect.Max.y, size.y - 100) << id;
+      right = std::max(right, card->rect.Max.x);
+    }
+    EXPECT_GT(right, 0.85F * size.x);
+  }
+}
+
 TEST_F(Start, KeepsTheInstrumentAtHandWithoutAModel) {
   gui.frames(2);
   ASSERT_TRUE(gui.click("###welcome-workspace-instrument"));
@@ -55,7 +72,7 @@ TEST_F(Start, SaysOfAPathThatIsGoneThatItIsNotFound) {
 }
 
 TEST(SamplePictures, AreThereAndOneThatIsBrokenIsRefused) {
-  for (const char* name : {"house.ifc.png", "street.ifc.png"}) {
+  for (const char* name : {"house.ifc.png", "street.ifc.png", "corridor.ifc.png", "turbine.ifc.png"}) {
     const auto picture = readPngPicture(dataFolder() / "sample-pictures" / name);
     ASSERT_TRUE(picture) << describe(picture.error());
     EXPECT_NEAR((*picture)->width / static_cast<double>((*picture)->height), 1 / 0.6, 0.1);
