@@ -179,6 +179,7 @@ void blindSpots(Editor& editor) {
   const auto& job = editor.session.document().job;
   if (!job || job->trajectories.empty()) return;
   editor.survey = {.trajectory = 0};
+  editor.wanted_tab[1] = "inspector";
   editor.session.start(CoverageOptions{.trajectories = {job->trajectories.front().name},
                                        .instrument = editor.carried_scan.choice.instrument,
                                        .samples = 100000});
