@@ -50,7 +50,7 @@ struct EdgeFinder::Search {
   TimedScene& scene;
   FacetCache& facets;
   ColumnEdges& found;
-  BeamFan fan{plan.instrument};
+  BeamPacket packet{plan.instrument};
   Beam beams[kPacket];
 
   // The farthest edge that one of the lanes may show.
@@ -65,12 +65,12 @@ struct EdgeFinder::Search {
 
   void look(const EdgeTree& tree, std::uint32_t first_row, std::uint32_t lanes, bool of_body) {
     if (tree.empty()) return;
-    fan.set(lanes, beams, tree.farthestCoordinate_m());
+    packet.set(lanes, beams, tree.farthestCoordinate_m());
     for (std::uint32_t left = lanes; left != 0;) {
-      const std::uint32_t together = fan.together(left);
+      const std::uint32_t together = packet.together(left);
       left &= ~together;
-      fan.narrow(together, reach_m(first_row, together));
-      tree.find(fan, [&](std::uint64_t edge, std::uint32_t near) { markEdge(edge, first_row, near, of_body); });
+      packet.narrow(together, reach_m(first_row, together));
+      tree.find(packet, [&](std::uint64_t edge, std::uint32_t near) { markEdge(edge, first_row, near, of_body); });
     }
   }
 
@@ -86,7 +86,7 @@ struct EdgeFinder::Search {
     for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
       const std::uint32_t row = first_row + lane;
-      const Beam& beam = fan.beam(lane);
+      const Beam& beam = packet.beam(lane);
       InBeam in;
       if (!inBeam(beam, from, to, in)) continue;
       const double along = in.nearestAlong();
@@ -94,7 +94,7 @@ struct EdgeFinder::Search {
       const double y = in.upward[0] + along * (in.upward[1] - in.upward[0]);
       const double range = 1 / (in.nearness[0] + along * (in.nearness[1] - in.nearness[0]));
       const double off = std::sqrt(x * x + y * y) * range, radius = beamRadius(plan.instrument, range);
-      if (off > kBeamEdge * radius || range > fan.reach_m()) continue;
+      if (off > kBeamEdge * radius || range > packet.reach_m()) continue;
       if (reach < 0)
         reach = of.right == kNoCorner ? kBeamEdge
                                       : edgeReach(plan.instrument, from - beam.origin, to - beam.origin,

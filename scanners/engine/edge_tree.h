@@ -8,7 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include "scanners/engine/beam_fan.h"
+#include "scanners/engine/beam_packet.h"
 
 namespace standpoint {
 
@@ -25,9 +25,9 @@ class EdgeTree {
   bool empty() const { return leaves_.empty(); }
   double farthestCoordinate_m() const { return farthest_coordinate_m_; }
 
-  // `near(number, lanes)` of each edge that may be in one of the fan's beams; some are not.
+  // `near(number, lanes)` of each edge that may be in one of the packet's beams; some are not.
   template <class Near>
-  void find(const BeamFan& fan, const Near& near) const {
+  void find(const BeamPacket& packet, const Near& near) const {
     if (empty()) return;
     std::array<std::uint32_t, kMostOpen> open{root_};
     std::size_t count = 1;
@@ -35,14 +35,14 @@ class EdgeTree {
       const std::uint32_t at = open[--count];
       if ((at & kLeaf) == 0) {
         const Node& node = nodes_[at];
-        for (std::uint32_t met = fan.meets(node.boxes); met != 0; met &= met - 1)
+        for (std::uint32_t met = packet.meets(node.boxes); met != 0; met &= met - 1)
           open[count++] = node.held[std::countr_zero(met)];
         continue;
       }
       const Leaf& leaf = leaves_[at & ~kLeaf];
-      for (std::uint32_t met = fan.meets(leaf.edges); met != 0; met &= met - 1) {
+      for (std::uint32_t met = packet.meets(leaf.edges); met != 0; met &= met - 1) {
         const auto k = static_cast<std::uint32_t>(std::countr_zero(met));
-        if (const std::uint32_t lanes = fan.near(leaf.edges, k); lanes != 0) near(leaf.number[k], lanes);
+        if (const std::uint32_t lanes = packet.near(leaf.edges, k); lanes != 0) near(leaf.number[k], lanes);
       }
     }
   }

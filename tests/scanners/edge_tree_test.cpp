@@ -66,15 +66,15 @@ TEST_P(EdgesInBeams, AreFoundByTheTreeAsByALookAtEachOfThem) {
     for (int lane = 0; lane < kPacket; ++lane)
       beams[lane] = beamTo(origin + 0.002 * lane * first,
                            Eigen::AngleAxisd(GetParam() * lane * std::numbers::pi / 180, axis) * first);
-    BeamFan fan(instrument);
+    BeamPacket packet(instrument);
     const std::uint32_t lanes = 0xF7FF;
-    fan.set(lanes, beams, tree.farthestCoordinate_m());
+    packet.set(lanes, beams, tree.farthestCoordinate_m());
     std::map<std::uint64_t, std::uint32_t> found;
     for (std::uint32_t left = lanes; left != 0;) {
-      const std::uint32_t together = fan.together(left);
+      const std::uint32_t together = packet.together(left);
       left &= ~together;
-      fan.narrow(together, 20);
-      tree.find(fan, [&](std::uint64_t edge, std::uint32_t near) { found[edge] |= near; });
+      packet.narrow(together, 20);
+      tree.find(packet, [&](std::uint64_t edge, std::uint32_t near) { found[edge] |= near; });
     }
     for (const auto& [edge, near] : found) EXPECT_EQ(near & ~lanes, 0U);
     for (const EdgeTree::Edge& edge : edges) {
@@ -98,26 +98,26 @@ INSTANTIATE_TEST_SUITE_P(EdgeTree, EdgesInBeams, ::testing::Values(0.0, 0.05, 0.
 
 TEST(EdgeTree, OfNothingHoldsNothing) {
   Instrument instrument;
-  BeamFan fan(instrument);
+  BeamPacket packet(instrument);
   const Beam beam = beamTo({0, 0, 0}, {1, 0, 0});
-  fan.set(1, &beam, 0);
-  fan.narrow(1, 100);
-  EdgeTree().find(fan, [](std::uint64_t, std::uint32_t) { FAIL(); });
-  EdgeTree(std::vector<EdgeTree::Edge>()).find(fan, [](std::uint64_t, std::uint32_t) { FAIL(); });
+  packet.set(1, &beam, 0);
+  packet.narrow(1, 100);
+  EdgeTree().find(packet, [](std::uint64_t, std::uint32_t) { FAIL(); });
+  EdgeTree(std::vector<EdgeTree::Edge>()).find(packet, [](std::uint64_t, std::uint32_t) { FAIL(); });
 }
 
 TEST(EdgeTree, OfOneHoldsIt) {
   Instrument instrument;
   instrument.exit_diameter_m = 0.005;
-  BeamFan fan(instrument);
+  BeamPacket packet(instrument);
   const Beam beam = beamTo({0, 0, 0}, {1, 0, 0});
   for (const double off_m : {0.002, 0.2}) {
     int count = 0;
     const EdgeTree tree(
         {{Eigen::Vector3f(5, -1, static_cast<float>(off_m)), Eigen::Vector3f(5, 1, static_cast<float>(off_m)), 42}});
-    fan.set(1, &beam, tree.farthestCoordinate_m());
-    fan.narrow(1, 100);
-    tree.find(fan, [&](std::uint64_t edge, std::uint32_t lanes) {
+    packet.set(1, &beam, tree.farthestCoordinate_m());
+    packet.narrow(1, 100);
+    tree.find(packet, [&](std::uint64_t edge, std::uint32_t lanes) {
       EXPECT_EQ(edge, 42U);
       EXPECT_EQ(lanes, 1U);
       ++count;

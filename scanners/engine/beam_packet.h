@@ -25,10 +25,10 @@ struct alignas(64) EightEdges {
 };
 
 // Up to sixteen beams in one frame, and what holds them as far as they go: a pyramid of four sides and an end, and all
-// that is close to it. Beams that follow each other are a fan, which a pyramid holds more closely than a cone does.
-class BeamFan {
+// that is close to it. Beams that follow each other lie side by side, which a pyramid holds more closely than a cone.
+class BeamPacket {
  public:
-  explicit BeamFan(const Instrument& instrument) : instrument_(instrument) {}
+  explicit BeamPacket(const Instrument& instrument) : instrument_(instrument) {}
 
   // A beam of its own for each of the lanes; `farthest_coordinate_m`: of the edges that it is asked about.
   void set(std::uint32_t lanes, const Beam* beams, double farthest_coordinate_m);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "scanners/engine/beam_fan.h"
+#include "scanners/engine/beam_packet.h"
 
 #include <algorithm>
 #include <bit>
@@ -19,10 +19,10 @@ constexpr double kRounding = 2e-6;      // of coordinates in single precision an
 constexpr float kTurnRounding = 1e-6F;  // of the product of two lengths
 
 // A box is in front of a plane if its corner that is farthest along the normal is.
-STANDPOINT_INLINE std::uint32_t inFront(const EightBoxes& boxes, const BeamFan::Pyramid& pyramid) {
+STANDPOINT_INLINE std::uint32_t inFront(const EightBoxes& boxes, const BeamPacket::Pyramid& pyramid) {
   std::uint32_t bits[kEight];
   for (unsigned k = 0; k < kEight; ++k) bits[k] = 1U << k;
-  for (int plane = 0; plane < BeamFan::Pyramid::kPlanes; ++plane) {
+  for (int plane = 0; plane < BeamPacket::Pyramid::kPlanes; ++plane) {
     const float *normal = pyramid.normal[plane], least = pyramid.least[plane];
     const float* x = normal[0] > 0 ? boxes.high[0] : boxes.low[0];
     const float* y = normal[1] > 0 ? boxes.high[1] : boxes.low[1];
@@ -37,10 +37,10 @@ STANDPOINT_INLINE std::uint32_t inFront(const EightBoxes& boxes, const BeamFan::
 
 // An edge is outside where both ends are behind one plane, or where the pyramid is on one side of the plane through
 // apex and edge: its corners are, by more than `aside_m` as near as the edge comes.
-STANDPOINT_INLINE std::uint32_t inside(const EightEdges& edges, const BeamFan::Pyramid& pyramid) {
+STANDPOINT_INLINE std::uint32_t inside(const EightEdges& edges, const BeamPacket::Pyramid& pyramid) {
   std::uint32_t bits[kEight];
   for (unsigned k = 0; k < kEight; ++k) bits[k] = 1U << k;
-  for (int plane = 0; plane < BeamFan::Pyramid::kPlanes; ++plane) {
+  for (int plane = 0; plane < BeamPacket::Pyramid::kPlanes; ++plane) {
     const float *n = pyramid.normal[plane], least = pyramid.least[plane];
     for (unsigned k = 0; k < kEight; ++k) {
       const float from = n[0] * edges.from[0][k] + n[1] * edges.from[1][k] + n[2] * edges.from[2][k];
@@ -78,7 +78,7 @@ STANDPOINT_INLINE std::uint32_t inside(const EightEdges& edges, const BeamFan::P
 }
 
 // A half more than the square of a beam's radius is more than what single precision loses.
-STANDPOINT_INLINE std::uint32_t nearLanes(const BeamFan::Lanes& b, const float* from, const float* to) {
+STANDPOINT_INLINE std::uint32_t nearLanes(const BeamPacket::Lanes& b, const float* from, const float* to) {
   constexpr auto kMost = static_cast<float>(1.5 * kBeamEdge * kBeamEdge / 4);
   std::uint32_t bits[kPacket];
   for (int k = 0; k < kPacket; ++k) {
@@ -104,13 +104,13 @@ STANDPOINT_INLINE std::uint32_t nearLanes(const BeamFan::Lanes& b, const float* 
   return lanes;
 }
 
-STANDPOINT_CLONES std::uint32_t meetBoxes(const EightBoxes& boxes, const BeamFan::Pyramid& pyramid) {
+STANDPOINT_CLONES std::uint32_t meetBoxes(const EightBoxes& boxes, const BeamPacket::Pyramid& pyramid) {
   return inFront(boxes, pyramid);
 }
-STANDPOINT_CLONES std::uint32_t meetEdges(const EightEdges& edges, const BeamFan::Pyramid& pyramid) {
+STANDPOINT_CLONES std::uint32_t meetEdges(const EightEdges& edges, const BeamPacket::Pyramid& pyramid) {
   return inside(edges, pyramid);
 }
-STANDPOINT_CLONES std::uint32_t meetLanes(const BeamFan::Lanes& beams, const float* from, const float* to) {
+STANDPOINT_CLONES std::uint32_t meetLanes(const BeamPacket::Lanes& beams, const float* from, const float* to) {
   return nearLanes(beams, from, to);
 }
 
@@ -126,7 +126,7 @@ EightEdges::EightEdges() {
   std::fill_n(to[0], 3 * kEight, kNowhere_m);
 }
 
-void BeamFan::set(std::uint32_t lanes, const Beam* beams, double farthest_coordinate_m) {
+void BeamPacket::set(std::uint32_t lanes, const Beam* beams, double farthest_coordinate_m) {
   const Eigen::Vector3f centre = beams[std::countr_zero(lanes)].origin.cast<float>();
   std::copy_n(centre.data(), 3, lanes_.centre);
   rounding_m_ = kRounding * (farthest_coordinate_m + static_cast<double>(centre.cwiseAbs().maxCoeff()));
@@ -145,7 +145,7 @@ void BeamFan::set(std::uint32_t lanes, const Beam* beams, double farthest_coordi
   }
 }
 
-std::uint32_t BeamFan::together(std::uint32_t lanes) const {
+std::uint32_t BeamPacket::together(std::uint32_t lanes) const {
   const Eigen::Vector3d& first = beams_[std::countr_zero(lanes)].direction;
   std::uint32_t found = 0;
   for (std::uint32_t left = lanes; left != 0; left &= left - 1)
@@ -155,7 +155,7 @@ std::uint32_t BeamFan::together(std::uint32_t lanes) const {
 
 // A beam is 0.75 (D + γR) about its axis at most (footprint.h): what it holds leans by tan δ = 0.75 γ, and is 0.75 D
 // aside of that. Leaning by δ changes the tangent of an angle θ by sin δ / (cos θ cos(θ + δ)) at most.
-void BeamFan::narrow(std::uint32_t lanes, double reach_m) {
+void BeamPacket::narrow(std::uint32_t lanes, double reach_m) {
   narrowed_ = lanes, reach_m_ = reach_m;
   const Beam &first = beams_[std::countr_zero(lanes)], &last = beams_[std::bit_width(lanes) - 1];
   const Eigen::Vector3d apex = 0.5 * (first.origin + last.origin);
@@ -197,10 +197,10 @@ void BeamFan::narrow(std::uint32_t lanes, double reach_m) {
   pyramid_.aside_m = static_cast<float>(aside_m);
 }
 
-std::uint32_t BeamFan::meets(const EightBoxes& boxes) const { return meetBoxes(boxes, pyramid_); }
-std::uint32_t BeamFan::meets(const EightEdges& edges) const { return meetEdges(edges, pyramid_); }
+std::uint32_t BeamPacket::meets(const EightBoxes& boxes) const { return meetBoxes(boxes, pyramid_); }
+std::uint32_t BeamPacket::meets(const EightEdges& edges) const { return meetEdges(edges, pyramid_); }
 
-std::uint32_t BeamFan::near(const EightEdges& edges, std::uint32_t edge) const {
+std::uint32_t BeamPacket::near(const EightEdges& edges, std::uint32_t edge) const {
   float from[3], to[3];
   for (int i = 0; i < 3; ++i) {
     from[i] = edges.from[i][edge] - lanes_.centre[i];
