@@ -13,7 +13,6 @@
 
 #include <fmt/format.h>
 #include <vtkCamera.h>
-#include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkLight.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
@@ -30,6 +29,7 @@
 #include "core/units.h"
 #include "editor/viewport/backdrop.h"
 #include "editor/viewport/finish.h"
+#include "editor/viewport/picture_window.h"
 #include "editor/viewport/point_composer.h"
 #include "editor/viewport/point_layers.h"
 #include "editor/viewport/scene_layers.h"
@@ -39,27 +39,9 @@ namespace standpoint {
 
 namespace {
 
-// A fine picture is drawn twice as large and shrunk, up to this many pixels: VTK makes its framebuffer once with the
-// number of samples of that time, so multisampling cannot be switched on for a view that comes to rest.
+// A fine picture is drawn twice as large and shrunk, up to this many pixels.
 constexpr int kFineFactor = 2;
 constexpr std::int64_t kMostFinePixels = 12000000;
-
-// Debian's GLEW speaks GLX only: without an X display glewInit() says "no GLX display" (4) though every entry point was
-// loaded, so both answers are good.
-class ForeignContextWindow : public vtkGenericOpenGLRenderWindow {
- public:
-  static ForeignContextWindow* New();
-  vtkTypeMacro(ForeignContextWindow, vtkGenericOpenGLRenderWindow);
-  void OpenGLInitContext() override {
-    ContextCreationTime.Modified();
-    if (Initialized) return;
-    constexpr GLenum kNoGlxDisplay = 4;
-    const GLenum answer = glewInit();
-    GlewInitValid = answer == GLEW_OK || answer == kNoGlxDisplay;
-    Initialized = GlewInitValid;
-  }
-};
-vtkStandardNewMacro(ForeignContextWindow);
 
 // Those things of a picture that are to be drawn now.
 class SomeOfThem {
@@ -153,7 +135,10 @@ class VtkSceneView : public SceneView {
     fine_wanted_ = fine;
     if (layers_.building() || !drawn_ || drawn_->environment != state.environment) fine = false;
     // A picture that was made fine stays so until something changes.
-    if (changed || resized || (fine && !fine_) || layers_.building()) {
+    if (!changed && !resized && fine && !fine_ && !window_->hasPixels(w * factorOf(true), h * factorOf(true))) {
+      // That takes as long as to draw it: one after the other.
+      window_->makeReady(w * factorOf(true), h * factorOf(true));
+    } else if (changed || resized || (fine && !fine_) || layers_.building()) {
       const bool after_measuring = std::exchange(measured_, false);
       const bool counts = changed && !fine && !resized && !after_measuring && drawn_;
       if (counts && onlyCameraDiffers(*drawn_, state)) ++moved_pictures_;
@@ -289,11 +274,10 @@ class VtkSceneView : public SceneView {
     const bool moves = drawn_ && (small_ || !(drawn_->camera == state.camera));
     small_ = moves && !fine && !resized && state.graphics.motion_size < 1;
     fine_ = fine;
-    const std::int64_t pixels = std::int64_t{width_} * height_ * kFineFactor * kFineFactor;
-    factor_ = fine && pixels <= kMostFinePixels ? kFineFactor : 1;
+    factor_ = factorOf(fine);
     drawn_width_ = small_ ? atSize(width_, state) : width_;
     drawn_height_ = small_ ? atSize(height_, state) : height_;
-    window_->SetSize(drawn_width_ * factor_, drawn_height_ * factor_);
+    window_->setPixels(drawn_width_ * factor_, drawn_height_ * factor_);
     layers_.setPixels(factor_);
     const ViewState* last = drawn_ ? &*drawn_ : nullptr;
     layers_.update(state, last);
@@ -330,6 +314,11 @@ class VtkSceneView : public SceneView {
     if (drawn.colours != 0 && drawn.depths != 0)
       still_->keep(softened(state), drawn.depths, drawn_width_ * factor_, drawn_height_ * factor_);
     return still_->kept();
+  }
+
+  int factorOf(bool fine) const {
+    const std::int64_t pixels = std::int64_t{width_} * height_ * kFineFactor * kFineFactor;
+    return fine && pixels <= kMostFinePixels ? kFineFactor : 1;
   }
 
   static int atSize(int pixels, const ViewState& state) {
@@ -425,7 +414,6 @@ class VtkSceneView : public SceneView {
     window_->SetIsCurrent(true);
     window_->SetFrameBlitModeToNoBlit();  // the picture is taken from the display framebuffer's texture
     window_->SetMultiSamples(0);
-    window_->SetSize(8, 8);
     window_->AddRenderer(renderer_);
     renderer_->GradientBackgroundOn();  // also gives the texture an alpha of 1
     renderer_->SetAutomaticLightCreation(0);
@@ -548,7 +536,7 @@ class VtkSceneView : public SceneView {
 
   static constexpr std::array<double, 3> kSunBesideCamera = {-0.45, 0.35, 1.0}, kSunOfScene = {-0.6, -0.5, 0.7};
   vtkLight* sun_ = nullptr;
-  vtkNew<ForeignContextWindow> window_;
+  vtkNew<PictureWindow> window_;
   vtkNew<vtkRenderer> renderer_;
   vtkNew<vtkRenderStepsPass> steps_;
   SceneLayers layers_{renderer_};

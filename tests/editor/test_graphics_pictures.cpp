@@ -308,6 +308,7 @@ TEST_F(Levels, MapsKeepTheirColours) {
   state.graphics.level = GraphicsLevel::high;
   state.colour = ColourMode::confidence;
   draw(false);
+  view().texture(state, kWidth, kHeight, true);  // makes its framebuffers
   view().texture(state, kWidth, kHeight, true);
   EXPECT_FALSE(view().refining());
 }
