@@ -56,8 +56,10 @@ double stepOn(WalkState& walk, const PaceLimits& most, double seconds) {
   walk.rest_told = false;
   auto& [x, y] = *walk.at;
   const double dx = leg.x_m - x, dy = leg.y_m - y, length = std::sqrt(dx * dx + dy * dy);
-  if (length < kNothing) {
+  if (length < kNothing) {  // the step before ended here, but for rounding
+    walk.at = {leg.x_m, leg.y_m};
     walk.legs.erase(walk.legs.begin());
+    markPlace(walk);
     return 0;
   }
   const std::array<double, 2> towards = {dx / length, dy / length};
