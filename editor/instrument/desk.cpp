@@ -143,6 +143,24 @@ void standBy(InstrumentDesk& desk, const Document& document, const std::optional
              {}});
 }
 
+namespace {
+
+void giveLanguage(InstrumentDesk& desk, const std::string& language) {
+  desk.spoken = language;
+  auto& state = desk.host->device().change();
+  if (state.values.contains("language")) state.values["language"] = state.language = language;
+}
+
+}  // namespace
+
+void followLanguage(InstrumentDesk& desk) {
+  if (!desk.host || desk.rehearsal || desk.spoken == spoken()) return;
+  if (std::as_const(*desk.host).device().state().language == desk.spoken)
+    giveLanguage(desk, std::string(spoken()));
+  else
+    desk.spoken = spoken();
+}
+
 void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& device, const std::string& instrument) {
   desk.device = &device;
   desk.instrument = instrument;
@@ -159,8 +177,7 @@ void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& de
   desk.scanners = scannersOf(**type);
   desk.host = std::make_unique<DeviceHost>(*std::move(type), editor.session.document(), editor.wake);
   // A device that remembers no choice begins in the editor's language; in an exercise in that of the exercise.
-  auto& state = desk.host->device().change();
-  if (state.values.contains("language")) state.values["language"] = state.language = spoken();
+  giveLanguage(desk, std::string(spoken()));
   remember(desk, editor);
   desk.last = std::chrono::steady_clock::now();
 }

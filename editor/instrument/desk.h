@@ -62,6 +62,7 @@ struct InstrumentDesk {
   std::string refused;  // what the device refused last
   std::string said;     // why the last press did nothing, or what it did besides
   std::string problem;  // why there is no device
+  std::string spoken;   // the editor's language when the device was given it last
   std::string station;  // where it stands on the open project
   std::string search;   // in the help
   double time_factor = 20;
@@ -121,6 +122,8 @@ void standBy(InstrumentDesk& desk, const Document& document, const std::optional
 void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& device, const std::string& instrument);
 // A project that was opened or imported has its own device, with its memory filled from what the project holds.
 void followProject(InstrumentDesk& desk, Editor& editor);
+// A device that speaks as the editor did goes on to do so; one whose language was chosen on it keeps that.
+void followLanguage(InstrumentDesk& desk);
 // The clock goes on, and what was stored enters the project. Call before drawing.
 void advance(InstrumentDesk& desk, Editor& editor);
 // Whether somebody in the scene is near enough to its instrument to see what the display on its body shows.

@@ -42,6 +42,7 @@ class InstrumentPanel {
 
   void draw(Editor& editor) {
     followProject(desk_, editor);
+    followLanguage(desk_);
     if (desk_.shown() == nullptr)
       return ui::emptyState(editor, ICON_TABLET, "Cannot start the device", desk_.problem.c_str());
     standSomewhere(editor);

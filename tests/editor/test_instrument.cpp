@@ -306,6 +306,24 @@ TEST_F(Desk, WhatIsDoneInTheSurveyBelongsToTheExercise) {
       << "for the replay, with the time between them";
 }
 
+TEST_F(Desk, SpeaksAsTheEditorDoesUntilItsLanguageIsChosenOnTheDevice) {
+  const auto language = [&] { return std::as_const(*desk.host).device().state().language; };
+  followLanguage(desk);
+  ASSERT_EQ(language(), "en");
+  speak("de");
+  followLanguage(desk);
+  EXPECT_EQ(language(), "de");
+  auto& state = desk.host->device().change();
+  state.values["language"] = state.language = "uk";
+  speak("en");
+  followLanguage(desk);
+  EXPECT_EQ(language(), "uk");
+  speak("de");
+  followLanguage(desk);
+  EXPECT_EQ(language(), "uk");
+  speak("en");
+}
+
 // Nobody has to save a project to scan in it: its scans have a place of their own until it has a name.
 TEST_F(Desk, ScansInAProjectWithoutAName) {
   setenv("XDG_DATA_HOME", folder_.path().c_str(), 1);
