@@ -32,7 +32,7 @@ GuideStep environmentStep(const Model& model) {
     return step;
   }
   step.status = trf("{} products, {} triangles", groupedDigits(document.imported->products.size()),
-                    groupedDigits(triangleCount(*document.imported)));
+                    groupedDigits(sceneTriangleCount(*document.imported)));
   const auto losses = document.import_report
                           ? std::count_if(document.import_report->issues.begin(), document.import_report->issues.end(),
                                           [](const Issue& i) { return i.severity == Severity::loss; })
@@ -83,7 +83,8 @@ GuideStep materialStep(const Model& model) {
     return f.because.empty() && f.severity == "warning";
   });
   step.state = open > 0 ? State::attention : State::done;
-  step.status = open > 0 ? trf("{} open warnings", open) : tr("Assigned");
+  step.status =
+      open > 0 ? trn("{} open warning", "{} open warnings", static_cast<std::size_t>(open), open) : tr("Assigned");
   step.advice = open > 0 ? "Review open findings" : "";
   return step;
 }
@@ -147,8 +148,8 @@ std::array<GuideStep, kWorkspaces> guideSteps(const Model& model) {
 
 const Guide::Steps& Guide::of(const Model& model) const {
   const auto* assessed = model.session.lastOf("assess");
-  const std::string now =
-      fmt::format("{} {}", model.session.revision(), assessed == nullptr ? "" : assessed->time + assessed->text);
+  const std::string now = fmt::format("{} {} {}", spoken(), model.session.revision(),
+                                      assessed == nullptr ? "" : assessed->time + assessed->text);
   if (now != made_for_) {
     made_for_ = now;
     steps_ = guideSteps(model);

@@ -310,7 +310,7 @@ void drawButtons(Actions& actions) {
 
 void drawMany(const Model& model, InspectorState& state, Actions& actions) {
   const auto& products = model.selection.products();
-  ui::heading(model, trf("{} products", products.size()).c_str());
+  ui::heading(model, trn("{} product", "{} products", products.size(), products.size()).c_str());
   std::map<std::string, int> classes;
   std::uint64_t triangles = 0;
   std::vector<std::uint8_t> chosen(model.environment()->products.size(), 0);

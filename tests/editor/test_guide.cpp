@@ -42,6 +42,18 @@ TEST_F(GuideTest, LeadsOnFromTheModelToItsMaterialsAndSaysWhatIsOptional) {
   EXPECT_EQ(*next, static_cast<std::size_t>(Workspace::materials));
 }
 
+TEST_F(GuideTest, SpeaksTheLanguageThatIsChosenMeanwhileAndCountsWhatBeamsMeet) {
+  open();
+  EXPECT_EQ(step(Workspace::environment).status,
+            fmt::format("{} products, {} triangles", editor.session.document().imported->products.size(),
+                        sceneTriangleCount(*editor.session.document().imported)));
+  speak("de");
+  EXPECT_NE(step(Workspace::environment).status.find("Dreiecke"), std::string::npos)
+      << step(Workspace::environment).status;
+  speak("en");
+  EXPECT_NE(step(Workspace::environment).status.find("triangles"), std::string::npos);
+}
+
 TEST_F(GuideTest, FollowsWhatIsDoneAndUndone) {
   open();
   ASSERT_EQ(step(Workspace::materials).state, State::open);
