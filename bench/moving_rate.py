@@ -7,31 +7,21 @@ usage: moving_rate.py STANDPOINT OUTDIR HALL.obj [INSTRUMENT ...]   (leica-blk2g
 A hundred people walk about in the hall while a scanner is carried along a rectangle of 16 m by 8 m around the hall's
 origin. What one of ten thousand shards takes (reading the project, building the ray scene and the trees) is subtracted
 from the CPU seconds of each run. Everything is written to OUTDIR: a file system in memory is best.
+Needs Debian's python3-numpy.
 """
-import json
 import os
-import subprocess
 import sys
+
+from own_points import measured, run
 
 CORNERS = ("-8,-4", "8,-4", "8,4", "-8,4")
 
 
-def run(command, folder):
-    """Its JSON, CPU seconds and the peak of memory in MB."""
-    process = subprocess.Popen([*command, "--json"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
-    output = process.stdout.read().decode()
-    _, status, usage = os.wait4(process.pid, 0)
-    if status != 0:
-        raise SystemExit(f"{' '.join(command)} failed")
-    return output, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
-
-
 def rate(command, hardly_any, folder):
     """Millions of pulses, those per CPU second, MB."""
-    _, idle, _ = run([*command, *hardly_any, "-o", "o.e57"], folder)
-    output, cpu, memory = run([*command, "-o", "o.e57"], folder)
+    _, idle, _ = measured(*command, *hardly_any, "-o", "o.e57", folder=folder)
+    scans, cpu, memory = measured(*command, "-o", "o.e57", folder=folder)
     os.remove(os.path.join(folder, "o.e57"))
-    scans = json.loads(output)
     pulses = (scans.get("stations") or scans.get("trajectories") or [scans])[0]["pulses"] / 1e6
     return pulses, pulses / (cpu - idle), memory
 
@@ -44,7 +34,7 @@ def main():
                         ["station", "p", "--add", "S1", "--at", "0,0,1.7"],
                         ["trajectory", "p", "--add", "W", "--through=" + CORNERS[0], *CORNERS[1:]],
                         ["mover", "p", "--add", "crowd", "--kind", "crowd", "--count", "100"]):
-            run([standpoint, *command], folder)
+            run(standpoint, *command, folder=folder)
     scan = [standpoint, "scan", "p", "--seed", "1"]
     print(f"{'':44}{'M pulses':>10}{'M per CPU s':>12}{'MB':>7}")
 

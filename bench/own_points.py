@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What scripts of this folder share: running the program, boxes to scan, and the points that it writes."""
+import json
+import os
 import subprocess
 import sys
+import tempfile
 
 import numpy as np
 
@@ -14,6 +17,18 @@ def run(*words, losing=False, folder=None):
     if done.returncode != 0 and not (losing and done.returncode == 3):
         sys.exit(f"{' '.join(words)}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
     return done.stdout
+
+
+def measured(*words, folder=None):
+    """Its answer as JSON, the processor's seconds and the most memory in MB of a process; ends the script where it fails."""
+    with tempfile.TemporaryFile("w+") as answer, tempfile.TemporaryFile("w+") as errors:
+        process = subprocess.Popen([*words, "--json"], cwd=folder, stdout=answer, stderr=errors)
+        _, status, used = os.wait4(process.pid, 0)
+        for said in (answer, errors):
+            said.seek(0)
+        if os.waitstatus_to_exitcode(status) != 0:
+            sys.exit(" ".join(words) + "\n" + answer.read()[-2000:] + errors.read()[-2000:])
+        return json.load(answer), used.ru_utime + used.ru_stime, used.ru_maxrss / 1024
 
 
 def boxes_as_obj(boxes, material=None):

@@ -9,15 +9,13 @@ with truth on one thread, the first station in a process of its own and all thre
 user and system, are fitted by s + p pulses + q points with an s for each model, so that relative errors are least. The
 cloud next to 15 million points is converted to the other formats. Files are removed once they are measured.
 """
-import json
 import os
 import shutil
-import subprocess
 import sys
 
 import numpy as np
 
-from own_points import run
+from own_points import measured, run
 
 SETTINGS = (("faro-focus-s350", "resolution=1/8", "quality=4x"), ("faro-focus-s350", "resolution=1/5", "quality=4x"),
             ("leica-rtc360", "resolution=12mm"), ("leica-rtc360", "resolution=6mm"))
@@ -26,17 +24,6 @@ CONVERTED = 15e6  # points
 FORMATS = (("E57 of integers (`--as scaled`)", "scaled.e57", ("--as", "scaled")), ("LAS", "cloud.las", ()), ("PLY", "cloud.ply", ()),
            ("PCD", "cloud.pcd", ()), ("CSV", "cloud.csv", ()))
 CAMPAIGN, TO_AN_ENVIRONMENT = 10_000, 200  # stations
-
-
-def measured(*words):
-    """Its answer, the processor's seconds and the most memory in MB of a process; ends the script where it fails."""
-    with open("answer.json", "w") as answer, open("errors.txt", "w") as errors:
-        process = subprocess.Popen([*words, "--json"], stdout=answer, stderr=errors)
-        _, status, used = os.wait4(process.pid, 0)
-    if os.waitstatus_to_exitcode(status) != 0:
-        sys.exit(" ".join(words) + "\n" + open("answer.json").read()[-2000:] + open("errors.txt").read()[-2000:])
-    with open("answer.json") as answer:
-        return json.load(answer), used.ru_utime + used.ru_stime, used.ru_maxrss / 1024
 
 
 class Slice:
