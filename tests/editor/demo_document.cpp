@@ -149,4 +149,10 @@ Document demoHouse() {
   return document;
 }
 
+std::uint32_t productNamed(const Environment& environment, const std::string& name) {
+  for (std::uint32_t p = 0; p < environment.products.size(); ++p)
+    if (environment.products[p].name == name) return p;
+  return ~0U;
+}
+
 }  // namespace standpoint

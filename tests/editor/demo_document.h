@@ -12,4 +12,7 @@ Document demoHouse();
 
 constexpr std::uint32_t kDemoProducts = 27;
 
+// The first of that name; ~0U: none.
+std::uint32_t productNamed(const Environment& environment, const std::string& name);
+
 }  // namespace standpoint

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
-#include <functional>
 #include <set>
 #include <thread>
 
@@ -27,7 +26,7 @@
 namespace standpoint {
 namespace {
 
-constexpr int kEscape = 256, kEnter = 257;
+constexpr int kEnter = 257;
 
 class Gui : public ::testing::Test {
  protected:
@@ -35,11 +34,6 @@ class Gui : public ::testing::Test {
     ASSERT_TRUE(editor.session.start("demo", nlohmann::json::object()));
     gui.settle();
     editor.session.wait();
-  }
-  std::uint32_t productNamed(const std::string& name) const {
-    for (std::uint32_t p = 0; p < editor.environment()->products.size(); ++p)
-      if (editor.environment()->products[p].name == name) return p;
-    return ~0U;
   }
   ImVec2 screenOf(const Eigen::Vector3d& point) {
     const auto pixel = project(editor.view.camera, point, editor.view.size);
@@ -82,7 +76,7 @@ TEST_F(Gui, SelectsInTheOutlinerAndShowsItInTheInspector) {
   open();
   editor.panels.of<OutlinerState>().filter = "Wall east OG";
   gui.frames(2);
-  const auto wall = productNamed("Wall east OG");
+  const auto wall = productNamed(*editor.environment(), "Wall east OG");
   const GuiItem* row = nullptr;
   for (const auto& item : itemProbe().items)
     if (item.label == "###row") row = &item;  // the last one is the product
@@ -97,14 +91,15 @@ TEST_F(Gui, SelectsWhatIsClickedInTheView) {
   if (!editor.picker.ready()) GTEST_SKIP() << "no ray scene";
   gui.moveTo(screenOf({5, 4, 6.3}));
   ASSERT_TRUE(editor.view.hover);
-  EXPECT_EQ(editor.view.hover->product, productNamed("Roof"));
+  EXPECT_EQ(editor.view.hover->product, productNamed(*editor.environment(), "Roof"));
   gui.press();
-  EXPECT_EQ(editor.selection.products(), std::vector<std::uint32_t>{productNamed("Roof")});
+  EXPECT_EQ(editor.selection.products(), std::vector<std::uint32_t>{productNamed(*editor.environment(), "Roof")});
   gui.key('H');
-  EXPECT_TRUE(editor.visibility.hidden(productNamed("Roof")));
+  EXPECT_TRUE(editor.visibility.hidden(productNamed(*editor.environment(), "Roof")));
   gui.moveTo(screenOf({5, 4, 6.3}));
   ASSERT_TRUE(editor.view.hover);
-  EXPECT_NE(editor.view.hover->product, productNamed("Roof")) << "what is hidden lets the pointer through";
+  EXPECT_NE(editor.view.hover->product, productNamed(*editor.environment(), "Roof"))
+      << "what is hidden lets the pointer through";
 }
 
 TEST_F(Gui, ADragTurnsTheViewAndSelectsNothing) {
@@ -150,7 +145,7 @@ TEST_F(Gui, AssignsAMaterialThroughTheVerb) {
   open();
   const auto& library = editor.catalogue().materials;
   if (library.empty()) GTEST_SKIP() << editor.catalogue().problem;
-  const auto table = productNamed("Table EG");
+  const auto table = productNamed(*editor.environment(), "Table EG");
   editor.select(table, true);
   gui.frames(3);
   ASSERT_TRUE(gui.click("###assign"));
@@ -440,7 +435,7 @@ TEST_F(Gui, DrawsATreeOfThousandsInAMoment) {
 
 TEST_F(Gui, ExcludesTheSelectionFromTheSceneAndTakesItBack) {
   open();
-  const auto roof = productNamed("Roof");
+  const auto roof = productNamed(*editor.environment(), "Roof");
   const auto triangles = editor.triangles();
   editor.select(roof, true);
   gui.frames(2);
@@ -712,101 +707,6 @@ TEST_F(Gui, ShowsTheLabelsOfItsChipsWhole) {
     const auto* drawn = gui.find(chip);
     ASSERT_NE(drawn, nullptr) << chip;
     EXPECT_GE(drawn->rect.GetWidth(), ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x) << chip;
-  }
-}
-
-void closeEverything(Editor& editor, GuiDriver& gui) {
-  editor.dialogs = DialogStates();
-  editor.quit = false;
-  gui.frames(2);
-  for (int i = 0; i < 3; ++i) gui.key(kEscape);
-  gui.settle();
-  editor.session.errors().clear();
-  gui.frames(2);
-}
-
-// Every item that can be reached in one workspace, pressed one after the other.
-void pressEverything(Editor& editor, GuiDriver& gui, const std::function<void()>& restore, int& pressed) {
-  std::set<ImGuiID> done;
-  const auto dialogs_folder = std::filesystem::path(BINARY_DIR) / "test_editor_gui";
-  std::filesystem::create_directories(dialogs_folder);
-  editor.settings.last_folder = dialogs_folder.string();
-  while (true) {
-    ImGuiID next = 0;
-    for (const auto& item : itemProbe().items)
-      if (!item.disabled && done.insert(item.id).second) {
-        next = item.id;
-        break;
-      }
-    if (next == 0) return;
-    gui.activate(next);
-    gui.frames(2);
-    ++pressed;
-    if (editor.environment()) {
-      ASSERT_EQ(validate(*editor.environment()), "") << itemProbe().labels[next];
-    }
-    closeEverything(editor, gui);
-    restore();
-    gui.frames(2);
-  }
-}
-
-TEST_F(Gui, SurvivesEveryItemBeingPressedOnAnEmptyProject) {
-  int pressed = 0;
-  for (int w = 0; w < kWorkspaces; ++w) {
-    const auto restore = [&] { editor.workspace = static_cast<Workspace>(w); };
-    restore();
-    gui.frames(2);
-    pressEverything(editor, gui, restore, pressed);
-  }
-  EXPECT_GT(pressed, 40);
-}
-
-TEST_F(Gui, SurvivesEveryItemBeingPressedOnADocument) {
-  open();
-  int pressed = 0;
-  for (const auto& panel : panels()) {
-    for (int w = 0; w < kWorkspaces; ++w) {
-      if (panel.area[static_cast<std::size_t>(w)] == Area::none) continue;
-      const auto restore = [&] {
-        if (!editor.environment()) open();
-        editor.workspace = static_cast<Workspace>(w);
-        editor.wanted_tab[static_cast<std::size_t>(panel.area[static_cast<std::size_t>(w)])] = panel.id;
-        editor.select(productNamed("Wall east OG"), true);
-        editor.survey.station = 0;
-      };
-      restore();
-      gui.frames(3);
-      pressEverything(editor, gui, restore, pressed);
-      break;
-    }
-  }
-  EXPECT_GT(pressed, 200);
-}
-
-TEST_F(Gui, RunsEveryActionWithAndWithoutADocument) {
-  for (const bool with_document : {false, true}) {
-    for (const auto& action : actions()) {
-      if (with_document && !editor.environment()) open();
-      invoke(editor, action.id);
-      gui.frames(3);
-      closeEverything(editor, gui);
-    }
-  }
-}
-
-TEST_F(Gui, OpensTheFormOfEveryVerb) {
-  open();
-  for (const auto& verb : editor.session.verbs()) {
-    openVerbForm(editor, verb.name);
-    gui.frames(3);
-    EXPECT_NE(gui.find("###run"), nullptr) << verb.name;
-    for (const auto& parameter : verb.parameters) {
-      const bool drawn = std::any_of(itemProbe().items.begin(), itemProbe().items.end(),
-                                     [](const GuiItem& i) { return i.label.find("###value") != std::string::npos; });
-      EXPECT_TRUE(drawn) << verb.name << " " << parameter.name;
-    }
-    closeEverything(editor, gui);
   }
 }
 

@@ -16,12 +16,6 @@ std::vector<std::string> labels(const Outliner& tree, const std::vector<Outliner
   return result;
 }
 
-std::uint32_t productNamed(const Environment& environment, const std::string& name) {
-  for (std::uint32_t p = 0; p < environment.products.size(); ++p)
-    if (environment.products[p].name == name) return p;
-  return ~0U;
-}
-
 class DemoHouse : public ::testing::Test {
  protected:
   Document document = demoHouse();
