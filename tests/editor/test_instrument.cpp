@@ -307,6 +307,8 @@ TEST_F(Desk, WhatIsDoneInTheSurveyBelongsToTheExercise) {
 }
 
 TEST_F(Desk, SpeaksAsTheEditorDoesUntilItsLanguageIsChosenOnTheDevice) {
+  followProject(desk, editor);
+  ASSERT_NE(desk.host, nullptr);
   const auto language = [&] { return std::as_const(*desk.host).device().state().language; };
   followLanguage(desk);
   ASSERT_EQ(language(), "en");
