@@ -73,7 +73,7 @@ inline double turnOf(double y, double x) {
 }
 
 // sin and cos of an angle of a few turns, absolute error below 1e-15 within a turn.
-inline void sinCos(double radians, double& sine, double& cosine) {
+STANDPOINT_INLINE void sinCos(double radians, double& sine, double& cosine) {
   const double quarter = std::floor(radians * 0.6366197723675814 + 0.5);  // 2 / π
   const double x = (radians - quarter * 1.5707963267948966) - quarter * 6.123233995736766e-17;
   const double q = x * x;

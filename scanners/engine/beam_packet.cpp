@@ -104,6 +104,22 @@ STANDPOINT_INLINE std::uint32_t nearLanes(const BeamPacket::Lanes& b, const floa
   return lanes;
 }
 
+STANDPOINT_CLONES void roundBeams(const BeamLanes& from, BeamPacket::Lanes& to) {
+  const double centre[3] = {static_cast<double>(to.centre[0]), static_cast<double>(to.centre[1]),
+                            static_cast<double>(to.centre[2])};
+  const auto round = [](const double* of, double less, float* rounded) {
+    for (int k = 0; k < kPacket; ++k) rounded[k] = static_cast<float>(of[k] - less);
+  };
+  const auto roundAll = [&round](const VectorLanes& of, const double* less, float(*rounded)[kPacket]) {
+    round(of.x, less[0], rounded[0]), round(of.y, less[1], rounded[1]), round(of.z, less[2], rounded[2]);
+  };
+  constexpr double kNothing[3] = {};
+  roundAll(from.axes.origin, centre, to.origin), roundAll(from.axes.direction, kNothing, to.direction);
+  roundAll(from.across, kNothing, to.across), roundAll(from.upward, kNothing, to.upward);
+}
+
+std::uint32_t firstOf(std::uint32_t lanes) { return static_cast<std::uint32_t>(std::countr_zero(lanes)); }
+
 STANDPOINT_CLONES std::uint32_t meetBoxes(const EightBoxes& boxes, const BeamPacket::Pyramid& pyramid) {
   return inFront(boxes, pyramid);
 }
@@ -126,30 +142,22 @@ EightEdges::EightEdges() {
   std::fill_n(to[0], 3 * kEight, kNowhere_m);
 }
 
-void BeamPacket::set(std::uint32_t lanes, const Beam* beams, double farthest_coordinate_m) {
-  const Eigen::Vector3f centre = beams[std::countr_zero(lanes)].origin.cast<float>();
+void BeamPacket::set(std::uint32_t lanes, const BeamLanes& beams, double farthest_coordinate_m) {
+  const Eigen::Vector3f centre = beams.axes.origin.at(firstOf(lanes)).cast<float>();
   std::copy_n(centre.data(), 3, lanes_.centre);
   rounding_m_ = kRounding * (farthest_coordinate_m + static_cast<double>(centre.cwiseAbs().maxCoeff()));
   lanes_.exit_m = static_cast<float>(instrument_.exit_diameter_m + rounding_m_);
   lanes_.divergence_rad = static_cast<float>(instrument_.divergence_rad);
-  for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
-    const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
-    const Beam& beam = beams_[lane] = beams[lane];
-    const Eigen::Vector3d origin = beam.origin - centre.cast<double>();
-    for (int i = 0; i < 3; ++i) {
-      lanes_.origin[i][lane] = static_cast<float>(origin[i]);
-      lanes_.direction[i][lane] = static_cast<float>(beam.direction[i]);
-      lanes_.across[i][lane] = static_cast<float>(beam.across[i]);
-      lanes_.upward[i][lane] = static_cast<float>(beam.upward[i]);
-    }
-  }
+  beams_ = beams;
+  roundBeams(beams, lanes_);
 }
 
 std::uint32_t BeamPacket::together(std::uint32_t lanes) const {
-  const Eigen::Vector3d& first = beams_[std::countr_zero(lanes)].direction;
+  const Eigen::Vector3d first = beams_.axes.direction.at(firstOf(lanes));
   std::uint32_t found = 0;
-  for (std::uint32_t left = lanes; left != 0; left &= left - 1)
-    if (beams_[std::countr_zero(left)].direction.dot(first) >= kSpan) found |= left & -left;
+  forLanes(lanes, [&](std::uint32_t k) {
+    if (beams_.axes.direction.at(k).dot(first) >= kSpan) found |= 1U << k;
+  });
   return found;
 }
 
@@ -157,7 +165,7 @@ std::uint32_t BeamPacket::together(std::uint32_t lanes) const {
 // aside of that. Leaning by δ changes the tangent of an angle θ by sin δ / (cos θ cos(θ + δ)) at most.
 void BeamPacket::narrow(std::uint32_t lanes, double reach_m) {
   narrowed_ = lanes, reach_m_ = reach_m;
-  const Beam &first = beams_[std::countr_zero(lanes)], &last = beams_[std::bit_width(lanes) - 1];
+  const Beam first = beam(firstOf(lanes)), last = beam(static_cast<std::uint32_t>(std::bit_width(lanes)) - 1);
   const Eigen::Vector3d apex = 0.5 * (first.origin + last.origin);
   Eigen::Vector3d axes[3];
   axes[2] = (first.direction + last.direction).normalized();
@@ -165,16 +173,16 @@ void BeamPacket::narrow(std::uint32_t lanes, double reach_m) {
   axes[0] = across.norm() > 1e-6 ? Eigen::Vector3d(across.normalized()) : axes[2].unitOrthogonal();
   axes[1] = axes[2].cross(axes[0]);
   double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9}, cosine = 1, spread = 0;
-  for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
-    const Beam& beam = beams_[std::countr_zero(left)];
-    const double ahead = beam.direction.dot(axes[2]);
+  forLanes(lanes, [&](std::uint32_t k) {
+    const Eigen::Vector3d direction = beams_.axes.direction.at(k);
+    const double ahead = direction.dot(axes[2]);
     for (int i = 0; i < 2; ++i) {
-      const double place = beam.direction.dot(axes[i]) / ahead;
+      const double place = direction.dot(axes[i]) / ahead;
       low[i] = std::min(low[i], place), high[i] = std::max(high[i], place);
     }
     cosine = std::min(cosine, ahead);
-    spread = std::max(spread, (beam.origin - apex).norm());
-  }
+    spread = std::max(spread, (beams_.axes.origin.at(k) - apex).norm());
+  });
   const double leaning = kBeamEdge * instrument_.divergence_rad / 2, sine = std::sqrt(1 - cosine * cosine);
   const double leans = leaning / (cosine * (cosine - sine * leaning)) + 1e-7;
   const double aside_m = kBeamEdge * instrument_.exit_diameter_m / 2 + spread + rounding_m_;

@@ -31,13 +31,13 @@ class BeamPacket {
   explicit BeamPacket(const Instrument& instrument) : instrument_(instrument) {}
 
   // A beam of its own for each of the lanes; `farthest_coordinate_m`: of the edges that it is asked about.
-  void set(std::uint32_t lanes, const Beam* beams, double farthest_coordinate_m);
+  void set(std::uint32_t lanes, const BeamLanes& beams, double farthest_coordinate_m);
   // Of the lanes the first one and those that point to about the same side.
   std::uint32_t together(std::uint32_t lanes) const;
   // From here on it is asked about these lanes alone, as far as `reach_m`.
   void narrow(std::uint32_t lanes, double reach_m);
 
-  const Beam& beam(std::uint32_t lane) const { return beams_[lane]; }
+  Beam beam(std::uint32_t lane) const { return beams_.at(lane); }
   double reach_m() const { return reach_m_; }
   // Those of eight that may have a part in a beam, as bits.
   std::uint32_t meets(const EightBoxes& boxes) const;
@@ -61,7 +61,7 @@ class BeamPacket {
 
  private:
   const Instrument& instrument_;
-  Beam beams_[kPacket];
+  BeamLanes beams_;
   std::uint32_t narrowed_ = 0;
   double reach_m_ = 0, rounding_m_ = 0;
   Lanes lanes_;

@@ -11,12 +11,6 @@
 
 namespace standpoint {
 
-// Axes of sixteen beams side by side, local frame.
-struct alignas(64) AxisLanes {
-  double origin_x[kPacket] = {}, origin_y[kPacket] = {}, origin_z[kPacket] = {};
-  double direction_x[kPacket] = {}, direction_y[kPacket] = {}, direction_z[kPacket] = {};
-};
-
 // The beams of one column: where they start and what their axes meet first.
 class ColumnHits {
  public:
@@ -28,9 +22,10 @@ class ColumnHits {
   const std::uint64_t* facets(std::uint32_t row) const { return facets_.data() + row; }
   const float* ranges_m(std::uint32_t row) const { return ranges_.data() + row; }
   RayLine axis(std::uint32_t row) const;
-  // The same of the rows from one on; good until others are asked for.
-  const AxisLanes& axes(std::uint32_t first_row);
+  // The same of sixteen rows from `first_row` on; good until others are asked for.
+  const RayLanes& axes(std::uint32_t first_row);
   Beam beam(std::uint32_t row) const;
+  void beams(std::uint32_t first_row, BeamLanes& beams) const;  // those of sixteen rows
   // When a row's pulse is sent, by the clock of what moves.
   double bodiesTime_s(std::uint32_t row) const;
   // What moves near the beams of sixteen rows from `first_row` on.
@@ -60,7 +55,7 @@ class ColumnHits {
   std::uint32_t column_ = ~0U;
   Eigen::Vector3d ahead_, lateral_;  // up is the scanner's z
   Axes still_;                       // of a scanner that does not move
-  AxisLanes lanes_;                  // of the rows looked at last
+  RayLanes lanes_;                   // of the rows looked at last, of a scanner that does not move
   std::unique_ptr<SeenFaces> seen_;
   std::unique_ptr<MovingColumn> moving_;
   RayPacket rays_{};

@@ -69,7 +69,7 @@ void ColumnTracer::traceRows(std::uint32_t first_row) {
   const std::uint32_t edges = traceEdges(first_row);
   std::uint32_t present = 0;
   if (met.plain != 0) {
-    const AxisLanes& axes = column_.axes(first_row);
+    const RayLanes& axes = column_.axes(first_row);
     const bool folds = plan_.unambiguous_m > 0;
     present = meetPlanes(planes_, axes, column_.ranges_m(first_row), plan_.nearest_reported_m,
                          folds ? plan_.farthest_m : plan_.farthest_reported_m, returns_);
@@ -272,11 +272,11 @@ std::uint32_t ColumnTracer::reported(std::uint32_t lanes) {
   return kept;
 }
 
-void ColumnTracer::setNormals(const AxisLanes& axes, std::uint32_t lanes) {
+void ColumnTracer::setNormals(const RayLanes& axes, std::uint32_t lanes) {
   for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
     const int k = std::countr_zero(left);
     const Eigen::Vector3d normal(planes_.normal_x[k], planes_.normal_y[k], planes_.normal_z[k]);
-    const Eigen::Vector3d way(axes.direction_x[k], axes.direction_y[k], axes.direction_z[k]);
+    const Eigen::Vector3d way(axes.direction.x[k], axes.direction.y[k], axes.direction.z[k]);
     const Eigen::Vector3f towards = (normal.dot(way) < 0 ? normal : Eigen::Vector3d(-normal)).cast<float>();
     returns_.normal_x[k] = towards.x(), returns_.normal_y[k] = towards.y(), returns_.normal_z[k] = towards.z();
   }

@@ -67,7 +67,7 @@ class ColumnTracer {
   void gatherWings(const Beam& beam);
   void addSurfaceless(const RayLine& axis, double range_m, double x, std::uint8_t flag);
   std::uint32_t reported(std::uint32_t lanes);
-  void setNormals(const AxisLanes& axes, std::uint32_t lanes);
+  void setNormals(const RayLanes& axes, std::uint32_t lanes);
   void light(ReturnLanes& returns, int count);
   bool addEchoes(const std::vector<float>& powers, int lane, std::size_t from, std::size_t to);
   void writeSeveral(std::uint32_t detected);

@@ -51,7 +51,7 @@ struct EdgeFinder::Search {
   FacetCache& facets;
   ColumnEdges& found;
   BeamPacket packet{plan.instrument};
-  Beam beams[kPacket];
+  BeamLanes beams = {};
 
   // The farthest edge that one of the lanes may show.
   double reach_m(std::uint32_t first_row, std::uint32_t lanes) {
@@ -63,9 +63,9 @@ struct EdgeFinder::Search {
     return reach;
   }
 
-  void look(const EdgeTree& tree, std::uint32_t first_row, std::uint32_t lanes, bool of_body) {
+  void look(const EdgeTree& tree, const BeamLanes& of, std::uint32_t first_row, std::uint32_t lanes, bool of_body) {
     if (tree.empty()) return;
-    packet.set(lanes, beams, tree.farthestCoordinate_m());
+    packet.set(lanes, of, tree.farthestCoordinate_m());
     for (std::uint32_t left = lanes; left != 0;) {
       const std::uint32_t together = packet.together(left);
       left &= ~together;
@@ -86,7 +86,7 @@ struct EdgeFinder::Search {
     for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
       const std::uint32_t row = first_row + lane;
-      const Beam& beam = packet.beam(lane);
+      const Beam beam = packet.beam(lane);
       InBeam in;
       if (!inBeam(beam, from, to, in)) continue;
       const double along = in.nearestAlong();
@@ -151,34 +151,28 @@ void EdgeFinder::mark(const ColumnHits& hits, TimedScene& scene, FacetCache& fac
   Search search{plan_, hits, scene, facets, found};
   for (std::uint32_t first_row = 0; first_row < rows; first_row += kPacket) {
     const std::uint32_t lanes = hits.measured(first_row, std::min<std::uint32_t>(kPacket, rows - first_row));
-    if (lanes == 0) continue;
-    if (!still_.empty()) markStill(search, first_row, lanes);
-    if (!hits.nearBodies(first_row).empty()) markBodies(search, first_row, lanes);
+    if (lanes == 0 || (still_.empty() && hits.nearBodies(first_row).empty())) continue;
+    hits.beams(first_row, search.beams);
+    search.look(still_, search.beams, first_row, lanes, false);
+    markBodies(search, first_row, lanes);
   }
-}
-
-void EdgeFinder::markStill(Search& search, std::uint32_t first_row, std::uint32_t lanes) const {
-  for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
-    const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
-    search.beams[lane] = search.hits.beam(first_row + lane);
-  }
-  search.look(still_, first_row, lanes, false);
 }
 
 void EdgeFinder::markBodies(Search& search, std::uint32_t first_row, std::uint32_t lanes) const {
+  if (search.hits.nearBodies(first_row).empty()) return;
+  double times_s[kPacket] = {};
+  forLanes(lanes, [&](std::uint32_t k) { times_s[k] = search.hits.bodiesTime_s(first_row + k); });
   for (const NearBody& near : search.hits.nearBodies(first_row)) {
     const std::uint32_t of_body = near.lanes & lanes;
     if (of_body == 0) continue;
-    for (std::uint32_t left = of_body; left != 0; left &= left - 1) {
-      const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
-      const std::uint32_t row = first_row + lane;
-      const Beam beam = search.hits.beam(row);
-      const Pose& local_from_rest = search.scene.pose(near.body, search.hits.bodiesTime_s(row));
-      const Eigen::Quaterniond back = local_from_rest.rotation.conjugate();
-      search.beams[lane] = {back * (beam.origin - local_from_rest.translation), back * beam.direction,
-                            back * beam.across, back * beam.upward};
-    }
-    search.look(bodyTree(near.body), first_row, of_body, true);
+    PoseLanes local_from_rest;
+    search.scene.poses(near.body, times_s, of_body, local_from_rest);
+    BeamLanes beams;
+    placesAtRest(local_from_rest, search.beams.axes.origin, beams.axes.origin);
+    directionsAtRest(local_from_rest, search.beams.axes.direction, beams.axes.direction);
+    directionsAtRest(local_from_rest, search.beams.across, beams.across);
+    directionsAtRest(local_from_rest, search.beams.upward, beams.upward);
+    search.look(bodyTree(near.body), beams, first_row, of_body, true);
   }
 }
 

@@ -31,7 +31,6 @@ class EdgeFinder {
 
   EdgeTree treeOf(const std::vector<std::uint32_t>& placements) const;
   const EdgeTree& bodyTree(std::uint32_t body) const;
-  void markStill(Search& search, std::uint32_t first_row, std::uint32_t lanes) const;
   void markBodies(Search& search, std::uint32_t first_row, std::uint32_t lanes) const;
 
   const ScanPlan& plan_;

@@ -19,6 +19,7 @@
 #include "scanners/engine/face_meeting.h"
 #include "scanners/engine/ray_engine.h"
 #include "scanners/engine/scene_edges.h"
+#include "scanners/math/vector_lanes.h"
 
 namespace standpoint {
 
@@ -54,8 +55,6 @@ struct NearestHit {
   std::uint64_t facet = kNoFacet;
   float range_m = 0;
 };
-
-constexpr int kPacket = 16;
 
 // Sixteen rays side by side, as Embree wants them.
 struct alignas(64) RayPacket {
@@ -102,11 +101,11 @@ class EmbreeScene final : public RayScene {
   // One ray from `min_range_m` on.
   NearestHit nearest(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit, double min_range_m,
                      double max_range_m) const;
-  // What a ray in the rest frame meets of a body.
-  NearestHit nearestOf(std::uint32_t body, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
-                       double min_range_m, double max_range_m) const;
-  static void setRay(RTCRayHit16& rays, int lane, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                     float nearest_m, float farthest_m);
+  // What those of the rays in its rest frame, as bits, meet of a body before what they have met, of all sixteen.
+  void intersectBody(std::uint32_t body, const RayLanes& rays, std::uint32_t lanes, float min_range_m,
+                     std::uint64_t* facets, float* ranges_m) const;
+  // Where rays start and go, for tracing; and nothing is met.
+  static void setRays(RTCRayHit16& query, const RayPacket& rays);
   Facet facet(std::uint64_t number) const;
   const std::vector<RestingBody>& bodies() const { return bodies_; }
   RTCDevice device() const { return device_; }

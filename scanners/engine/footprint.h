@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "scanners/instruments/instrument.h"
+#include "scanners/math/vector_lanes.h"
 
 namespace standpoint {
 
@@ -44,6 +45,19 @@ inline double edgeTolerance(const Instrument& instrument, double range_m) {
 // A beam that a pulse sends: local frame, right-handed axes.
 struct Beam {
   Eigen::Vector3d origin, direction, across, upward;
+};
+// Sixteen beams side by side.
+struct BeamLanes {
+  RayLanes axes;
+  VectorLanes across, upward;
+
+  Beam at(std::uint32_t lane) const {
+    return {axes.origin.at(lane), axes.direction.at(lane), across.at(lane), upward.at(lane)};
+  }
+  void set(std::uint32_t lane, const Beam& beam) {
+    axes.origin.set(lane, beam.origin), axes.direction.set(lane, beam.direction);
+    across.set(lane, beam.across), upward.set(lane, beam.upward);
+  }
 };
 // Where a ray of the beam runs; the direction is not normalised, it is 1 to 10⁻⁷.
 struct RayLine {

@@ -21,7 +21,7 @@ struct alignas(64) PlaneLanes {
 
 // Gives the lanes their range, incidence and place; `hits_m` are the ranges of the float BVH. The lanes with a range
 // between the limits are the bits of the result.
-std::uint32_t meetPlanes(const PlaneLanes& planes, const AxisLanes& axes, const float* hits_m, double min_range_m,
+std::uint32_t meetPlanes(const PlaneLanes& planes, const RayLanes& axes, const float* hits_m, double min_range_m,
                          double max_range_m, ReturnLanes& returns);
 
 }  // namespace standpoint

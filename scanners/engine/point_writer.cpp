@@ -111,7 +111,7 @@ void PointWriter::write(const std::vector<Place>& places) {
     const std::size_t i = size_++;
     block.x_m[i] = lanes.x_m[k], block.y_m[i] = lanes.y_m[k], block.z_m[i] = lanes.z_m[k];
     block.intensity[i] = lanes.signal.intensity[k];
-    block.row[i] = moving_ != nullptr ? moving_->pulse(lanes.row[k]).channel : lanes.row[k];
+    block.row[i] = moving_ != nullptr ? moving_->channel(lanes.row[k]) : lanes.row[k];
     block.column[i] = moving_ != nullptr ? moving_->firing(lanes.row[k]) : column_;
     block.product[i] = lanes.product[k], block.material[i] = lanes.material[k];
     if (plan_.settings.imaging)
@@ -124,7 +124,7 @@ void PointWriter::write(const std::vector<Place>& places) {
 }
 
 double PointWriter::time_s(std::uint32_t row) const {
-  return moving_ != nullptr ? moving_->pulse(row).time_s : plan_.clock.time_s(column_, plan_.elevation_rad(row));
+  return moving_ != nullptr ? moving_->time_s(row) : plan_.clock.time_s(column_, plan_.elevation_rad(row));
 }
 
 void PointWriter::writeTruth(const ReturnLanes& lanes, int lane, std::size_t i, PointTruth& truth) const {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -8,6 +9,7 @@
 #include <tbb/task_arena.h>
 
 #include "scanners/engine/embree_scene.h"
+#include "scanners/math/target_clones.h"
 
 namespace standpoint {
 
@@ -214,34 +216,62 @@ void clearDirections(const float* from, float* to) {
   for (int k = 0; k < 3 * kPacket; ++k) to[k] = clearDirection(from[k]);
 }
 
-// What all packets of rays have in common; tracing leaves it as it is.
-RTCRayHit16 fromOrigins() {
-  RTCRayHit16 query{};
-  std::fill_n(query.ray.mask, kPacket, ~0U);
-  for (unsigned k = 0; k < kPacket; ++k) query.ray.id[k] = k;
-  return query;
+void tracePacket(RTCScene scene, const RayPacket& rays, std::uint32_t lanes, RTCRayHit16& query) {
+  alignas(64) int valid[kPacket];
+  for (unsigned k = 0; k < kPacket; ++k) valid[k] = (lanes >> k & 1U) != 0 ? -1 : 0;
+  MeetingQuery meeting(RayQuery::Rays::coherent);
+  meeting.set(rays.origin_x, rays.direction_x, kPacket, kPacket, rays.one_origin, rays.seen);
+  EmbreeScene::setRays(query, rays);
+  meeting.query.trace(valid, scene, query);
+}
+
+// Lanes that are not among those have the ray of the first one.
+STANDPOINT_CLONES void roundAll(const double* from, const std::uint64_t* in, int first, float* to) {
+  const double other = from[first];
+  for (int k = 0; k < kPacket; ++k) to[k] = static_cast<float>(in[k] != 0 ? from[k] : other);
 }
 
 }  // namespace
 
-void EmbreeScene::intersect(const RayPacket& rays, int count, float max_range_m, std::uint64_t* facets,
-                            float* ranges_m) const {
-  alignas(64) int valid[kPacket];
-  static thread_local RTCRayHit16 query = fromOrigins();
-  MeetingQuery meeting(RayQuery::Rays::coherent);
-  meeting.set(rays.origin_x, rays.direction_x, kPacket, kPacket, rays.one_origin, rays.seen);
+void EmbreeScene::setRays(RTCRayHit16& query, const RayPacket& rays) {
   std::copy_n(rays.origin_x, 3 * kPacket, query.ray.org_x);  // x, y, z lie side by side in both
   clearDirections(rays.direction_x, query.ray.dir_x);
-  for (int k = 0; k < kPacket; ++k) {
-    valid[k] = k < count ? -1 : 0;
-    query.ray.tfar[k] = max_range_m;
+  for (unsigned k = 0; k < kPacket; ++k) {
+    query.ray.mask[k] = ~0U, query.ray.id[k] = k;
     query.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
   }
-  meeting.query.trace(valid, scene_, query);
+}
+
+void EmbreeScene::intersect(const RayPacket& rays, int count, float max_range_m, std::uint64_t* facets,
+                            float* ranges_m) const {
+  static thread_local RTCRayHit16 query{};
+  std::fill_n(query.ray.tfar, kPacket, max_range_m);
+  tracePacket(scene_, rays, (1U << static_cast<unsigned>(count)) - 1, query);
   for (int k = 0; k < count; ++k)
     facets[k] = facetNumber(query.hit.instID[0][k], query.hit.geomID[k], query.hit.primID[k]);
   std::copy_n(query.ray.tfar, count, ranges_m);
+}
+
+void EmbreeScene::intersectBody(std::uint32_t body, const RayLanes& rays, std::uint32_t lanes, float min_range_m,
+                                std::uint64_t* facets, float* ranges_m) const {
+  static thread_local RTCRayHit16 query{};
+  std::uint64_t in[kPacket] = {};
+  forLanes(lanes, [&](std::uint32_t k) { in[k] = 1; });
+  RayPacket packet;
+  const int first = std::countr_zero(lanes);
+  roundAll(rays.origin.x, in, first, packet.origin_x), roundAll(rays.origin.y, in, first, packet.origin_y);
+  roundAll(rays.origin.z, in, first, packet.origin_z), roundAll(rays.direction.x, in, first, packet.direction_x);
+  roundAll(rays.direction.y, in, first, packet.direction_y), roundAll(rays.direction.z, in, first, packet.direction_z);
+  std::fill_n(query.ray.tnear, kPacket, min_range_m);
+  std::copy_n(ranges_m, kPacket, query.ray.tfar);
+  tracePacket(bodies_[body].scene, packet, lanes, query);
+  forLanes(lanes, [&](std::uint32_t k) {
+    const std::uint64_t facet = facetNumber(query.hit.instID[0][k], query.hit.geomID[k], query.hit.primID[k]);
+    const float range_m = query.ray.tfar[k];
+    if (facet != kNoFacet && (range_m < ranges_m[k] || (range_m == ranges_m[k] && facet < facets[k])))
+      facets[k] = facet, ranges_m[k] = range_m;
+  });
 }
 
 void EmbreeScene::intersect(const RayPacket& rays, int count, float max_range_m, NearestHit* hits) const {
@@ -251,10 +281,8 @@ void EmbreeScene::intersect(const RayPacket& rays, int count, float max_range_m,
   for (int k = 0; k < count; ++k) hits[k] = {facets[k], ranges_m[k]};
 }
 
-namespace {
-
-NearestHit nearestIn(RTCScene scene, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
-                     double min_range_m, double max_range_m) {
+NearestHit EmbreeScene::nearest(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
+                                double min_range_m, double max_range_m) const {
   RTCRayHit query{};
   query.ray.org_x = static_cast<float>(origin.x());
   query.ray.org_y = static_cast<float>(origin.y());
@@ -272,33 +300,8 @@ NearestHit nearestIn(RTCScene scene, const Eigen::Vector3d& origin, const Eigen:
   MeetingQuery meeting(RayQuery::Rays::single);
   const float start[3] = {query.ray.org_x, query.ray.org_y, query.ray.org_z};
   meeting.set(start, direction, 1, 1, true, nullptr);
-  meeting.query.trace(scene, query);
+  meeting.query.trace(scene_, query);
   return {facetNumber(query.hit.instID[0], query.hit.geomID, query.hit.primID), query.ray.tfar};
-}
-
-}  // namespace
-
-NearestHit EmbreeScene::nearest(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
-                                double min_range_m, double max_range_m) const {
-  return nearestIn(scene_, origin, direction_unit, min_range_m, max_range_m);
-}
-
-NearestHit EmbreeScene::nearestOf(std::uint32_t body, const Eigen::Vector3d& origin,
-                                  const Eigen::Vector3d& direction_unit, double min_range_m, double max_range_m) const {
-  return nearestIn(bodies_[body].scene, origin, direction_unit, min_range_m, max_range_m);
-}
-
-void EmbreeScene::setRay(RTCRayHit16& rays, int lane, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                         float nearest_m, float farthest_m) {
-  rays.ray.org_x[lane] = static_cast<float>(origin.x());
-  rays.ray.org_y[lane] = static_cast<float>(origin.y());
-  rays.ray.org_z[lane] = static_cast<float>(origin.z());
-  rays.ray.dir_x[lane] = clearDirection(static_cast<float>(direction.x()));
-  rays.ray.dir_y[lane] = clearDirection(static_cast<float>(direction.y()));
-  rays.ray.dir_z[lane] = clearDirection(static_cast<float>(direction.z()));
-  rays.ray.tnear[lane] = nearest_m, rays.ray.tfar[lane] = farthest_m;
-  rays.ray.mask[lane] = ~0U, rays.ray.id[lane] = static_cast<unsigned>(lane);
-  rays.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID, rays.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
 }
 
 Facet EmbreeScene::facet(std::uint64_t number) const {

@@ -2,18 +2,39 @@
 #include "scanners/engine/swept_bodies.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
 #include <tbb/task_arena.h>
 
-#include "scanners/engine/footprint.h"
+#include "scanners/math/target_clones.h"
 
 namespace standpoint {
 
-double BeamWidth::aside_m(double range_m) const {
-  return kBeamEdge * (exit_m + divergence_rad * std::min(range_m, farthest_m)) / 2;
+namespace {
+
+// Which rays that are sent while the body is on one piece of its path come near it; `number`: of the window.
+STANDPOINT_CLONES void reach(const SweptWindow::Path& path, int piece, double number, const BeamWidth& beam,
+                             double beam_m, const TimedRays& timed, const float* farthest_m, std::uint64_t* reaches) {
+  const auto& [origin, direction] = timed.rays;
+  const double from[3] = {path.centre[0][piece], path.centre[1][piece], path.centre[2][piece]};
+  const double step[3] = {path.centre[0][piece + 1] - from[0], path.centre[1][piece + 1] - from[1],
+                          path.centre[2][piece + 1] - from[2]};
+  for (int k = 0; k < kPacket; ++k) {
+    const double after = (timed.time_s[k] / SweptWindow::kLength_s - number) * SweptWindow::kPoses - piece;
+    const double x = from[0] + after * step[0] - origin.x[k], y = from[1] + after * step[1] - origin.y[k];
+    const double z = from[2] + after * step[2] - origin.z[k];
+    const double ahead = dotOf(x, y, z, direction.x[k], direction.y[k], direction.z[k]);
+    const double along = ahead > 0 ? ahead : 0, square = dotOf(x, y, z, x, y, z);
+    const double radius = path.reach_m + beam.aside_m(along + path.reach_m);
+    const double beyond = along - path.reach_m - (static_cast<double>(farthest_m[k]) + beam_m);
+    const double off = square - along * along - (radius * radius + 1e-9 * square);
+    reaches[k] = (beyond > off ? beyond : off) <= 0 ? 1U : 0;
+  }
 }
+
+}  // namespace
 
 SweptWindow::SweptWindow(const EmbreeScene& scene, const BeamWidth& beam, std::int64_t number,
                          RTCIntersectFunctionN meet)
@@ -41,7 +62,7 @@ void SweptWindow::addPath(std::uint32_t number) {
     const Eigen::Vector3d centre = body.local_from_rest->pose(from_s + i * step_s) * body.box.center();
     if (i >= 0) step_m = std::max(step_m, (centre - before).norm());
     box.extend(centre), before = centre;
-    if (i >= 0 && i <= kPoses) path.centre[i] = centre;
+    for (int axis = 0; i >= 0 && i <= kPoses && axis < 3; ++axis) path.centre[axis][i] = centre[axis];
   }
   path.reach_m = body.box.diagonal().norm() / 2 + step_m / 2 + 1e-3;
   const double aside = body.box.diagonal().norm() / 2 + step_m + beam_m_;
@@ -49,16 +70,25 @@ void SweptWindow::addPath(std::uint32_t number) {
   boxes_.emplace_back(box.min().array() - aside, box.max().array() + aside);
 }
 
-bool SweptWindow::reaches(std::size_t box, double time_s, const Eigen::Vector3d& origin,
-                          const Eigen::Vector3d& direction, double farthest_m) const {
-  const double steps = (time_s / kLength_s - static_cast<double>(number_)) * kPoses;
-  const int i = std::clamp(static_cast<int>(steps), 0, kPoses - 1);
-  const Path& path = paths_[box];
-  const Eigen::Vector3d to = path.centre[i] + (steps - i) * (path.centre[i + 1] - path.centre[i]) - origin;
-  const double along = std::max(0.0, to.dot(direction));
-  if (along - path.reach_m > farthest_m + beam_m_) return false;
-  const double radius = path.reach_m + beam_.aside_m(along + path.reach_m);
-  return to.squaredNorm() - along * along <= radius * radius + 1e-9 * to.squaredNorm();
+std::uint32_t SweptWindow::reaching(std::size_t box, const TimedRays& rays, std::uint32_t lanes,
+                                    const float* farthest_m) const {
+  const auto number = static_cast<double>(number_);
+  std::uint32_t found = 0;
+  while (lanes != 0) {
+    const auto piece = [&](std::uint32_t k) {
+      return std::clamp(static_cast<int>((rays.time_s[k] / kLength_s - number) * kPoses), 0, kPoses - 1);
+    };
+    const int of_first = piece(static_cast<std::uint32_t>(std::countr_zero(lanes)));
+    std::uint32_t meanwhile = 0;
+    forLanes(lanes, [&](std::uint32_t k) {
+      if (piece(k) == of_first) meanwhile |= 1U << k;
+    });
+    std::uint64_t reaches[kPacket];
+    reach(paths_[box], of_first, number, beam_, beam_m_, rays, farthest_m, reaches);
+    found |= meanwhile & bitsOf(reaches);
+    lanes &= ~meanwhile;
+  }
+  return found;
 }
 
 void SweptWindow::bounds(const RTCBoundsFunctionArguments* arguments) {

@@ -8,15 +8,24 @@
 #include <vector>
 
 #include "scanners/engine/embree_scene.h"
+#include "scanners/engine/footprint.h"
 
 namespace standpoint {
+
+// Sixteen rays at their times.
+struct TimedRays {
+  RayLanes rays;
+  double time_s[kPacket] = {};
+};
 
 // A ray comes near a body that is in the beam about it: `exit_m` wide and spreading by `divergence_rad`. Rays go
 // `farthest_m` at most.
 struct BeamWidth {
   double exit_m = 0, divergence_rad = 0, farthest_m = 0;
   // As far out as rays of a beam go (footprint.h), which is w(R) ≤ (D0 + γR) / 2.
-  double aside_m(double range_m) const;
+  STANDPOINT_INLINE double aside_m(double range_m) const {
+    return kBeamEdge * (exit_m + divergence_rad * (farthest_m < range_m ? farthest_m : range_m)) / 2;
+  }
 };
 
 // Where bodies get in a quarter of a second: boxes around what they sweep, in a scene of Embree, and about where each
@@ -33,17 +42,17 @@ class SweptWindow {
 
   RTCScene scene() const { return scene_; }  // null: nothing is there
   std::uint32_t body(std::size_t box) const { return bodies_[box]; }
-  // May the ray come near the body before it ends?
-  bool reaches(std::size_t box, double time_s, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-               double farthest_m) const;
+  // Which of those rays may come near the body before they end, as bits.
+  std::uint32_t reaching(std::size_t box, const TimedRays& rays, std::uint32_t lanes, const float* farthest_m) const;
 
- private:
   static constexpr int kPoses = 4;
   // Where the middle of a body is about, from one pose to the next, and how far off at most.
   struct Path {
-    Eigen::Vector3d centre[kPoses + 1];
+    double centre[3][kPoses + 1];
     double reach_m = 0;  // from there: of the body, too
   };
+
+ private:
   static void bounds(const RTCBoundsFunctionArguments* arguments);
   void addPath(std::uint32_t body);
   void build(RTCIntersectFunctionN meet);

@@ -32,7 +32,8 @@ class TimedScene {
   TimedScene& operator=(const TimedScene&) = delete;
 
   bool moves() const { return !scene_.bodies().empty(); }
-  // As EmbreeScene has it, of rays at their times. `near` gets the bodies that some come near; null: nobody asks.
+  // As EmbreeScene has it, of rays at their times; there is room for a whole packet's answers. `near` gets the bodies
+  // that some come near; null: nobody asks.
   void intersect(const RayPacket& rays, int count, float max_range_m, std::uint64_t* facets, float* ranges_m,
                  std::vector<NearBody>* near);
   void intersect(const RayPacket& rays, int count, float max_range_m, NearestHit* hits);
@@ -41,8 +42,8 @@ class TimedScene {
   // Of bodies alone: what they hide of a place that far away is not asked of what stands.
   NearestHit nearestBody(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit, double max_range_m,
                          double time_s);
-  // Where a body is; good until the next call for it.
-  const Pose& pose(std::uint32_t body, double time_s);
+  // Where a body is at each of the times of those lanes; the others keep what they have.
+  void poses(std::uint32_t body, const double* times_s, std::uint32_t lanes, PoseLanes& local_from_rest);
   // A facet of the rest frame where it is at that time; one that stands is itself.
   Facet at(const Facet& facet, double time_s);
 
@@ -51,22 +52,24 @@ class TimedScene {
   static constexpr std::int64_t kNoSlot = std::numeric_limits<std::int64_t>::min();
   // Rays that ask for bodies, in the local frame.
   struct Asked;
-  struct Known {
-    std::int64_t slot = kNoSlot;  // of 1/128 s: so many rays come near a body before it is another one
+  struct Slot {
+    std::int64_t number = kNoSlot;  // of 1/128 s: so many rays come near a body before it is another one
     PoseWindow poses;
-    double time_s = 0;  // that was asked for last
-    Pose local_from_rest;
   };
 
   static void meet(const RTCIntersectFunctionNArguments* arguments);
-  void meetBody(std::uint32_t body, Asked& asked, unsigned lane);
+  const PoseWindow& during(std::uint32_t body, std::int64_t slot);
+  void meetBody(std::uint32_t body, Asked& asked, std::uint32_t lanes);
   void ask(Asked& asked, int count);
+  // What a ray meets of bodies before that, or that.
+  NearestHit nearer(const NearestHit& than, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
+                    double min_range_m, double time_s);
   const SweptWindow& windowOf(std::int64_t number);
 
   std::shared_ptr<SweptBodies> swept_;
   const EmbreeScene& scene_;
-  double beam_m_;             // aside, as far as rays go
-  std::vector<Known> known_;  // of each body
+  double beam_m_;                           // aside, as far as rays go
+  std::vector<std::array<Slot, 2>> slots_;  // of each body, an even one and an odd one: a column may lie in two
   struct Held {
     std::int64_t number = 0;
     std::shared_ptr<const SweptWindow> window;

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "scanners/instruments/instrument.h"
+#include "scanners/math/vector_lanes.h"
 
 namespace standpoint {
 
@@ -17,6 +18,13 @@ struct Pulse {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  // unit
   std::uint32_t channel = 0;                             // of all heads
   bool measured = true;                                  // false in the part of a turn that is not
+};
+
+// Sixteen of them side by side.
+struct PulseLanes {
+  RayLanes rays;
+  double time_s[kPacket] = {};
+  std::uint32_t measured = 0;  // bits
 };
 
 // When and where the heads of a scanner that moves send their pulses: a pure function of the pulse's number, so a scan
@@ -38,8 +46,12 @@ class ScanPattern {
     return std::uint64_t{block} * firings_per_block_ + slot % firings_per_block_;
   }
   std::uint32_t channelOf(std::uint32_t slot) const { return slot / firings_per_block_; }
+  // Of sixteen slots from one on; lanes beyond the last slot keep what they have, and are not measured.
+  void pulses(std::uint32_t block, std::uint32_t first_slot, PulseLanes& pulses) const;
   // How many blocks there are until that time; the last one is begun before it.
   std::uint64_t blocksUntil(double time_s) const;
+
+  struct Sending;  // of the pulses of one channel: scan_pattern.cpp
 
  private:
   struct Channel {
@@ -52,12 +64,20 @@ class ScanPattern {
     Eigen::Vector3d at = Eigen::Vector3d::Zero();
   };
 
+  // What all pulses have in common.
+  struct Turning {
+    double rotation_hz = 0, second_rotation_hz = 0;
+    double start_turns = 0, middle_turns = 0, half_turns = 0.5;
+    double beam_radius_m = 0;
+  };
+  const Channel& channel(std::uint32_t number) const { return of_head_[number % of_head_.size()]; }
+  const Head& head(std::uint32_t number) const { return heads_[number / of_head_.size()]; }
+
   std::vector<Channel> of_head_;
   std::vector<Head> heads_;
   std::uint32_t channels_ = 1, firings_per_block_ = 1;
-  double firing_s_ = 0, rotation_hz_ = 0, second_rotation_hz_ = 0;
-  double start_turns_ = 0, middle_turns_ = 0, half_turns_ = 0.5;
-  double beam_radius_m_ = 0;
+  double firing_s_ = 0;
+  Turning turning_;
 };
 
 }  // namespace standpoint

@@ -44,10 +44,9 @@ TEST_F(GuideTest, LeadsOnFromTheModelToItsMaterialsAndSaysWhatIsOptional) {
 
 TEST_F(GuideTest, SpeaksTheLanguageThatIsChosenMeanwhileAndCountsWhatBeamsMeet) {
   open();
-  EXPECT_EQ(step(Workspace::environment).status,
-            fmt::format("{} products, {} triangles; 1 lost on import",
-                        editor.session.document().imported->products.size(),
-                        sceneTriangleCount(*editor.session.document().imported)));
+  EXPECT_EQ(step(Workspace::environment).status, fmt::format("{} products, {} triangles; 1 lost on import",
+                                                             editor.session.document().imported->products.size(),
+                                                             sceneTriangleCount(*editor.session.document().imported)));
   speak("de");
   EXPECT_NE(step(Workspace::environment).status.find("Dreiecke"), std::string::npos)
       << step(Workspace::environment).status;

@@ -40,6 +40,12 @@ Beam beamTo(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
   return {origin, direction, across, direction.cross(across)};
 }
 
+BeamLanes lanesOf(const Beam& beam) {
+  BeamLanes lanes;
+  lanes.set(0, beam);
+  return lanes;
+}
+
 class EdgesInBeams : public ::testing::TestWithParam<double> {};
 
 // The parameter: degrees from one beam of sixteen to the next.
@@ -60,12 +66,13 @@ TEST_P(EdgesInBeams, AreFoundByTheTreeAsByALookAtEachOfThem) {
   instrument.exit_diameter_m = 0.01, instrument.divergence_rad = 0.01;
   int in_beams = 0;
   for (int k = 0; k < 80; ++k) {
-    Beam beams[kPacket];
+    BeamLanes beams;
     const Eigen::Vector3d origin = far_off + place(10), first = place(1).normalized();
     const Eigen::Vector3d axis = first.unitOrthogonal();
     for (int lane = 0; lane < kPacket; ++lane)
-      beams[lane] = beamTo(origin + 0.002 * lane * first,
-                           Eigen::AngleAxisd(GetParam() * lane * std::numbers::pi / 180, axis) * first);
+      beams.set(static_cast<std::uint32_t>(lane),
+                beamTo(origin + 0.002 * lane * first,
+                       Eigen::AngleAxisd(GetParam() * lane * std::numbers::pi / 180, axis) * first));
     BeamPacket packet(instrument);
     const std::uint32_t lanes = 0xF7FF;
     packet.set(lanes, beams, tree.farthestCoordinate_m());
@@ -81,7 +88,7 @@ TEST_P(EdgesInBeams, AreFoundByTheTreeAsByALookAtEachOfThem) {
       const Eigen::Vector3d from = edge.from.cast<double>(), to = edge.to.cast<double>();
       for (std::uint32_t lane = 0; lane < kPacket; ++lane) {
         if ((lanes >> lane & 1U) == 0 || (from - origin).norm() > 18) continue;
-        const double share = leastShare(beams[lane], instrument, from, to);
+        const double share = leastShare(beams.at(lane), instrument, from, to);
         if (share > 0.99) continue;
         ++in_beams;
         EXPECT_TRUE(found.contains(edge.number) && (found[edge.number] >> lane & 1U) != 0)
@@ -100,7 +107,7 @@ TEST(EdgeTree, OfNothingHoldsNothing) {
   Instrument instrument;
   BeamPacket packet(instrument);
   const Beam beam = beamTo({0, 0, 0}, {1, 0, 0});
-  packet.set(1, &beam, 0);
+  packet.set(1, lanesOf(beam), 0);
   packet.narrow(1, 100);
   EdgeTree().find(packet, [](std::uint64_t, std::uint32_t) { FAIL(); });
   EdgeTree(std::vector<EdgeTree::Edge>()).find(packet, [](std::uint64_t, std::uint32_t) { FAIL(); });
@@ -115,7 +122,7 @@ TEST(EdgeTree, OfOneHoldsIt) {
     int count = 0;
     const EdgeTree tree(
         {{Eigen::Vector3f(5, -1, static_cast<float>(off_m)), Eigen::Vector3f(5, 1, static_cast<float>(off_m)), 42}});
-    packet.set(1, &beam, tree.farthestCoordinate_m());
+    packet.set(1, lanesOf(beam), tree.farthestCoordinate_m());
     packet.narrow(1, 100);
     tree.find(packet, [&](std::uint64_t edge, std::uint32_t lanes) {
       EXPECT_EQ(edge, 42U);
