@@ -47,7 +47,7 @@ Result<void> saveChange(const Verb& verb, const fs::path& folder, const json& ow
                         Outcome& outcome, KeptProject* kept, Progress& progress) {
   TRY_ASSIGN(const auto lock, ProjectLock::acquire(folder, verb.name, progress));
   TRY_ASSIGN(auto now, projectText(folder));
-  Document there = kept != nullptr ? before.document : Document();  // else all its parts are written again
+  Document there = before.document;  // parts that are shared with it are not written again
   bool changed = true;
   if (now != before.text) {
     TRY_ASSIGN(there, loadProject(folder, progress));
