@@ -102,6 +102,9 @@ class SceneView {
   virtual std::uint64_t texture(const ViewState& state, int width_px, int height_px, bool fine) = 0;
   // A texture of these pixels, with v from 0 to 1; taken over once for each picture.
   virtual std::uint64_t texture(const std::shared_ptr<const PixelPicture>& picture) = 0;
+  // Makes a part of what the first pictures of a model will need, as long as a picture takes; `state` has no model yet.
+  // False: there is no more of it.
+  virtual bool prepare(const ViewState& /*state*/, int /*width_px*/, int /*height_px*/) { return false; }
   // The finest picture of `state`, as pixels. An error where there is nothing that draws, or no memory for it.
   virtual Result<PixelPicture> pixels(const ViewState& state, int width_px, int height_px);
   // The picture gets better when it is asked for again, though nothing has changed.

@@ -427,6 +427,15 @@ void drawWorkspace(Editor& editor, const Box& all) {
   drawSplitters(editor, l);  // last: windows that keep their place lie behind those made before them
 }
 
+// While a model is read, what its first picture needs besides is made, a part in each frame.
+void prepareViewport(Editor& editor, const Box& all) {
+  if (editor.scene == nullptr || (!editor.jobRuns() && editor.session.running().empty())) return;
+  const Layout l = layOut(editor, all);
+  const float pixels = ImGui::GetIO().DisplayFramebufferScale.x > 0 ? ImGui::GetIO().DisplayFramebufferScale.x : 1;
+  editor.scene->prepare(editor.viewState(), static_cast<int>(l.middle.w * pixels),
+                        static_cast<int>(l.middle.h * pixels));
+}
+
 }  // namespace
 
 void openPanel(Editor& editor, Workspace workspace, std::string_view panel) {
@@ -455,6 +464,7 @@ void drawShell(Editor& editor) {
     beginFixed("###start", all, {0, 0}, tone::kTabs);
     drawStartPage(editor, {all.w, all.h});
     ImGui::End();
+    prepareViewport(editor, all);
   } else {
     drawWorkspace(editor, all);
   }

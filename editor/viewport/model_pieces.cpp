@@ -83,6 +83,7 @@ bool ModelPieces::update(const ViewState& state) {
   const Look look = lookOf(state);
   std::uint64_t made = 0;
   for (const auto& piece : pieces_) {
+    const bool comes = model && !piece->look;
     if (model && piece->look != look) {
       const bool same_triangles = shows(*piece, state, look);
       if (same_triangles && repaint(*piece, state)) {
@@ -96,7 +97,10 @@ bool ModelPieces::update(const ViewState& state) {
         building_ = true;
       }
     }
-    if (edges && piece->look && !piece->has_edges) showEdges(*piece, state);
+    if (edges && comes)
+      building_ = true;  // its edges come with the next picture: this one has enough to make
+    else if (edges && piece->look && !piece->has_edges)
+      showEdges(*piece, state);
     setVisible(*piece, model, edges);
   }
   return others;

@@ -24,8 +24,11 @@ void PictureWindow::OpenGLInitContext() {
 }
 
 bool PictureWindow::hasPixels(int width, int height) const {
-  return std::any_of(kept_.begin(), kept_.end(),
-                     [&](const Buffers& b) { return b.width == width && b.height == height; });
+  const auto has = [&](vtkOpenGLFramebufferObject* buffer) {
+    const int* size = buffer->GetLastSize();
+    return buffer->GetFBOIndex() != 0 && size[0] == width && size[1] == height;
+  };
+  return std::any_of(kept_.begin(), kept_.end(), [&](const Buffers& b) { return has(b.drawn) && has(b.shown); });
 }
 
 void PictureWindow::use(const Buffers& buffers) {
@@ -63,8 +66,13 @@ void PictureWindow::makeReady(int width, int height) {
   state->Reset();
   state->Push();
   setPixels(width, height);
-  Start();
-  state->PopFramebufferBindings();
+  if (const int* size = DisplayFramebuffer->GetLastSize();
+      DisplayFramebuffer->GetFBOIndex() == 0 || size[0] != width || size[1] != height) {
+    makeShown();
+  } else {
+    Start();
+    state->PopFramebufferBindings();
+  }
   setPixels(before[0], before[1]);
   state->Pop();
 }

@@ -22,7 +22,7 @@ class PictureWindow : public vtkGenericOpenGLRenderWindow {
   // From the next picture on.
   void setPixels(int width, int height);
   bool hasPixels(int width, int height) const;
-  // Once there has been a picture: makes them for a size that comes later.
+  // Once there has been a picture: makes half of them for a size that comes later.
   void makeReady(int width, int height);
 
   void OpenGLInitContext() override;

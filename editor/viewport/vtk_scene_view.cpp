@@ -84,6 +84,26 @@ class TranslucentPass : public vtkTranslucentPass {
 };
 vtkStandardNewMacro(TranslucentPass);
 
+// A box of plaster in one of glass: a driver that draws by the processor compiles what draws them.
+std::shared_ptr<const Environment> anyModel() {
+  Environment model;
+  model.surfaces = {{"plaster", {0.8F, 0.8F, 0.8F, 1}}, {"glass", {0.6F, 0.8F, 0.9F, 0.4F}}};
+  for (std::uint32_t surface = 0; surface < 2; ++surface) {
+    Mesh mesh;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Eigen::Vector3f place(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+      mesh.positions.push_back((surface == 0 ? 1.0F : 2.0F) * (place - Eigen::Vector3f::Constant(0.5F)));
+    }
+    mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                      {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    mesh.surface_of_triangle.assign(mesh.triangles.size(), surface);
+    model.meshes.push_back(std::make_shared<Mesh>(std::move(mesh)));
+    model.products.emplace_back();
+    model.instances.push_back({surface, surface, Eigen::Affine3d::Identity()});
+  }
+  return std::make_shared<const Environment>(std::move(model));
+}
+
 bool drawnByProcessor() {
   const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   const std::string_view renderer = name != nullptr ? name : "";
@@ -158,6 +178,25 @@ class VtkSceneView : public SceneView {
     }
     if (shown_ != 0) smooth(shown_);
     return shown_;
+  }
+
+  bool prepare(const ViewState& state, int width, int height) override {
+    const int w = std::max(width, 8), h = std::max(height, 8);
+    if (drawn_ && drawn_->environment && drawn_->environment != any_model_) return false;  // a model has been drawn
+    if (!window_->hasPixels(w, h)) {
+      texture(state, w, h, false);
+    } else if (!any_model_) {
+      any_model_ = anyModel();
+      ViewState with = state;
+      with.environment = any_model_;
+      frame(with.camera, bounds(*any_model_), 1);
+      texture(with, w, h, false);
+    } else if (!window_->hasPixels(w * factorOf(true), h * factorOf(true))) {
+      window_->makeReady(w * factorOf(true), h * factorOf(true));
+    } else {
+      return false;
+    }
+    return true;
   }
 
   bool refining() const override {
@@ -350,9 +389,8 @@ class VtkSceneView : public SceneView {
   // What VTK has drawn last; without colours where it could not.
   DrawnScene scene() const {
     DrawnScene scene{0, 0, drawn_width_, drawn_height_, factor_};
-    auto* shown = window_->GetDisplayFramebuffer();
-    auto* colours = shown != nullptr ? shown->GetColorAttachmentAsTextureObject(0) : nullptr;
     auto* drawn = window_->GetRenderFramebuffer();
+    auto* colours = drawn != nullptr ? drawn->GetColorAttachmentAsTextureObject(0) : nullptr;
     auto* depths = drawn != nullptr ? drawn->GetDepthAttachmentAsTextureObject() : nullptr;
     if (colours != nullptr) scene.colours = colours->GetHandle();
     if (depths != nullptr) scene.depths = depths->GetHandle();
@@ -412,7 +450,8 @@ class VtkSceneView : public SceneView {
     window_->SetIsDirect(1);
     window_->SetSupportsOpenGL(1);
     window_->SetIsCurrent(true);
-    window_->SetFrameBlitModeToNoBlit();  // the picture is taken from the display framebuffer's texture
+    window_->SetFrameBlitModeToNoBlit();
+    window_->SetSwapBuffers(0);  // nor copied within VTK: the picture is taken from the texture that it is drawn to
     window_->SetMultiSamples(0);
     window_->AddRenderer(renderer_);
     renderer_->GradientBackgroundOn();  // also gives the texture an alpha of 1
@@ -541,6 +580,7 @@ class VtkSceneView : public SceneView {
   vtkNew<vtkRenderStepsPass> steps_;
   SceneLayers layers_{renderer_};
   PointLayers points_;
+  std::shared_ptr<const Environment> any_model_;  // that was drawn to prepare for others
   enum class Parts { all, still, moving } shown_parts_ = Parts::all;  // of the picture that is being drawn
   std::unique_ptr<StillParts> still_;                                 // made when an instrument works
   std::unique_ptr<PointComposer> composer_;                           // made when the first points are drawn

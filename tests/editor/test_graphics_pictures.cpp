@@ -308,7 +308,7 @@ TEST_F(Levels, MapsKeepTheirColours) {
   state.graphics.level = GraphicsLevel::high;
   state.colour = ColourMode::confidence;
   draw(false);
-  view().texture(state, kWidth, kHeight, true);  // makes its framebuffers
+  for (int part = 0; part < 2; ++part) view().texture(state, kWidth, kHeight, true);  // makes its framebuffers
   view().texture(state, kWidth, kHeight, true);
   EXPECT_FALSE(view().refining());
 }
@@ -363,11 +363,25 @@ class LargeModel : public Levels {
 
 TEST_F(LargeModel, IsThereAfterSomePicturesAsIfItWereOneMesh) {
   state.environment = floors(4, false);
-  EXPECT_EQ(picturesUntilWhole(), 4) << "one of 51200 triangles each";
+  EXPECT_EQ(picturesUntilWhole(), 5) << "one of 51200 triangles each, whose edges come with the next";
   const Drawn pieces = draw(false);
   state.environment = floors(4, true);
-  EXPECT_EQ(picturesUntilWhole(), 1);
+  EXPECT_EQ(picturesUntilWhole(), 2);
   EXPECT_EQ(pieces.rgba, draw(false).rgba);
+}
+
+TEST_F(LargeModel, LooksAsItDoesWhenItsFirstPictureWasNotPrepared) {
+  state.environment = floors(1, false);
+  const Drawn unprepared = draw(true);
+  EXPECT_FALSE(view().prepare(ViewState(), kWidth, kHeight)) << "it has drawn a model";
+  offscreen.reset();
+  auto another = Offscreen::create(kWidth, kHeight, 1);
+  ASSERT_TRUE(another);
+  offscreen = std::move(*another);
+  int parts = 0;
+  while (view().prepare(ViewState(), kWidth, kHeight)) ASSERT_LT(++parts, 10);
+  EXPECT_EQ(parts, 4) << "buffers, what surfaces need, and buffers of fine pictures in two halves";
+  EXPECT_EQ(unprepared.rgba, draw(true).rgba);
 }
 
 TEST_F(LargeModel, WhatIsHiddenIsGoneInTheNextPicture) {
