@@ -52,6 +52,14 @@ struct ProgressSpan {
   double from = 0, to = 1;
 };
 
+// Images come after the laser's turn, or, where they take no time of their own, during it.
+PictureTimes pictureTimesOf(const ScanRequest& request) {
+  const auto& settings = request.settings;
+  const double begins_s = request.options.bodies_ahead_s;
+  if (settings.imaging_seconds <= 0) return {begins_s, settings.scan_seconds};
+  return {begins_s + settings.scan_seconds, settings.imaging_seconds};
+}
+
 // One station into an open sink. Its pictures are taken to be half of it: how long they take depends on both sizes.
 Result<ScanCount> scanStation(const RayScene& scene, const ScanWorld& world, const Station& station,
                               const ScanHeader& header, const ScanRequest& request, PointSink& file, Report& report,
@@ -62,8 +70,9 @@ Result<ScanCount> scanStation(const RayScene& scene, const ScanWorld& world, con
                                                       : span.to;
   if (request.panorama) {
     progress.stage("Images at " + span.name, span.from, pictures_to);
-    TRY_ASSIGN(auto panorama, takePanorama(scene, request.instrument, station.true_pose, request.options.threads,
-                                           report, progress, meteringOf(request.instrument, request.settings.values)));
+    TRY_ASSIGN(auto panorama,
+               takePanorama(scene, request.instrument, station.true_pose, request.options.threads, report, progress,
+                            meteringOf(request.instrument, request.settings.values), pictureTimesOf(request)));
     coloured = colouring(file, std::make_shared<const Panorama>(std::move(panorama)));
   }
   progress.stage("Scan " + span.name, pictures_to, span.to);

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include <jpeglib.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -71,6 +72,15 @@ std::vector<float> exposures(const std::vector<Light>& pixels, std::uint32_t wid
   return of_column;
 }
 
+std::uint32_t shotsOf(const PanoramaCamera& camera) { return static_cast<std::uint32_t>(std::max(1, camera.shots)); }
+
+// Of a shot's columns, traced some at once; those that are traced together are of one shot.
+std::uint32_t firstOf(std::uint32_t shot, std::uint32_t shots, std::uint32_t width) {
+  if (shot >= shots) return width;
+  const auto first = static_cast<std::uint32_t>(std::uint64_t{shot} * width / shots);
+  return (first + PanoramaRays::kAtOnce - 1) / PanoramaRays::kAtOnce * PanoramaRays::kAtOnce;
+}
+
 class ColouringSink final : public PointSink {
  public:
   ColouringSink(PointSink& to, std::shared_ptr<const Panorama> panorama) : to_(to), panorama_(std::move(panorama)) {}
@@ -121,7 +131,8 @@ PictureMetering meteringOf(const Instrument& instrument, const SettingValues& va
 }
 
 Result<Panorama> takePanorama(const RayScene& scene, const Instrument& instrument, const Pose& local_from_scanner,
-                              int threads, Report& report, Progress& progress, PictureMetering metering) {
+                              int threads, Report& report, Progress& progress, PictureMetering metering,
+                              const PictureTimes& times) {
   Panorama panorama;
   panorama.width = instrument.camera.columns;
   panorama.height = panorama.width / 2;
@@ -139,11 +150,20 @@ Result<Panorama> takePanorama(const RayScene& scene, const Instrument& instrumen
       });
     });
   };
+  // Shot by shot, as where bodies get is worked out for a short time.
+  const std::uint32_t shots = shotsOf(instrument.camera);
+  tbb::enumerable_thread_specific<TimedScene> in_motion([&] { return rays.inMotion(); });
   std::atomic<std::uint32_t> rows_done{0};
-  forEachRow([&](std::uint32_t y, std::size_t at) {
-    for (std::uint32_t x = 0; x < width; x += PanoramaRays::kAtOnce) rays.trace(y, x, &light[at + x]);
-    progress.advance(static_cast<double>(++rows_done) / height);
-  });
+  for (std::uint32_t shot = 0; shot < shots; ++shot) {
+    const double time_s = times.begins_s + times.lasts_s * (shot + 0.5) / shots;
+    const std::uint32_t end = firstOf(shot + 1, shots, width);
+    forEachRow([&](std::uint32_t y, std::size_t at) {
+      TimedScene& timed = in_motion.local();
+      for (std::uint32_t x = firstOf(shot, shots, width); x < end; x += PanoramaRays::kAtOnce)
+        rays.trace(y, x, time_s, timed, &light[at + x]);
+      progress.advance(static_cast<double>(++rows_done) / height / shots);
+    });
+  }
   TRY(progress.check());
   const std::vector<float> exposure = exposures(light, width, height, instrument.camera, metering);
   const auto warmth = static_cast<float>(instrument.camera.warmth);

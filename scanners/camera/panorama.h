@@ -32,13 +32,18 @@ enum class PictureMetering { even, horizon, zenith };
 // What the chosen settings say of it: the effect "picture_metering" of a choice; else even.
 PictureMetering meteringOf(const Instrument& instrument, const SettingValues& values);
 
+// When the shots are taken, by the clock of what moves in the scene: one after the other, clockwise from the back.
+struct PictureTimes {
+  double begins_s = 0, lasts_s = 0;
+};
+
 // Renders it, four rays for each pixel: the surfaces' colours, vertex colours and images, under the sky and a little
 // light from where the camera stands; what is transparent lets see through. Without HDR each of the instrument's shots
-// has the exposure that its own brightness asks for, blended over a few degrees with the next. Same pixels for any
-// number of threads.
+// has the exposure that its own brightness asks for, blended over a few degrees with the next. What moves is in each
+// shot where it is in the middle of that shot's time, and cut at its seams. Same pixels for any number of threads.
 Result<Panorama> takePanorama(const RayScene& scene, const Instrument& instrument, const Pose& local_from_scanner,
                               int threads, Report& report, Progress& progress,
-                              PictureMetering metering = PictureMetering::even);
+                              PictureMetering metering = PictureMetering::even, const PictureTimes& times = {});
 
 // As a JPEG, for PointSink::picture.
 Result<StationPicture> pictureOf(const Panorama& panorama, const ScanHeader& header, double acquired_gps_s);

@@ -46,6 +46,7 @@ struct PanoramaRays::Beams {
 PanoramaRays::PanoramaRays(const EmbreeScene& scene, const Pose& local_from_camera, std::uint32_t width, double flash,
                            Report& report)
     : scene_(scene),
+      swept_(TimedScene::swept(scene, {.farthest_m = kRayReach_m})),
       colours_(scene.environment(), report),
       coincident_(scene),
       origin_(local_from_camera.translation),
@@ -60,7 +61,8 @@ PanoramaRays::PanoramaRays(const EmbreeScene& scene, const Pose& local_from_came
     }
 }
 
-void PanoramaRays::trace(std::uint32_t row, std::uint32_t first, Light* pixels) const {
+void PanoramaRays::trace(std::uint32_t row, std::uint32_t first, double time_s, TimedScene& timed,
+                         Light* pixels) const {
   static_assert(kAtOnce * kInPixel == kPacket);
   Beams beams;
   beams.pixels = pixels;
@@ -84,18 +86,26 @@ void PanoramaRays::trace(std::uint32_t row, std::uint32_t first, Light* pixels) 
     for (int k = 0; k < beams.count; ++k) {
       const Eigen::Vector3d& direction = beams.direction[k];
       rays.set(k, origin_ + beams.way_m[k] * direction, direction);
+      rays.time_s[k] = time_s;
     }
-    std::uint64_t facets[kPacket];
-    float ranges_m[kPacket];
-    scene_.intersect(rays, beams.count, kRayReach_m, facets, ranges_m);
-    for (int k = 0; k < beams.count; ++k) hits[k] = {facets[k], ranges_m[k]};
-    coincident_.choose(rays, beams.count, hits);
-    shade(hits, beams);
+    meet(rays, beams.count, timed, hits);
+    shade(hits, time_s, timed, beams);
   }
 }
 
+// Of what lies in one plane, what stands is chosen among: a body is where it is.
+void PanoramaRays::meet(RayPacket& rays, int count, TimedScene& timed, NearestHit* hits) const {
+  timed.intersect(rays, count, kRayReach_m, hits);
+  NearestHit still[kPacket];
+  const auto moves = [&](int k) { return hits[k].facet != kNoFacet && hits[k].facet >> 32U >= scene_.stillCount(); };
+  for (int k = 0; k < count; ++k) still[k] = moves(k) ? NearestHit{} : hits[k];
+  coincident_.choose(rays, count, still);
+  for (int k = 0; k < count; ++k)
+    if (!moves(k)) hits[k] = still[k];
+}
+
 // Adds what the beams met to their pixels, and keeps those that go on.
-void PanoramaRays::shade(const NearestHit* hits, Beams& beams) const {
+void PanoramaRays::shade(const NearestHit* hits, double time_s, TimedScene& timed, Beams& beams) const {
   int kept = 0;
   for (int k = 0; k < beams.count; ++k) {
     const Eigen::Vector3d direction = beams.direction[k];
@@ -107,10 +117,12 @@ void PanoramaRays::shade(const NearestHit* hits, Beams& beams) const {
     }
     if (hits[k].facet != beams.facet_number) beams.facet = scene_.facet(beams.facet_number = hits[k].facet);
     const Eigen::Vector3d from = origin_ + beams.way_m[k] * direction;
-    const Facet met = beams.facet.metBy(from, direction);
+    const Facet met = timed.at(beams.facet, time_s).metBy(from, direction);
     RayHit hit;
     hit.range_m = rangeOnPlane(met, from, direction, hits[k].range_m);
     hit.position = from + hit.range_m * direction;
+    // Paint moves with its body.
+    if (met.body != kNoBody) hit.position = inverse(timed.pose(met.body, time_s)) * hit.position;
     hit.normal = met.normal.dot(direction) > 0 ? Eigen::Vector3d(-met.normal) : met.normal;
     hit.product = met.product, hit.surface = met.surface, hit.instance = met.instance, hit.triangle = met.triangle;
     const double way_m = beams.way_m[k] + hit.range_m;

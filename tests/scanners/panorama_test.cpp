@@ -95,6 +95,43 @@ TEST(Panorama, ColoursPointsWithTheParallaxOfItsCamera) {
   EXPECT_LT(above.at(under)[1], 90);
 }
 
+class TurnsAboutCamera final : public PoseFunction {
+ public:
+  Pose pose(double time_s) const override {
+    return {Eigen::Quaterniond(Eigen::AngleAxisd(kPi / 4 * (time_s - 12), Eigen::Vector3d::UnitZ())), {0, 0, 0}};
+  }
+  double first_s() const override { return 0; }
+  double last_s() const override { return 100; }
+};
+
+// A board as above turns about the camera at 45° a second, and is ahead at 12 s. Four shots of a quarter each are taken
+// at 11, 13, 15 and 17 s, when it is at -45°, 45°, 135° and -135°: the second and the fourth have it in their quarter.
+TEST(Panorama, HasWhatMovesInEachShotWhereItIsAtItsTime) {
+  SceneBuilder builder;
+  const auto white = builder.surface(0.9F), black = builder.surface(0.02F);
+  builder.box({-5, -5, -5}, {5, 5, 5}, true, white);
+  builder.quad({2, -0.5, -0.5}, {0, 1, 0}, {0, 0, 1}, black);
+  const auto environment = builder.environment();
+  const MovingBody board{{static_cast<std::uint32_t>(environment->instances.size() - 1)},
+                         std::make_shared<TurnsAboutCamera>()};
+  Progress progress;
+  Report report;
+  const auto scene = *RayScene::build(environment, progress, {}, {}, {board});
+  const auto takenBy = [&](int threads) {
+    return takePanorama(*scene, withCamera(360, 0, true, 4), {}, threads, report, progress, PictureMetering::even,
+                        {10, 8});
+  };
+  const auto panorama = takenBy(1);
+  ASSERT_TRUE(panorama);
+  for (int column = 0; column < 360; ++column) {
+    const double azimuth_deg = 180 - (column + 0.5);
+    const double off_deg = std::min(std::abs(azimuth_deg - 45), std::abs(azimuth_deg + 135));
+    if (std::abs(off_deg - 14.036) < 0.5) continue;  // a pixel of both
+    EXPECT_EQ(panorama->pixels[90 * 360 + static_cast<std::size_t>(column)][1] < 90, off_deg < 14.036) << azimuth_deg;
+  }
+  EXPECT_EQ(panorama->pixels, takenBy(3)->pixels);
+}
+
 TEST(Panorama, HasAnExposureForEachShotUnlessBracketsMakeOne) {
   SceneBuilder builder;
   const auto bright = builder.surface(0.95F), dark = builder.surface(0.3F);
