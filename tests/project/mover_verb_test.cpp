@@ -97,6 +97,31 @@ TEST(MoverVerb, PutsPeopleIntoScansThatAskForThem) {
   EXPECT_NE(other.scans[0].header.guid, scanOf(made, kQuick, folder.path() / "again.e57").scans[0].header.guid);
 }
 
+// The laser's turn takes 64 s, and the images come after it. Somebody who leaves at 60 s is, for them, where they are
+// ever after, and for the laser where they were before.
+TEST(MoverVerb, PutsPeopleIntoImagesWhereTheyAreAfterTheLasersTurn) {
+  const TemporaryFolder folder;
+  const Document made =
+      after(twoStoreyDocument(), {{"station", {{"add", "S1"}, {"on", {500003, 5600003, 0}}}},
+                                  {"mover", {{"add", "Ada"}, {"through", {"500001,5600001:60", "500004,5600001"}}}}});
+  const auto scanned = [&](const char* name, const json& more) {
+    json options = kQuick;
+    options["set"].push_back("colour=on");
+    options["panorama"] = true, options["panorama-size"] = 512;
+    options.update(more);
+    return scanOf(made, options, folder.path() / name);
+  };
+  const auto pictureIn = [](const KeptScans& kept) {
+    return kept.pictures.empty() ? std::vector<std::uint8_t>() : kept.pictures[0][0].bytes;
+  };
+  const auto leaves = scanned("leaves.e57", json::object()), left = scanned("left.e57", {{"movers-from", 1000}});
+  const auto nobody = scanned("nobody.e57", {{"movers", "off"}});
+  ASSERT_FALSE(pictureIn(leaves).empty());
+  EXPECT_EQ(pictureIn(leaves), pictureIn(left));
+  EXPECT_NE(pictureIn(leaves), pictureIn(nobody));
+  EXPECT_NE(leaves.scans[0].points.x_m, left.scans[0].points.x_m);
+}
+
 // By which a point is laid back to where its surface was.
 TEST(MoverVerb, GivesEachPointItsTimeWhereSomethingMoves) {
   const TemporaryFolder folder;
