@@ -27,6 +27,7 @@ constexpr int kStepsPerPlace = 10;  // kWayStep_s
 constexpr double kUnderWay_s = 30, kUsual_s = 120, kLongest_s = 3600;
 constexpr double kMostPlaces = 2e6;    // of all people: a project of 40 MB
 constexpr double kBraking_s = 2.5;     // before they go back
+constexpr double kTurning_s = 20;      // within which each of them stops, and sets off again
 constexpr double kLeastIsland_m2 = 2;  // nobody walks up and down on less
 constexpr int kDraws = 200;            // of a place to begin
 constexpr double kNearestGoal_m = 1, kReached_m = 0.35;
@@ -35,6 +36,9 @@ constexpr double kStalled_s = 1.5;  // … then another way, then another goal
 constexpr double kRelaxation_s = 0.5, kStrength_m2ps2 = 2.1, kForceReach_m = 0.3, kForesight_s = 2;
 constexpr double kBehind = 0.5, kBehindCosine = -0.17364817766693;  // seen within 100° of ahead
 constexpr double kForceMost_mps2 = 10, kFasterMost = 1.3;
+// Fitted to the law of crowdedSpeed: people who give way to each other step aside and slow down by this much of what
+// pushes back, and who was slower than they want to be over the last seconds wants to be faster by that difference.
+constexpr double kSlowing = 0.2, kHaste = 1, kPace_s = 2;
 constexpr double kSight_m = 3, kDensityRadius_m = 1.5, kWithinFloor_m = 1;
 constexpr double kMargin_m = 0.06;  // above kBodyDiameter_m: for the curve between places
 constexpr double kSlowest_mps = 0.1;
@@ -153,8 +157,11 @@ class StrollingGround {
 // Where somebody wants to go.
 class Errand {
  public:
-  Errand(std::uint64_t seed, std::uint32_t person) : fortune_(seed, person) {}
+  Errand(std::uint64_t seed, std::uint32_t person)
+      : fortune_(seed, person), pause_s_(kTurning_s * fortune_.draw(0, 5)) {}
   const Fortune& fortune() const { return fortune_; }
+  // How long before all of them go back.
+  double stops_s() const { return kBraking_s + kTurning_s * fortune_.draw(0, 6); }
 
   // The unit vector to the next corner; zero where they stand a while.
   Vector2d direction(const StrollingGround& ground, const Vector3d& at) {
@@ -218,7 +225,7 @@ class Errand {
   Vector3d goal_ = Vector3d::Zero();
   std::vector<Vector3d> corners_;
   std::size_t next_ = 0;
-  double nearest_m_ = 0, stalled_s_ = 0, pause_s_ = 0;
+  double nearest_m_ = 0, stalled_s_ = 0, pause_s_;
   bool went_around_ = false;
 };
 
@@ -242,6 +249,7 @@ class Crowd {
       taken.push_back({*place, Vector2d::Zero(), kBodyDiameter_m / 2});
       bodies_.push_back(taken.back());
       free_mps_.push_back(errand.fortune().freeSpeed(mean_mps));
+      pace_mps_.push_back(free_mps_.back());
       errands_.push_back(std::move(errand));
     }
     return present;
@@ -261,8 +269,8 @@ class Crowd {
       for (std::size_t k = 0; k < obstacles_.size(); ++k)
         bodies_[people + k] = obstacleAt(k, -kUnderWay_s + step * kCrowdStep_s);
       const BodiesNear near_by(bodies_);
-      const bool braking = (steps - step) * kCrowdStep_s < kBraking_s;
-      for (std::size_t i = 0; i < people; ++i) advance(i, near_by, braking);
+      const double left_s = (steps - step) * kCrowdStep_s;
+      for (std::size_t i = 0; i < people; ++i) advance(i, near_by, left_s < errands_[i].stops_s());
     }
     return ways;
   }
@@ -298,6 +306,7 @@ class Crowd {
     if (braking) ahead.setZero();
     Vector2d force = Vector2d::Zero();
     int near = 0;
+    bool among_people = true;  // and nothing near that does not make way itself
     close_.clear();
     near_by.around(one.at, [&](std::uint32_t k) {
       if (k == i || std::abs(bodies_[k].at.z() - one.at.z()) > kWithinFloor_m) return;
@@ -310,14 +319,25 @@ class Crowd {
       const Vector2d push =
           repulsion(wide > 0 ? Vector2d(from * std::max(0.1, 1 - wide / distance)) : from, bodies_[k].velocity);
       force += (ahead.dot(-push) >= kBehindCosine * push.norm() ? 1 : kBehind) * push;
+      among_people = among_people && k < errands_.size();
     });
     const double density = near / (std::numbers::pi * kDensityRadius_m * kDensityRadius_m);
     const double wish_mps = std::max(kSlowest_mps, free_mps_[i] * crowdedSpeed(density));
-    force += (wish_mps * ahead - one.velocity) / kRelaxation_s;
+    const double hurried_mps = haste(i, wish_mps, ahead);
+    if (among_people) force -= (1 - kSlowing) * std::min(0.0, force.dot(ahead)) * ahead;
+    force += ((wish_mps + (among_people ? hurried_mps : 0)) * ahead - one.velocity) / kRelaxation_s;
     Vector2d moves_mps = one.velocity + kCrowdStep_s * force;
     const double speed = moves_mps.norm(), most = kFasterMost * free_mps_[i];
     if (speed > most) moves_mps *= most / speed;
     move(i, moves_mps * kCrowdStep_s);
+  }
+
+  // How much faster than they wish they try to get; those who stand begin without haste.
+  double haste(std::size_t i, double wish_mps, const Vector2d& ahead) {
+    double& pace_mps = pace_mps_[i];
+    const bool stands = ahead.squaredNorm() == 0;
+    pace_mps = stands ? wish_mps : pace_mps + (bodies_[i].velocity.dot(ahead) - pace_mps) * kCrowdStep_s / kPace_s;
+    return kHaste * std::max(0.0, wish_mps - pace_mps);
   }
 
   // As far as floor and bodies leave room: along what is in the way where not straight, or not at all.
@@ -359,8 +379,8 @@ class Crowd {
   std::span<const CrowdObstacle> obstacles_;
   std::vector<FloorBody> bodies_;  // people, then obstacles
   std::vector<Errand> errands_;
-  std::vector<double> free_mps_;
-  std::vector<std::uint32_t> close_;  // to the one who moves
+  std::vector<double> free_mps_, pace_mps_;  // that they have alone; over the last seconds
+  std::vector<std::uint32_t> close_;         // to the one who moves
 };
 
 // How long they walk before they come back.

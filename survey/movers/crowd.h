@@ -34,11 +34,12 @@ struct CrowdWish {
 
 // People who walk about on the walkable surface, and give way to each other and to what is in their way: from a random
 // place to another, with pauses, by social forces (mobile.md §6.1; all values are unsourced) in steps of 20 ms. The
-// more people there are around somebody, the slower they want to go. They keep to the surface, and who gets nowhere for
-// a while goes elsewhere. All set off 30 s before the movers' clock shows 0, go on for 90 s at least, stop, and go back
-// the way they came, and so on; for an hour, or two million places of all of them, at most, and the report says where
-// that is less than `until_s`. Centres keep kBodyDiameter_m of each other whatever happens; what does not make way
-// itself may come nearer.
+// more people there are around somebody, the slower they want to go, and who walks straight on does so, within a tenth,
+// by crowdedSpeed of the density. They keep to the surface, and who gets nowhere for a while goes elsewhere. They set
+// off within the 20 s after 30 s before the movers' clock shows 0, go on until 90 s at least, each stops at a time of
+// its own in the last 20 s, and they go back the way they came, and so on; for an hour, or two million places of all of
+// them, at most, and the report says where that is less than `until_s`. Centres keep kBodyDiameter_m of each other
+// whatever happens; what does not make way itself may come nearer.
 //
 // The same arguments give the same ways, on any processor. Time: half a minute for 1000 people, half a second for 100.
 // Who finds no place to begin is left out, and the report says how many; an error where there is no walkable surface of
