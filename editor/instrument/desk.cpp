@@ -64,13 +64,16 @@ std::vector<std::pair<std::string, std::string>> scannersOf(const DeviceType& ty
   return found;
 }
 
-void watch(InstrumentDesk& desk) {
+void watch(InstrumentDesk& desk, Editor& editor) {
   const auto& solution = desk.rehearsal->exercise().solution;
   if (desk.guidance != Guidance::watched || desk.ended() || desk.watched >= solution.size()) return;
-  if (desk.rehearsal->host().busy()) return;
+  if (desk.rehearsal->host().busy() || desk.cleaning) return;
   if (desk.rehearsal->seconds() < desk.next_watched_s) return;
   const auto& action = solution[desk.watched++];
-  if (action.kind != Kind::finish && action.kind != Kind::wait) act(desk, action);
+  if (action.kind == Kind::verb && isOfficeVerb(action.name))
+    startCleaning(desk, editor, action.options.at("filters"));
+  else if (action.kind != Kind::finish && action.kind != Kind::wait)
+    act(desk, action);
   desk.next_watched_s = desk.rehearsal->seconds() + 1.2;  // a second or so of the viewer's time
 }
 
@@ -102,6 +105,8 @@ void act(InstrumentDesk& desk, const RehearsalAction& action) {
   Result<void> done;
   if (desk.ended())
     done = failure(ErrorKind::usage, "The exercise has ended. Leave it or restart it.");
+  else if (desk.cleaning)
+    done = failure(ErrorKind::usage, kCleaningGoesOn);
   else if (desk.rehearsal)
     done = desk.rehearsal->act(action, quiet);
   else if (action.kind == Kind::press)
@@ -261,8 +266,9 @@ void advance(InstrumentDesk& desk, Editor& editor) {
     return desk.growing;
   };
   if (desk.rehearsal) {
-    if (!desk.marking) desk.rehearsal->pass(desk.ended() ? 0 : seconds);
-    watch(desk);
+    takeCleaning(desk);
+    if (!desk.marking && !desk.cleaning) desk.rehearsal->pass(desk.ended() ? 0 : seconds);
+    watch(desk, editor);
     const auto& job = desk.rehearsal->document().job;
     if (job != desk.adopted && editor.session.whyNotAdopt().empty()) {
       desk.adopted = job;
@@ -302,6 +308,7 @@ namespace {
 
 std::string whyForbidden(const InstrumentDesk& desk, const Session& session, std::string_view verb) {
   if (!desk.rehearsal || desk.ended()) return {};
+  if (isFieldVerb(verb) && desk.cleaning) return kCleaningGoesOn;
   if (isFieldVerb(verb))
     return desk.rehearsal->host().busy() ? "The instrument is busy. Wait until it has finished." : "";
   const auto* row = session.verb(verb);
@@ -466,6 +473,7 @@ void takeMarks(InstrumentDesk& desk, Editor& editor) {
 // Its environment stays where its result is.
 void leaveExercise(InstrumentDesk& desk, Editor& editor) {
   desk.marking.reset();
+  desk.cleaning.reset();
   desk.mistakes.end(editor);
   saveEnvironment(editor);
   putWayAway(desk, editor);

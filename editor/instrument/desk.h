@@ -84,7 +84,10 @@ struct InstrumentDesk {
   DesktopOpener opener;                // of the certificate
   std::shared_ptr<const Job> adopted;  // of the exercise's document, as the editor shows it
   std::vector<WayPoint> way;           // of a handheld scanner, as it is being planned
-  std::size_t watched = 0;             // actions of the solution that were shown
+  std::string filters;                 // that clean the copies in the office, as they are typed
+  RehearsalAction cleaning_action;
+  std::unique_ptr<Task<std::filesystem::path>> cleaning;  // by it; the exercise rests meanwhile
+  std::size_t watched = 0;                                // actions of the solution that were shown
   double next_watched_s = 0;
 
   std::optional<Recording> recording;  // that goes on, or has ended and is not yet written
@@ -153,5 +156,14 @@ void drawHands(InstrumentDesk& desk, Editor& editor);
 void drawHelp(InstrumentDesk& desk, Editor& editor);
 void drawExercises(InstrumentDesk& desk, Editor& editor);
 void drawWay(InstrumentDesk& desk, Editor& editor);
+
+// Of an exercise whose rules ask what a cleaning of the copies in the office left (cleaning.*).
+bool asksForCleaning(const Exercise& exercise);
+void drawCleaning(InstrumentDesk& desk, Editor& editor);
+// In the background, with the exercise's clock at rest.
+void startCleaning(InstrumentDesk& desk, Editor& editor, const std::vector<std::string>& filters);
+// What was cleaned becomes an action of the exercise. Call before its clock goes on.
+void takeCleaning(InstrumentDesk& desk);
+inline constexpr const char* kCleaningGoesOn = "The copies are being cleaned. Wait, or cancel it.";
 
 }  // namespace standpoint

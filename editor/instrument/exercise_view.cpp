@@ -322,6 +322,7 @@ void task(InstrumentDesk& desk, Editor& editor, const std::string& language) {
   if (desk.guidance != Guidance::tested) steps(desk, language);
   questions(desk, language);
   if (!desk.ended() && asksForAWay(e)) drawWay(desk, editor);
+  if (!desk.ended() && asksForCleaning(e)) drawCleaning(desk, editor);
   ui::gap(editor);
   if (!desk.ended() && desk.guidance != Guidance::tested) demands(desk, language);
 }
@@ -346,7 +347,7 @@ void running(InstrumentDesk& desk, Editor& editor) {
     const bool unsaved = editor.session.modified();
     const auto why = unsaved ? "The environment has not been saved yet." : editor.session.whyNot("open-project");
     again = ui::button("Restart###again", why);
-  } else if (ui::primaryButton("Finish and grade###finish")) {
+  } else if (ui::primaryButton("Finish and grade###finish", desk.cleaning ? kCleaningGoesOn : "")) {
     finishExercise(desk, editor);
   }
   ImGui::SameLine();

@@ -57,7 +57,7 @@ std::optional<std::vector<std::string>> details(Detail detail, const Device& dev
     case Detail::press: return presses(device);
     case Detail::hand: return idsOf(handRows());
     case Detail::trouble: return idsOf(troubleRows());
-    case Detail::field_verb: return std::vector<std::string>{"station", "target", "plan", "walk"};
+    case Detail::field_verb: return std::vector<std::string>{"station", "target", "plan", "walk", "clean"};
   }
   return std::nullopt;
 }

@@ -76,6 +76,17 @@ void checkWalk(JsonFields& f, const nlohmann::json& way) {
   }
 }
 
+// Which copies are read, and where the cleaned cloud goes, is the rehearsal's to say.
+void checkCleaning(JsonFields& f, const nlohmann::json& options) {
+  const auto is_text = [](const nlohmann::json& one) { return one.is_string(); };
+  const auto* filters = options.is_object() && options.size() == 1 && options.contains("filters") &&
+                                options["filters"].is_array() && !options["filters"].empty()
+                            ? &options["filters"]
+                            : nullptr;
+  if (filters == nullptr || !std::all_of(filters->begin(), filters->end(), is_text))
+    f.needs("options", options, "an object with filters alone, such as {\"filters\": [\"moving:distance=0.05\"]}");
+}
+
 // `prepares`: before anybody is there, more can be done: doors stand open that the model has shut, a rotor turns.
 RehearsalAction action(JsonFields& f, bool prepares = false) {
   RehearsalAction a;
@@ -95,12 +106,14 @@ RehearsalAction action(JsonFields& f, bool prepares = false) {
   } else if (named("verb", Kind::verb)) {
     const auto* options = f.raw("options");
     a.options = options == nullptr ? nlohmann::json::object() : *options;
-    const bool field = isFieldVerb(a.name);
     if (!a.options.is_object())
       f.needs("options", a.options, "an object, such as {\"add\": \"S1\", \"on\": [4.3, 1.6, 0]}");
-    if (!field && !(prepares && (a.name == "treat" || a.name == "mover" || a.name == "scan")))
-      f.wrong("verb", fmt::format("'{}' is not allowed here; allowed: {}", a.name,
-                                  prepares ? "station, target, plan, treat, mover, scan" : "station, target and plan"));
+    const bool allowed = prepares ? a.name == "treat" || a.name == "mover" || a.name == "scan" : isOfficeVerb(a.name);
+    if (!isFieldVerb(a.name) && !allowed)
+      f.wrong("verb",
+              fmt::format("'{}' is not allowed here; allowed: {}", a.name,
+                          prepares ? "station, target, plan, treat, mover, scan" : "station, target, plan and clean"));
+    if (isOfficeVerb(a.name)) checkCleaning(f, a.options);
   } else if (named("hint", Kind::hint)) {
   } else if (const auto* way = f.raw("walk")) {
     a.kind = Kind::walk;
@@ -201,6 +214,7 @@ bool isFor(const Exercise& exercise, const std::string& device) {
 }
 
 bool isFieldVerb(std::string_view verb) { return verb == "station" || verb == "target" || verb == "plan"; }
+bool isOfficeVerb(std::string_view verb) { return verb == "clean"; }
 
 Result<RehearsalAction> actionFrom(const nlohmann::json& json, const std::string& file, const std::string& pointer) {
   JsonFault fault(file);

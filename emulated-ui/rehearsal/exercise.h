@@ -36,6 +36,7 @@ class Spoken {
 //   {"wait": 30}                              seconds of the device's clock
 //   {"finish": true}                          until the device and the simulation behind it rest
 //   {"verb": "target", "options": {…}}        station, target or plan, on the environment
+//   {"verb": "clean", "options": {"filters": […]}}   the copies in the office: office_cleaning.h
 //   {"answer": "usable", "value": "yes"}      to a question of the exercise
 //   {"walk": [[x, y, seconds], …]}            the way of a handheld scanner, planned on the plan
 //   {"hint": "step id"}                       asks for a hint
@@ -48,6 +49,7 @@ struct RehearsalAction {
 };
 // Whether a student may do it in an exercise: station, target, plan.
 bool isFieldVerb(std::string_view verb);
+bool isOfficeVerb(std::string_view verb);  // clean
 
 Result<RehearsalAction> actionFrom(const nlohmann::json& json, const std::string& file, const std::string& pointer);
 nlohmann::json toJson(const RehearsalAction& action);

@@ -206,6 +206,7 @@ class Checker {
     if (names("remove")) std::erase(stations_, options["remove"].get<std::string>());
     auto complete = options;
     if (name == "scan") complete["output"] = "static";  // the rehearsal says where
+    if (name == "clean") complete["in"] = "scans.e57", complete["output"] = "cleaned.e57";
     if (auto ok = checkOptions(*findVerb(verbs(), name), complete); !ok) fault(place + "/options", ok.error().message);
   }
 

@@ -12,6 +12,7 @@
 #include "emulated-ui/device/numbers.h"
 #include "emulated-ui/device/replaced.h"
 #include "emulated-ui/device/setup_facts.h"
+#include "emulated-ui/rehearsal/office_cleaning.h"
 #include "emulated-ui/rehearsal/part_proofs.h"
 #include "emulated-ui/rehearsal/proofs.h"
 
@@ -52,6 +53,7 @@ const ProofRow* proofRow(const std::string& fact) {
 }
 
 bool isFraction(const Device& device, const std::string& fact) {
+  if (cleaningOfClass(fact)) return true;
   if (const auto* row = proofRow(fact))
     return *row->unit == '\0' && row->domain.minimum == 0 && row->domain.maximum == 1;
   return deviceUnit(device, fact) == FactUnit::fraction;
@@ -264,6 +266,8 @@ std::string PlainWords::name(const std::string& fact) const {
     const auto dot = fact.rfind('.');
     return fill("part", {{"{what}", word("part." + fact.substr(dot + 1))}, {"{name}", fact.substr(5, dot - 5)}});
   }
+  if (const auto of = cleaningOfClass(fact))
+    return fill("cleaning", {{"{what}", word("fact.cleaning." + of->figure)}, {"{name}", of->name}});
   if (fact.starts_with("expected.sigma.") && part.size() > 3)
     return fill("sigma", {{"{range}", part[2]}, {"{percent}", after(fact, "expected.sigma." + part[2] + ".")}});
   if (fact.starts_with("expected.reach.")) return fill("reach", {{"{percent}", after(fact, "expected.reach.")}});

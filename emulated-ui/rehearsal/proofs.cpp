@@ -12,6 +12,7 @@
 #include "emulated-ui/hand_over.h"
 #include "emulated-ui/rehearsal/all_setups.h"
 #include "emulated-ui/rehearsal/field_proofs.h"
+#include "emulated-ui/rehearsal/office_cleaning.h"
 #include "emulated-ui/rehearsal/part_proofs.h"
 #include "emulated-ui/rehearsal/survey_proofs.h"
 #include "pointclouds/formats.h"
@@ -233,6 +234,9 @@ const std::vector<ProofRow>& proofRows() {
       {"links.overlap", "", numbers(0, 1), "smallest overlap of a joined link"},
       {"links.error", "mm", numbers(0, 1e6), "largest true error of a joined link"},
       {"office.copies", "", numbers(0, 1e4), "complete copies in the office"},
+      {"cleaning.recall", "", numbers(0, 1), "fraction of the points on moving objects that cleaning removed"},
+      {"cleaning.precision", "", numbers(0, 1), "fraction of the removed points that are not on a static surface"},
+      {"cleaning.lost", "", numbers(0, 1), "fraction of the points on static surfaces that cleaning removed"},
       {"survey.walls", "", numbers(0, 1), "fraction of the area's walls seen at 60° incidence or less"},
       {"survey.coverage", "", numbers(0, 1), "fraction of the area's surfaces covered by a station"},
       {"survey.reached", "", numbers(0, 1), "fraction of all surfaces visible from the area that a station covers"},
@@ -257,6 +261,15 @@ std::optional<Fact> Proofs::fact(const std::string& name, const Exercise& exerci
     if (parts_of_ != of) parts_ = readParts(exercise, device, document), parts_of_ = of;
     const auto found = parts_.find(name);
     return found == parts_.end() ? std::nullopt : std::optional(numberFact(found->second));
+  }
+  if (isCleaningFact(name)) {
+    const auto office = officeBeside(folder / "scans");
+    std::error_code error;
+    const auto written = fs::last_write_time(cleanedIn(office), error);
+    const auto of = error ? "none" : fmt::format("{}", written.time_since_epoch().count());
+    if (cleaning_of_ != of) cleaning_ = readCleaning(office), cleaning_of_ = of;
+    const auto found = cleaning_.find(name);
+    return found == cleaning_.end() ? std::nullopt : std::optional(numberFact(found->second));
   }
   const auto& rows = proofRows();
   if (std::none_of(rows.begin(), rows.end(), [&](const ProofRow& row) { return name == row.name; }))

@@ -28,6 +28,7 @@ struct ProofRow {
 //   links.*    of the links between the setups, against the truth
 //   control.*, repeats.*  see field_proofs.h
 //   office.*   of the copies
+//   cleaning.*  of what a student's cleaning of them left: see office_cleaning.h
 class Proofs {
  public:
   std::optional<Fact> fact(const std::string& name, const Exercise& exercise, const Device& device,
@@ -40,6 +41,8 @@ class Proofs {
   std::string plan_of_;  // stations and settings
   std::map<std::string, double> parts_;
   std::string parts_of_;  // files
+  std::map<std::string, double> cleaning_;
+  std::string cleaning_of_;  // when it was done
   std::map<std::string, double> survey_;
   std::string survey_of_;
   std::vector<std::uint8_t> survey_reach_;

@@ -12,8 +12,10 @@
 #include "core/number_text.h"
 #include "emulated-ui/device/format.h"
 #include "emulated-ui/device/numbers.h"
+#include "emulated-ui/hand_over.h"
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/field_proofs.h"
+#include "emulated-ui/rehearsal/office_cleaning.h"
 #include "emulated-ui/rehearsal/part_proofs.h"
 #include "emulated-ui/rehearsal/part_surface.h"
 #include "emulated-ui/rehearsal/plain_words.h"
@@ -47,14 +49,15 @@ ErrorKind preparing(const Error& error) { return error.kind == ErrorKind::usage 
 
 // Scans with the truth of each point are several times as large: only where something is asked of it.
 bool asksThePoints(const Exercise& e) {
+  const auto asks = [](const std::string& text) {
+    return text.find("data.") != std::string::npos || text.find("cleaning.") != std::string::npos;
+  };
   return std::any_of(e.rules.begin(), e.rules.end(),
-                     [](const ExerciseRule& r) {
-                       return r.holds.text().find("data.") != std::string::npos || r.proof.starts_with("data.") ||
-                              r.because.in("en").find("data.") != std::string::npos ||
-                              r.cost.in("en").find("data.") != std::string::npos;
+                     [&](const ExerciseRule& r) {
+                       return asks(r.holds.text()) || asks(r.proof) || asks(r.because.in("en")) ||
+                              asks(r.cost.in("en"));
                      }) ||
-         std::any_of(e.steps.begin(), e.steps.end(),
-                     [](const ExerciseStep& s) { return s.done.text().find("data.") != std::string::npos; });
+         std::any_of(e.steps.begin(), e.steps.end(), [&](const ExerciseStep& s) { return asks(s.done.text()); });
 }
 
 bool isOfAScan(const std::string& fact) { return fact.starts_with("data.") || fact.starts_with("newest."); }
@@ -198,6 +201,14 @@ Result<void> Rehearsal::runFieldVerb(const RehearsalAction& action, Progress& pr
   return {};
 }
 
+Result<void> Rehearsal::cleanOffice(const RehearsalAction& action, Progress& progress) {
+  if (host_->busy()) return failure(ErrorKind::usage, "wait until the instrument has finished", action.name);
+  const auto office = officeBeside(folder_ / "scans");
+  TRY(cleanCopies(officeCopies(device(), office), action.options.at("filters"), office, progress));
+  counts_["field." + action.name] += 1;
+  return {};
+}
+
 Result<void> Rehearsal::apply(const RehearsalAction& action, Progress& progress) {
   switch (action.kind) {
     case Kind::press: return device().act(action.name, action.value, action.by);
@@ -210,7 +221,7 @@ Result<void> Rehearsal::apply(const RehearsalAction& action, Progress& progress)
       return host_->hand(action.name, action.value);
     case Kind::wait: return passVirtually(action.seconds, progress);
     case Kind::finish: return finish(progress);
-    case Kind::verb: return runFieldVerb(action, progress);
+    case Kind::verb: return isOfficeVerb(action.name) ? cleanOffice(action, progress) : runFieldVerb(action, progress);
     case Kind::answer: {
       const auto* question = findQuestion(exercise_.questions, action.name);
       if (question == nullptr)
@@ -531,6 +542,7 @@ std::optional<FactDomain> rehearsalDomain(const Exercise& exercise, const std::s
   }
   if (auto own = namedProofDomain(name, exercise)) return own;
   if (const auto part = partFigure(name, exercise)) return part->domain;
+  if (cleaningOfClass(name)) return FactDomain{{}, true, 0, 1};
   for (const auto& row : proofRows())
     if (name == row.name) return row.domain;
   return std::nullopt;

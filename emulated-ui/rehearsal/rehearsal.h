@@ -100,6 +100,7 @@ class Rehearsal {
   Result<void> apply(const RehearsalAction& action, Progress& progress);
   Result<void> goAlong(const WalkedWay& way);
   Result<void> runFieldVerb(const RehearsalAction& action, Progress& progress);
+  Result<void> cleanOffice(const RehearsalAction& action, Progress& progress);
   Result<void> prepareModel(Progress& progress);
   Result<void> checkParts() const;
   void knowControl();
