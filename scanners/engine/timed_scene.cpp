@@ -135,6 +135,10 @@ const PoseWindow& TimedScene::during(std::uint32_t body, std::int64_t number) {
   return slot.poses;
 }
 
+Pose TimedScene::pose(std::uint32_t body, double time_s) {
+  return during(body, slotOf(time_s, kSlots_per_s)).at(time_s);
+}
+
 void TimedScene::poses(std::uint32_t body, const double* times_s, std::uint32_t lanes, PoseLanes& local_from_rest) {
   while (lanes != 0) {
     const std::int64_t slot = slotOf(times_s[std::countr_zero(lanes)], kSlots_per_s);
@@ -220,7 +224,7 @@ NearestHit TimedScene::nearer(const NearestHit& than, const Eigen::Vector3d& ori
 
 Facet TimedScene::at(const Facet& facet, double time_s) {
   if (facet.body == kNoBody) return facet;
-  const Pose at = during(facet.body, slotOf(time_s, kSlots_per_s)).at(time_s);
+  const Pose at = pose(facet.body, time_s);
   Facet placed = facet;
   placed.normal = at.rotation * facet.normal;
   placed.offset = facet.offset + placed.normal.dot(at.translation);

@@ -42,6 +42,7 @@ class TimedScene {
   // Of bodies alone: what they hide of a place that far away is not asked of what stands.
   NearestHit nearestBody(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit, double max_range_m,
                          double time_s);
+  Pose pose(std::uint32_t body, double time_s);  // local_from_rest
   // Where a body is at each of the times of those lanes; the others keep what they have.
   void poses(std::uint32_t body, const double* times_s, std::uint32_t lanes, PoseLanes& local_from_rest);
   // A facet of the rest frame where it is at that time; one that stands is itself.
