@@ -102,6 +102,7 @@ class Actions {
   using WhenChosen = std::function<void(Actions& later, const std::filesystem::path& chosen)>;
   virtual void open(Workspace workspace, const char* panel) = 0;
   virtual bool offers(const char* panel) const = 0;  // this workspace has it
+  virtual void growBottom(float points) = 0;         // the lower area, to this height; it can be pulled lower again
   virtual void run(const char* command) = 0;         // of those that menus and keys have
   virtual void menuItem(const char* command) = 0;    // in an open menu
   virtual void button(const char* command, const char* text, float width) = 0;

@@ -19,6 +19,8 @@ namespace {
 
 constexpr const char *kCompare = ICON_COMPRESS "  Compare###compare-clouds", *kClean = ICON_DROP "  Clean A…###clean-a";
 
+constexpr float kResult_pt = 300;  // of the panel: all figures and the first materials are in sight
+
 struct ComparedPart {
   std::filesystem::path file;
   std::string scan;  // "": all of the file
@@ -46,7 +48,12 @@ std::string nameOf(const std::vector<InspectedCloud>& clouds, const ComparedPart
 void chooseCloud(float width, Actions& actions, const char* id, const std::vector<InspectedCloud>& clouds,
                  ComparedPart& part, PanelStates& states, bool is_a) {
   ImGui::SetNextItemWidth(width);
-  if (!ImGui::BeginCombo(id, nameOf(clouds, part).c_str())) return;
+  const auto name = nameOf(clouds, part);
+  const bool open = ImGui::BeginCombo(id, name.c_str());
+  if (!open) {
+    ui::tooltip(name);
+    return;
+  }
   for (std::size_t i = 0; i < clouds.size(); ++i)
     if (const auto offered = partOf(clouds, clouds[i]);
         ImGui::Selectable((clouds[i].label + "###" + id + std::to_string(i)).c_str(), part == offered))
@@ -164,7 +171,9 @@ void drawAnswer(const Model& model, const CompareState& state, const CompareAnsw
     rows.resize(rows.size() - materials.size());
   }
   ImGui::SameLine();
-  ui::dimText(fmt::format("A  {}     B  {}", a, b));
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ui::fitted(fmt::format("A  {}     B  {}", a, b), ImGui::GetContentRegionAvail().x);
+  ImGui::PopStyleColor();
   if (!ImGui::BeginChild("###compare-tables")) return ImGui::EndChild();
   drawTable(model, rows, "compare-figures");
   if (!materials.empty()) {
@@ -207,8 +216,10 @@ void drawComparison(const Model& model, PanelStates& states, Actions& actions) {
   chooseCloud(width, actions, "###compare-b", clouds, state.b, states, false);
   ImGui::SameLine();
   if (ui::primaryButton(kCompare, whyNotCompare(model, state)) &&
-      actions.start(CompareOptions{state.a.file, state.b.file, state.a.scan, state.b.scan}, "Compare two clouds"))
+      actions.start(CompareOptions{state.a.file, state.b.file, state.a.scan, state.b.scan}, "Compare two clouds")) {
     state.shown_a = state.a, state.shown_b = state.b;
+    actions.growBottom(kResult_pt);
+  }
   ImGui::SameLine();
   drawClean(model, state, actions);
   const auto* answer = model.session.lastAnswer<CompareAnswer>("compare");

@@ -79,6 +79,7 @@ class PanelActions final : public Actions {
 
   void open(Workspace workspace, const char* panel) override;
   bool offers(const char* panel) const override;
+  void growBottom(float points) override;
   void run(const char* command) override;
   void menuItem(const char* command) override;
   void button(const char* command, const char* text, float width) override;

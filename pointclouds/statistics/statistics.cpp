@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/progress_part.h"
 #include "pointclouds/formats.h"
 #include "pointclouds/statistics/coverage.h"
 #include "pointclouds/statistics/neighbourhoods.h"
@@ -174,12 +175,14 @@ Result<Measured> measure(const CloudPart& part, const StatisticsOptions& options
   if (!(options.radius_m > 0) || !(options.cell_m > 0))
     return failure(ErrorKind::usage, "radius and cell must be positive", file.string());
   SurveySink survey(options);
-  TRY_ASSIGN(const auto read, readPart(*format, part, survey, progress));
+  constexpr double kSurveyed = 0.4;  // of the time: what is kept is looked up in the second pass
+  ProgressPart surveying(progress, 0, kSurveyed), measuring(progress, kSurveyed, 1);
+  TRY_ASSIGN(const auto read, readPart(*format, part, survey, surveying));
   report.append(read);
   survey.coverage.settle();
   std::vector<Neighbourhood> samples = survey.samples();
   NeighbourSink neighbours(samples, options.radius_m);
-  TRY(readPart(*format, part, neighbours, progress));
+  TRY(readPart(*format, part, neighbours, measuring));
   std::vector<double> noise, rough;
   for (const Neighbourhood& sample : samples) {
     if (const auto v = planeNoise(sample)) noise.push_back(*v);
@@ -190,6 +193,14 @@ Result<Measured> measure(const CloudPart& part, const StatisticsOptions& options
   result.statistics.roughness_m = distributionOf(std::move(rough));
   result.statistics.occupied_cells = result.coverage.cells();
   return result;
+}
+
+// Of the work with two files, that with the first, by their sizes.
+double shareOf(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code of_a, of_b;
+  const auto size_a = static_cast<double>(std::filesystem::file_size(a, of_a)),
+             size_b = static_cast<double>(std::filesystem::file_size(b, of_b));
+  return of_a || of_b || size_a + size_b <= 0 ? 0.5 : size_a / (size_a + size_b);
 }
 
 }  // namespace
@@ -203,8 +214,10 @@ Result<CloudStatistics> measureCloud(const std::filesystem::path& file, const St
 Result<CloudComparison> compareClouds(const CloudPart& a, const CloudPart& b, const StatisticsOptions& options,
                                       Progress& progress) {
   CloudComparison comparison;
-  TRY_ASSIGN(auto first, measure(a, options, comparison.report, progress));
-  TRY_ASSIGN(auto second, measure(b, options, comparison.report, progress));
+  const double share = shareOf(a.file, b.file);
+  ProgressPart of_a(progress, 0, share), of_b(progress, share, 1);
+  TRY_ASSIGN(auto first, measure(a, options, comparison.report, of_a));
+  TRY_ASSIGN(auto second, measure(b, options, comparison.report, of_b));
   comparison.a = std::move(first.statistics);
   comparison.b = std::move(second.statistics);
   comparison.a_covered_by_b = first.coverage.sharedWith(second.coverage);

@@ -116,7 +116,14 @@ TEST(Statistics, CompareTwoScansOfOneFile) {
   const TemporaryFolder folder;
   writeWall(folder / "both.e57", {{.sigma_m = 0, .width_m = 2}, {.sigma_m = 0, .width_m = 1, .station = 2}});
   Progress progress;
+  double before = 0, back = 0;
+  progress.onChange([&] {
+    back = std::max(back, before - progress.fraction());
+    before = progress.fraction();
+  });
   const auto both = compareClouds({folder / "both.e57", "S1"}, {folder / "both.e57", "S2"}, {}, progress);
+  EXPECT_LT(back, 1e-9) << "each of the two is read twice, and the progress never goes back";
+  EXPECT_NEAR(before, 1, 0.01);
   ASSERT_OK(both);
   EXPECT_EQ(both->a.scans, 1u);
   EXPECT_EQ(both->a.points, 40000u);
