@@ -337,8 +337,10 @@ std::vector<LeftJob> jobsOf(InstrumentDesk& desk) {
   auto* const host = desk.running();
   auto* const task = host != nullptr ? host->task() : nullptr;
   if (task == nullptr) return {};
-  auto& progress = task->progress();
-  return {{task->title(), {}, static_cast<int>(100 * progress.fraction()), {}, nlohmann::json::object()}};
+  // The simulation is far ahead of the device that shows it, whose scan is what the user saw.
+  double done = task->progress().fraction();
+  if (host->device().state().running) done = std::min(done, host->device().number("progress"));
+  return {{task->title(), {}, std::min(99, static_cast<int>(100 * done)), {}, nlohmann::json::object()}};
 }
 
 }  // namespace

@@ -49,6 +49,7 @@ struct PaletteState {
   bool open = false;
   bool shown = false;  // it has been drawn
   std::string query;
+  bool at_end = false;  // of what it begins with: typing goes on there
   int chosen = 0;
   // The products that were found last: of which model, by which words.
   struct {
@@ -77,6 +78,7 @@ struct DialogStates {
   std::vector<LeftWork> recovery;       // found at the start, offered one by one
   RecoveryComparison comparison;
   std::optional<LeftJob> resume;         // a scan to go on with once its project is open
+  nlohmann::json shown_before;           // how that was looked at, to be so again; empty: as usual
   bool bare = false;                     // what a bare start is, is being said
   std::function<void()> start_as_usual;  // after a bare start; empty: it was none
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/model/recovery_keeper.h"
 
+#include <algorithm>
 #include <string_view>
 #include <thread>
 
@@ -22,8 +23,9 @@ std::vector<LeftJob> jobsOf(const Session& session) {
   for (const auto& task : session.running()) {
     const std::string_view verb = task->verb().name;
     if (verb.ends_with("-recovery") || verb.ends_with("-project")) continue;
-    jobs.push_back({task->title(), task->progress().stageName(), static_cast<int>(100 * task->progress().fraction()),
-                    std::string(verb), task->options()});
+    jobs.push_back({task->title(), task->progress().stageName(),
+                    std::min(99, static_cast<int>(100 * task->progress().fraction())), std::string(verb),
+                    task->options()});
   }
   if (session.runs_elsewhere)
     for (auto& job : session.runs_elsewhere()) jobs.push_back(std::move(job));
@@ -73,9 +75,14 @@ void RecoveryKeeper::keepCopy(Session& session) {
 }
 
 void RecoveryKeeper::keepMark(const Session& session) {
-  const SessionMark mark{session.name(),  session.folder().string(), session.history().unsavedChanges(),
-                         jobsOf(session), untilGrown_s() >= 0,       after_crash_,
-                         display_lost_};
+  const SessionMark mark{session.name(),
+                         session.folder().string(),
+                         session.history().unsavedChanges(),
+                         jobsOf(session),
+                         untilGrown_s() >= 0,
+                         after_crash_,
+                         display_lost_,
+                         session.shown_as ? session.shown_as() : nlohmann::json::object()};
   const auto now = Clock::now();
   if (written_ && (*written_ == mark || (saysTheSame(*written_, mark) && now - marked_ < kBetweenMarks))) return;
   marked_ = now;

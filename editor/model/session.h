@@ -84,6 +84,8 @@ class Session {
 
   // What works for the document outside of its tasks, such as the scan of an emulated instrument; empty: nothing does.
   std::function<std::vector<LeftJob>()> runs_elsewhere;
+  // How the document is looked at, which a crash should not take along; empty: nobody looks.
+  std::function<nlohmann::json()> shown_as;
 
   // "" when a verb may start now, else the reason to show.
   std::string whyNot(std::string_view verb) const;

@@ -92,6 +92,7 @@ SessionMark markFrom(const json& object) {
   take(object, "young", mark.young);
   take(object, "after_crash", mark.after_crash);
   take(object, "display_lost", mark.display_lost);
+  if (const auto shown = object.find("shown"); shown != object.end() && shown->is_object()) mark.shown = *shown;
   const auto jobs = object.find("jobs");
   if (jobs == object.end() || !jobs->is_array()) return mark;
   for (const auto& row : *jobs) {
@@ -159,6 +160,7 @@ Result<void> writeSessionMark(const fs::path& folder, const SessionMark& mark) {
                        {"young", mark.young},
                        {"after_crash", mark.after_crash},
                        {"display_lost", mark.display_lost},
+                       {"shown", mark.shown},
                        {kSeen, false},
                        {"process_start", startOf(getpid())}};
   return writeWholeText(folder / kMarkFile, object.dump(2) + '\n');

@@ -31,6 +31,8 @@ struct SessionMark {
   bool young = true;          // it has run for less than a minute
   bool after_crash = false;   // it was started after an editor that crashed
   bool display_lost = false;  // it ended because of that: no crash of its own
+  // How it was looked at, for whoever opens it again (shell/recovery_dialogs.h).
+  nlohmann::json shown = nlohmann::json::object();
   bool operator==(const SessionMark&) const = default;
 };
 

@@ -7,7 +7,9 @@
 
 #include <imgui.h>
 
+#include "editor/panels/quality_panel.h"
 #include "editor/recovery/differences.h"
+#include "editor/shell/actions.h"
 #include "editor/shell/editor.h"
 #include "editor/widgets/modal.h"
 #include "editor/widgets/widgets.h"
@@ -98,6 +100,7 @@ void drawRecovery(Editor& editor) {
   };
   const auto open = [&](bool resume) {
     if (resume) editor.dialogs.resume = *scan;
+    editor.dialogs.shown_before = left.mark.shown;
     editor.session.recover(left);
     if (!copy) removeRecovery(left.folder);  // the project itself has all there is
     close();
@@ -129,6 +132,49 @@ void drawRecovery(Editor& editor) {
     close();
   }
   ImGui::EndPopup();
+}
+
+namespace {
+
+// Switches of the view that are kept, by the beginnings of their actions' ids.
+bool isKept(std::string_view action) { return action.starts_with("colour-") || action.starts_with("points-by-"); }
+
+nlohmann::json howShown(Editor& editor) {
+  auto on = nlohmann::json::array();
+  for (const auto& action : actions())
+    if (isKept(action.id) && action.on != nullptr && action.on(editor)) on.push_back(action.id);
+  nlohmann::json shown = {{"on", std::move(on)}};
+  const auto* assessed = editor.session.lastOf("assess");
+  if (assessed == nullptr || editor.session.isOutOfDate(*assessed)) return shown;
+  for (const auto& choice : choices(QualityProfile{}))
+    if (choice.value == editor.panels.of<QualityState>().profile) shown["assessed"] = choice.name;
+  return shown;
+}
+
+void assessAsBefore(Editor& editor, const std::string& profile) {
+  for (const auto& choice : choices(QualityProfile{}))
+    if (profile == choice.name) editor.panels.of<QualityState>().profile = choice.value;
+  if (editor.session.whyNot("assess").empty())
+    editor.session.start(AssessOptions{.profile = editor.panels.of<QualityState>().profile}, "Assess the scans");
+}
+
+}  // namespace
+
+void keepHowShown(Editor& editor) {
+  if (!editor.session.shown_as) editor.session.shown_as = [&editor] { return howShown(editor); };
+}
+
+void showAsBefore(Editor& editor) {
+  auto& wanted = editor.dialogs.shown_before;
+  if (wanted.empty() || !editor.session.running().empty() || editor.dialogs.resume) return;
+  const auto shown = std::exchange(wanted, nullptr);
+  if (!editor.environment()) return;  // it could not be opened
+  if (const auto on = shown.find("on"); on != shown.end() && on->is_array())
+    for (const auto& id : *on)
+      if (id.is_string() && isKept(id.get_ref<const std::string&>()) && findAction(id.get<std::string>().c_str()))
+        invoke(editor, id.get<std::string>().c_str());
+  if (const auto assessed = shown.find("assessed"); assessed != shown.end() && assessed->is_string())
+    assessAsBefore(editor, assessed->get<std::string>());
 }
 
 void resumeLeftScan(Editor& editor) {

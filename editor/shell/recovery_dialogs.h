@@ -10,5 +10,9 @@ void drawBareStart(Editor& editor);  // that it crashed again at once, and what 
 void drawRecovery(Editor& editor);   // what an earlier editor left, one after the other
 // Goes on with the scan that dialogs.resume names, once its project is open.
 void resumeLeftScan(Editor& editor);
+// Colours, and the assessment of the scans, as they were before a crash: the session keeps them for it, and what was
+// recovered gets them once it is open; the assessment is made anew.
+void keepHowShown(Editor& editor);
+void showAsBefore(Editor& editor);
 
 }  // namespace standpoint

@@ -169,6 +169,29 @@ TEST_F(Recovery, NotesWhatRunsUntilItEnds) {
   EXPECT_EQ(keeper.problem(), "");
 }
 
+TEST_F(Recovery, BringsColoursBackAndAssessesAnewWhatWasAssessed) {
+  Editor editor(verbsWithDemo(), [] {});
+  GuiDriver gui(editor);
+  ASSERT_TRUE(editor.session.start("demo", json::object()));
+  gui.settle();
+  editor.view.colour = ColourMode::material;
+  editor.view.points_by = ColourBy::range;
+  gui.frames(2);
+  ASSERT_TRUE(editor.session.shown_as);
+  const auto shown = editor.session.shown_as();
+  EXPECT_EQ(shown.at("on"), (json{"colour-material", "points-by-range"})) << shown;
+  EXPECT_FALSE(shown.contains("assessed"));
+  crash(kGone, {.name = "House", .shown = {{"on", {"colour-material", "quit"}}, {"assessed", "loa20"}}});
+  const auto left = findLeftWork(root);
+  ASSERT_EQ(left.size(), 1U);
+  editor.view.colour = ColourMode::model;
+  editor.dialogs.shown_before = left[0].mark.shown;
+  gui.frames(2);
+  EXPECT_EQ(editor.view.colour, ColourMode::material);
+  EXPECT_FALSE(editor.quit) << "what is not of the view is not run";
+  EXPECT_TRUE(editor.dialogs.shown_before.empty());
+}
+
 TEST_F(Recovery, NotesWhatAnEmulatedDeviceWorksOn) {
   Session session(verbsWithDemo(), [] {});
   session.runs_elsewhere = [] { return std::vector<LeftJob>{{"RTC360: Setup 1 at S1", {}, 40, {}, json::object()}}; };
