@@ -5,6 +5,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "editor/model/material_scope.h"
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
 #include "editor/widgets/icons.h"
@@ -22,6 +23,9 @@ struct MaterialsState {
   std::string filter;
   bool whole_library = false;  // listed, not only what is in use
   std::string bulk;            // selector of what gets the chosen material
+  // What a click on a material in use selected, and what had been selected before: a wall whose new material is being
+  // looked for stays the one that gets it.
+  std::vector<std::uint32_t> listed, before_listed;
 };
 
 const PhysicalMaterial* materialById(const MaterialAssignment& assignment, const std::string& id) {
@@ -111,7 +115,7 @@ TableRows libraryTable(const Model& model, const MaterialsState& state) {
   return table;
 }
 
-void drawUses(const Model& model, Actions& actions, const MaterialResult& result, float height) {
+void drawUses(const Model& model, MaterialsState& state, Actions& actions, const MaterialResult& result, float height) {
   const auto flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX;
   if (!ImGui::BeginTable("uses", 4, flags, {0, height})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
@@ -129,7 +133,9 @@ void drawUses(const Model& model, Actions& actions, const MaterialResult& result
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     if (drawMaterial(model, actions, material, use.material)) {
+      if (model.selection.products() != state.listed) state.before_listed = model.selection.products();
       actions.select(use.products);
+      state.listed = model.selection.products();
       if (model.view.colour == ColourMode::model) actions.colourBy(ColourMode::material);
     }
     ImGui::TableNextColumn();
@@ -166,6 +172,32 @@ void drawLibrary(const Model& model, MaterialsState& state, Actions& actions, fl
     ImGui::PopID();
   }
   ImGui::EndTable();
+}
+
+// The chosen material to what is selected.
+void drawAssign(const Model& model, const MaterialsState& state, Actions& actions) {
+  const auto& selected = model.selection.products();
+  const auto& wanted = selected == state.listed ? state.before_listed : selected;
+  const auto& products = model.environment()->products;
+  const auto* material = model.offeredMaterial(model.material.id);
+  const auto why = material == nullptr ? std::string("Select a material in the list first")
+                   : wanted.empty()    ? std::string("Select products in the view first")
+                                       : model.session.whyNot("materials");
+  const auto what = wanted.size() == 1 && wanted[0] < products.size()
+                        ? productLabel(products[wanted[0]])
+                        : trn("{} product", "{} products", wanted.size(), wanted.size());
+  const auto text = wanted.empty() ? tr("Assign to selection") : trf("Assign to {}", what);
+  const float width = ImGui::GetContentRegionAvail().x;
+  const auto label = ui::fittingText(ICON_PAINT "  " + text, width - 2 * ImGui::GetStyle().FramePadding.x);
+  const auto tip = material == nullptr ? text : trf("{}: {}", tr(material->label), text);
+  if (!ui::button((label + "###assign-selected").c_str(), why, {width, 0}, tip.c_str())) return;
+  MaterialsOptions options;
+  for (const auto p : wanted)
+    if (p < products.size()) options.assign.push_back({selectorOf(products[p]), material->id});
+  const auto assigned = wanted;
+  if (!actions.start(options, trf("Assign {} to {}", tr(material->label), what))) return;
+  actions.select(assigned);
+  if (model.view.colour == ColourMode::model) actions.colourBy(ColourMode::material);
 }
 
 // Many at once: what a selector means gets the chosen material.
@@ -215,12 +247,13 @@ void draw(const Model& model, MaterialsState& state, Actions& actions) {
   drawListSwitch(state);
   ui::copyTable("materials",
                 [&] { return state.whole_library ? libraryTable(model, state) : usesTable(model, choice->result); });
-  const float bulk = ImGui::GetFrameHeightWithSpacing() * (state.bulk.empty() ? 1 : 2) + model.px(2);
+  const float bulk = ImGui::GetFrameHeightWithSpacing() * (state.bulk.empty() ? 2 : 3) + model.px(2);
   const float height = ImGui::GetContentRegionAvail().y - bulk;
   if (state.whole_library)
     drawLibrary(model, state, actions, height);
   else
-    drawUses(model, actions, choice->result, height);
+    drawUses(model, state, actions, choice->result, height);
+  drawAssign(model, state, actions);
   drawBulk(model, state, actions);
 }
 

@@ -68,7 +68,9 @@ void SceneLayers::update(const ViewState& state, const ViewState* last) {
       last->cloud != state.cloud || last->materials != state.materials || last->colour != state.colour ||
       last->wavelength_nm != state.wavelength_nm)
     updateDoors(state);
-  if (shown || last->selected != state.selected) updateSelection(state);
+  if (shown || last->selected != state.selected ||
+      (last->colour == ColourMode::model) != (state.colour == ColourMode::model))
+    updateSelection(state);
   if (last == nullptr || last->collision != state.collision || last->walkable != state.walkable ||
       last->shapes != state.shapes)
     updateCollision(state);
@@ -106,7 +108,9 @@ void SceneLayers::updateSelection(const ViewState& state) {
   selected_.hide();
   outline_.hide();
   if (!state.environment || !state.selected || state.selected->empty()) return;
-  selected_.show(mergeProducts(*state.environment, *state.selected, {64, 144, 247, 110}));
+  // Where the colours are what is looked at, the outline says enough.
+  if (state.colour == ColourMode::model)
+    selected_.show(mergeProducts(*state.environment, *state.selected, {64, 144, 247, 110}));
   outline_.show(edge_cache_.edges(state, state.selected.get()));
 }
 

@@ -406,3 +406,13 @@ std::string durationText(double seconds) {
 ImU32 packed(const std::array<std::uint8_t, 4>& c) { return IM_COL32(c[0], c[1], c[2], c[3]); }
 
 }  // namespace standpoint
+std::string fittingText(const std::string& text, float width) {
+  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
+  std::string cut = text;
+  while (!cut.empty() && ImGui::CalcTextSize((cut + "…").c_str()).x > width) {
+    while (!cut.empty() && (static_cast<unsigned char>(cut.back()) & 0xC0) == 0x80) cut.pop_back();  // of one letter
+    if (!cut.empty()) cut.pop_back();
+  }
+  return cut + "…";
+}
+

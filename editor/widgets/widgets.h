@@ -101,6 +101,8 @@ std::string fittingLabel(const char* icon, const char* text, const char* id, flo
 void fitted(const Text& text, float width);
 
 }  // namespace ui
+// The text, or as much of it before … as fits: for labels of buttons.
+std::string fittingText(const std::string& text, float width);
 
 std::string metres(double value, int decimals = 3);  // "1.250 m"
 std::string coordinates(const Eigen::Vector3d& v);   // "1.250  2.000  0.000"

@@ -607,6 +607,40 @@ TEST_F(Gui, ShowsTheMaterialsThatSomebodyHasAssigned) {
   EXPECT_EQ(editor.view.colour, ColourMode::reflectance) << "it shows them already";
 }
 
+TEST_F(Gui, AssignsTheChosenMaterialToWhatWasSelectedBeforeTheList) {
+  open();
+  ASSERT_TRUE(editor.session.start("materials", nlohmann::json::object()));
+  gui.settle();
+  editor.workspace = Workspace::materials;
+  gui.frames(3);
+  ASSERT_NE(gui.find("###assign-selected"), nullptr);
+  EXPECT_TRUE(gui.find("###assign-selected")->disabled) << "nothing is chosen";
+  const auto wall = productNamed(*editor.environment(), "Wall east OG");
+  editor.select(wall, true);
+  gui.frames(2);
+  const auto materialOf = [&] {
+    const auto& result = editor.session.document().materials->result;
+    for (const auto& use : result.report.uses)
+      if (std::find(use.products.begin(), use.products.end(), wall) != use.products.end()) return use.material;
+    return std::string("none");
+  };
+  const auto before = materialOf();
+  const auto& uses = editor.session.document().materials->result.report.uses;
+  const auto other = std::find_if(uses.begin(), uses.end(),
+                                  [&](const MaterialUse& u) { return !u.material.empty() && u.material != before; });
+  ASSERT_NE(other, uses.end());
+  const auto wanted = other->material;
+  editor.material = {wanted};
+  gui.frames(2);
+  EXPECT_FALSE(gui.find("###assign-selected")->disabled);
+  EXPECT_TRUE(gui.says("Assign to Wall east OG"));
+  ASSERT_TRUE(gui.click("###assign-selected"));
+  gui.settle();
+  EXPECT_EQ(materialOf(), wanted);
+  EXPECT_EQ(editor.selection.products(), std::vector<std::uint32_t>{wall});
+  EXPECT_EQ(editor.view.colour, ColourMode::material) << "so that it is seen";
+}
+
 TEST_F(Gui, NamesTheTaskOfAnExportShortly) {
   open();
   const TemporaryFolder folder;
