@@ -69,6 +69,7 @@ GuideStep optimiseStep(const Model& model) {
     step.status = trf("{} triangles, no budget", groupedDigits(triangles));
   } else {
     step.status = "The model is already light";
+    step.advice = "";
   }
   return step;
 }
@@ -136,6 +137,7 @@ GuideStep inspectStep(const Model& model) {
   step.state = good ? State::done : State::attention;
   step.status = verdictText(*answer);
   step.advice = good ? "" : "Look at the worst places";
+  step.command = good ? "" : "worst-place";
   return step;
 }
 

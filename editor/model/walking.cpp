@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <iterator>
 #include <numbers>
 #include <utility>
@@ -23,7 +24,7 @@ constexpr double kReach_m = 30;      // of whoever walks; from outside one point
 constexpr double kStoreySill = 0.4;  // m under a storey's level that still belong to it
 constexpr double kBodyMiddle_m = 0.9;
 constexpr double kHighestStorey_m = 6;  // of the uppermost one
-constexpr double kLookDown_rad = 0.25, kNearest_m = 0.6, kFarthest_m = 3.5, kBeforeWall_m = 0.2;
+constexpr double kLookDown_rad = 0.25, kNearest_m = 0.6, kFarthest_m = 3.5, kBeforeWall_m = 0.2, kOffSurface_m = 0.02;
 
 ViewHistory::View viewNow(const Model& model) {
   return {model.view.camera, model.walk.active() ? std::optional(model.walk.feet()) : std::nullopt,
@@ -58,6 +59,25 @@ std::optional<Eigen::Vector3d> lookedAt(const Model& model) {
   const auto ray = rayThrough(model.view.camera, model.view.size / 2, model.view.size);
   const auto hit = model.picker.pick(ray, model.viewState());
   return hit ? std::optional(hit->position) : std::nullopt;
+}
+
+// Turns it about its target to where most of the way back is free, and goes as far back as that allows.
+void backAway(const Model& model, Camera& camera, std::initializer_list<double> elevations_rad) {
+  constexpr int kDirections = 24;
+  const auto state = model.viewState();
+  camera.distance_m = kNearest_m;
+  camera.elevation_rad = *elevations_rad.begin();
+  Camera best = camera;
+  for (const double elevation_rad : elevations_rad)
+    for (int i = 0; i < kDirections; ++i) {
+      Camera tried = camera;
+      tried.elevation_rad = elevation_rad;
+      tried.azimuth_rad = camera.azimuth_rad + 2 * std::numbers::pi * i / kDirections;
+      const auto hit = model.picker.pick({camera.target - kOffSurface_m * tried.forward(), -tried.forward()}, state);
+      tried.distance_m = std::min(hit ? hit->range_m - kBeforeWall_m : kFarthest_m, kFarthest_m);
+      if (tried.distance_m > best.distance_m + 1e-6) best = tried;
+    }
+  camera = best;
 }
 
 }  // namespace
@@ -159,10 +179,16 @@ void showWorstPlace(Model& model, const Eigen::Vector3d& place) {
   around.extend(place - half);
   around.extend(place + half);
   model.bringIntoView(around);
+  const Eigen::Vector3d before = place - kOffSurface_m * camera.forward();
+  if (model.picker.sees(camera.eye(), before, model.viewState())) return;
+  stopWalking(model);
+  stopFlying(model);
+  camera.orthographic = false;
+  camera.view_angle_rad = Walk::kUsualViewAngle_rad;
+  backAway(model, camera, {kLookDown_rad, 0.0, -kLookDown_rad, 2.5 * kLookDown_rad, -2.5 * kLookDown_rad});
 }
 
 void flyTo(Model& model, const Eigen::Vector3d& place) {
-  constexpr int kDirections = 24;
   const Eigen::Vector3d middle = place + Eigen::Vector3d(0, 0, kBodyMiddle_m);
   rememberView(model);
   stopWalking(model);
@@ -172,21 +198,8 @@ void flyTo(Model& model, const Eigen::Vector3d& place) {
   auto& camera = model.view.camera;
   camera.orthographic = false;
   camera.view_angle_rad = Walk::kUsualViewAngle_rad;
-  camera.elevation_rad = kLookDown_rad;
   camera.target = middle;
-  camera.distance_m = kNearest_m;
-  const auto state = model.viewState();
-  double best = camera.azimuth_rad;
-  for (int i = 0; i < kDirections; ++i) {
-    Camera tried = camera;
-    tried.azimuth_rad = 2 * std::numbers::pi * i / kDirections;
-    const auto hit = model.picker.pick({middle, -tried.forward()}, state);
-    const double free = std::min(hit ? hit->range_m - kBeforeWall_m : kFarthest_m, kFarthest_m);
-    if (free <= camera.distance_m + 1e-6) continue;
-    camera.distance_m = free;
-    best = tried.azimuth_rad;
-  }
-  camera.azimuth_rad = best;
+  backAway(model, camera, {kLookDown_rad});
 }
 
 void stopWalking(Model& model) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/panels/quality_panel.h"
+
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -10,15 +12,10 @@
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 #include "editor/words/sentences.h"
-#include "project/survey/assess_verb.h"
 
 namespace standpoint {
 
 namespace {
-
-struct QualityState {
-  QualityProfile profile = QualityProfile::loa30;
-};
 
 struct Sign {
   Tone tone;
@@ -84,9 +81,10 @@ std::string rowText(const AssessRow& row) {
   return text + "\n" + trf("Good {}, bad {} ({})", row.good_text, row.bad_text, trSentence(row.limit_source));
 }
 
-void drawRow(const Model& model, Actions& actions, const AssessRow& row, int index) {
-  ImGui::PushID(index);
+void drawRow(const Model& model, QualityState& state, Actions& actions, const AssessRow& row, std::size_t index) {
+  ImGui::PushID(static_cast<int>(index));
   ImGui::TableNextRow();
+  if (state.shown_row == index) ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg1, ImGui::GetColorU32(ImGuiCol_Header));
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
   drawSign(row.verdict);
@@ -101,7 +99,7 @@ void drawRow(const Model& model, Actions& actions, const AssessRow& row, int ind
   }
   ImGui::TableNextColumn();
   if (row.worst && ui::iconButton(ICON_CROSSHAIRS "###go", placeText(*row.worst).c_str()))
-    goTo(model, actions, *row.worst);
+    goToRow(model, state, actions, index);
   ImGui::PopID();
 }
 
@@ -113,7 +111,7 @@ TableRows tableOf(const std::vector<AssessRow>& rows) {
   return table;
 }
 
-void drawRows(const Model& model, Actions& actions, const std::vector<AssessRow>& rows) {
+void drawRows(const Model& model, QualityState& state, Actions& actions, const std::vector<AssessRow>& rows) {
   ui::heading(model, "Figures");
   ui::copyTable("figures", [&] { return tableOf(rows); });
   if (!ImGui::BeginTable("figures", 5, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
@@ -124,7 +122,7 @@ void drawRows(const Model& model, Actions& actions, const std::vector<AssessRow>
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, model.px(26));
   ImGui::TableHeadersRow();
   for (std::size_t k = 0; k < rows.size(); ++k)
-    if (!rows[k].good_text.empty()) drawRow(model, actions, rows[k], static_cast<int>(k));
+    if (!rows[k].good_text.empty()) drawRow(model, state, actions, rows[k], k);
   ImGui::EndTable();
 }
 
@@ -164,7 +162,7 @@ void draw(const Model& model, QualityState& state, Actions& actions) {
   }
   drawProfile(state);
   if (ui::primaryButton(ICON_CHECK_CIRCLE "  Assess scans###assess", whyNotAssess(model), {-FLT_MIN, model.px(28)}))
-    actions.start(AssessOptions{.profile = state.profile}, "Assess the scans");
+    if (actions.start(AssessOptions{.profile = state.profile}, "Assess the scans")) state.shown_row.reset();
   const auto* last = model.session.lastOf("assess");
   const auto* answer = last == nullptr ? nullptr : answerAs<AssessAnswer>(last->answer);
   if (answer == nullptr) {
@@ -175,11 +173,25 @@ void draw(const Model& model, QualityState& state, Actions& actions) {
   drawVerdict(*answer);
   drawSave(*answer, actions);
   drawRemedies(*answer);
-  drawRows(model, actions, answer->rows);
+  drawRows(model, state, actions, answer->rows);
   if (!answer->patches.empty()) actions.button("holes-plan", "Show uncovered areas on the plan", -FLT_MIN);
 }
 
 }  // namespace
+
+std::optional<std::size_t> worstRow(const std::vector<AssessRow>& rows) {
+  for (const auto verdict : {Verdict::bad, Verdict::warn})
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (rows[k].verdict == verdict && rows[k].worst) return k;
+  return std::nullopt;
+}
+
+void goToRow(const Model& model, QualityState& state, Actions& actions, std::size_t row) {
+  const auto* answer = model.session.lastAnswer<AssessAnswer>("assess");
+  if (answer == nullptr || row >= answer->rows.size() || !answer->rows[row].worst) return;
+  state.shown_row = row;
+  goTo(model, actions, *answer->rows[row].worst);
+}
 
 void drawQualityPanel(const Model& model, PanelStates& states, Actions& actions) {
   draw(model, states.of<QualityState>(), actions);

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "editor/panels/quality_panel.h"
 #include "editor/shell/editor.h"
+#include "editor/shell/panel_actions.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keyboard.h"
 
@@ -66,6 +68,18 @@ void pickWall(Editor& e) {
   e.wanted_tab[1] = "wall";
 }
 
+std::string whyNoWorstPlace(const Editor& e) {
+  const auto* answer = e.session.lastAnswer<AssessAnswer>("assess");
+  if (answer == nullptr) return "Assess the survey first";
+  return worstRow(answer->rows) ? "" : "No figure is outside its limit";
+}
+
+void goToWorstPlace(Editor& e) {
+  const auto& rows = e.session.lastAnswer<AssessAnswer>("assess")->rows;
+  PanelActions actions(e);
+  goToRow(e, e.panels.of<QualityState>(), actions, *worstRow(rows));
+}
+
 std::string whyNoClip(const Editor& e) { return e.view.clip.box ? "" : "Nothing is clipped"; }
 
 // Through the middle of what is looked at.
@@ -112,6 +126,7 @@ const std::array kInspectActions = {
            [](Editor& e) { e.view.measurements = !e.view.measurements; },
            nullptr,
            [](const Editor& e) { return e.view.measurements; }},
+    Action{"worst-place", "Go to the worst place", ICON_CROSSHAIRS, {}, goToWorstPlace, whyNoWorstPlace},
     Action{"pick-wall", "Measure a wall: plane, noise, roughness", ICON_CROSSHAIRS, {'N'}, pickWall, whyWallNot},
     Action{"points-by-natural",
            "Colour points by RGB and intensity",

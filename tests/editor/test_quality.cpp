@@ -5,10 +5,10 @@
 
 #include "demo_verbs.h"
 #include "editor/model/walking.h"
+#include "editor/panels/quality_panel.h"
 #include "editor/shell/actions.h"
 #include "editor/widgets/keyboard.h"
 #include "item_probe.h"
-#include "project/survey/assess_verb.h"
 #include "tests/temporary_folder.h"
 
 namespace standpoint {
@@ -88,6 +88,41 @@ TEST_F(QualityPanel, MarksTheWorstPlaceAndShowsItInSpaceEvenFromAPlan) {
   gui.key(kKeyEscape);
   gui.frames(2);
   EXPECT_FALSE(gui.says("Worst place")) << "Esc takes the mark away";
+}
+
+TEST_F(QualityPanel, IsOpenedByTheGuideAtItsWorstRowAndFliesThere) {
+  ASSERT_NO_FATAL_FAILURE(scan());
+  ASSERT_TRUE(gui.click("###assess"));
+  gui.settle();
+  ASSERT_NE(answer(), nullptr);
+  const auto row = worstRow(answer()->rows);
+  ASSERT_TRUE(row) << "S1 alone cannot see all of the house";
+  editor.workspace = Workspace::environment;
+  editor.view.worst_place.reset();
+  gui.frames(3);
+  const auto& step = editor.guide.of(editor)[static_cast<std::size_t>(Workspace::inspect)];
+  ASSERT_STREQ(step.command, "worst-place");
+  invoke(editor, step.command);
+  gui.frames(2);
+  EXPECT_EQ(editor.panels.of<QualityState>().shown_row, row);
+  ASSERT_TRUE(editor.view.worst_place);
+  EXPECT_LT((*editor.view.worst_place - (*answer()->rows[*row].worst->at - editor.shift_m())).norm(), 1e-6);
+  EXPECT_TRUE(editor.picker.sees(editor.view.camera.eye(),
+                                 *editor.view.worst_place - 0.05 * editor.view.camera.forward(), editor.viewState()))
+      << "no wall hides it";
+}
+
+TEST_F(QualityPanel, TakesABadRowBeforeOneToCheckAndNoneWithoutAPlace) {
+  const AssessPlace place{Eigen::Vector3d(1, 2, 3), {}, {}};
+  const auto row = [&](Verdict verdict, bool placed) {
+    AssessRow r;
+    r.verdict = verdict;
+    if (placed) r.worst = place;
+    return r;
+  };
+  EXPECT_EQ(worstRow({row(Verdict::good, true), row(Verdict::warn, true), row(Verdict::bad, true)}), 2U);
+  EXPECT_EQ(worstRow({row(Verdict::warn, true), row(Verdict::bad, false)}), 0U);
+  EXPECT_EQ(worstRow({row(Verdict::good, true), row(Verdict::unknown, true)}), std::nullopt);
 }
 
 // It takes minutes; what changes nothing that it judges leaves it as it is.
