@@ -241,7 +241,7 @@ bool numberField(const char* id, double& value, const NumberFormat& format, cons
   if (draft != nullptr && !draft->problem.empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, tone::kBad);
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width + buttons);
-    ImGui::TextUnformatted(trSentence(draft->problem).c_str());
+    ImGui::TextUnformatted(wholeNumbers(trSentence(draft->problem), width + buttons).c_str());
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
   }

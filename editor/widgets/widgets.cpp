@@ -6,6 +6,7 @@
 #include <cstring>
 #include <iterator>
 #include <sstream>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <imgui_internal.h>
@@ -124,14 +125,15 @@ bool hasRested(ImVec2 place) {
   return rested.shown;
 }
 
-// Where the tooltip covers no other control: beside the panel that the item is in, where that is narrow; else below
-// the item, or above it.
+// Where the tooltip covers no other control: beside the panel or dialog that the item is in, where that is narrow; else
+// below the item, or above it.
 void placeTooltip(ImVec2 size) {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax(), screen = ImGui::GetIO().DisplaySize;
   const auto* panel = ImGui::GetCurrentWindow()->RootWindow;
   const float gap = ImGui::GetFontSize() * 0.4F, left = panel->Pos.x, right = panel->Pos.x + panel->Size.x;
   ImVec2 at{low.x, high.y + gap};
-  if (panel->Size.x < screen.x * 0.36F && panel->Size.y > 4 * (high.y - low.y))
+  const bool modal = (panel->Flags & ImGuiWindowFlags_Modal) != 0;
+  if (panel->Size.x < screen.x * (modal ? 0.48F : 0.36F) && panel->Size.y > 4 * (high.y - low.y))
     at = {screen.x - right >= size.x + gap ? right + gap : left - gap - size.x, low.y};
   else if (at.y + size.y > screen.y)
     at.y = low.y - gap - size.y;
@@ -146,18 +148,70 @@ double tooltipDue_s() {
   return std::max(0.0, rested.since_s + kTooltipWaits_s - ImGui::GetTime());
 }
 
+namespace {
+
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+bool isSpace(char c) { return c == ' ' || c == '\n'; }
+
+// What follows a number as its unit: "m", "m²", "°", "%", "GB".
+bool isUnit(std::string_view word) {
+  static constexpr std::string_view kUnits[] = {"m",  "mm",  "cm", "km", "m²", "m³",  "mm²",  "nm", "px",  "%",
+                                                "°",  "gon", "s",  "ms", "h",  "min", "mrad", "Hz", "kHz", "kB",
+                                                "MB", "GB",  "TB", "м",  "мм", "см",  "с",    "хв", "МБ",  "ГБ"};
+  const auto end = word.find_last_not_of(".,;:!?)");
+  return std::find(std::begin(kUnits), std::end(kUnits), word.substr(0, end + 1)) != std::end(kUnits);
+}
+
+std::size_t beginOfWord(std::string_view text, std::size_t at) {
+  while (at > 0 && !isSpace(text[at - 1])) --at;
+  return at;
+}
+
+// Where the number with its unit begins that a break at `at` would part; `at` where it parts none.
+std::size_t beginOfNumber(std::string_view text, std::size_t at) {
+  const auto begin = beginOfWord(text, at);
+  if (begin < at) {
+    const auto before = text.substr(begin, at - begin);
+    return isDigit(text[at]) && std::any_of(before.begin(), before.end(), isDigit) ? begin : at;
+  }
+  const auto unit = text.substr(at, std::min(text.find_first_of(" \n", at), text.size()) - at);
+  if (at < 2 || text[at - 1] != ' ' || !isDigit(text[at - 2]) || !isUnit(unit)) return at;
+  return beginOfWord(text, at - 1);
+}
+
+}  // namespace
+
+std::string wholeNumbers(const std::string& text, float width) {
+  const ImFont& font = *ImGui::GetFont();
+  const float scale = ImGui::GetFontSize() / font.FontSize;
+  std::string whole = text;
+  for (std::size_t line = 0; line < whole.size();) {
+    const char* const all = whole.data();
+    auto at = static_cast<std::size_t>(font.CalcWordWrapPositionA(scale, all + line, all + whole.size(), width) - all);
+    while (at < whole.size() && whole[at] == ' ') ++at;  // blanks end the line before
+    if (at <= line || at >= whole.size()) break;
+    if (const auto number = beginOfNumber(whole, at); number < at && number > line) {
+      whole[number - 1] = '\n';
+      at = number;
+    }
+    line = at;
+  }
+  return whole;
+}
+
 void tooltip(const Text& text) {
   if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   const bool another = ImGui::GetFrameCount() == rested.frame;  // of a row and of a text in it: one below the other
   if (another ? !rested.shown : !hasRested(ImGui::GetItemRectMin())) return;
   const float wrap = ImGui::GetFontSize() * 26;
   const ImVec2 padding = ImGui::GetStyle().WindowPadding;
-  const ImVec2 words = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+  const std::string said = wholeNumbers(text, wrap);
+  const ImVec2 words = ImGui::CalcTextSize(said.c_str(), nullptr, false, wrap);
   if (!another) placeTooltip({words.x + 2 * padding.x, words.y + 2 * padding.y});
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1.0F);  // also inside a disabled block
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(wrap + padding.x);
-  ImGui::TextUnformatted(text.c_str());
+  ImGui::TextUnformatted(said.c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
   ImGui::PopStyleVar();
@@ -229,9 +283,15 @@ void copyTable(const char* id, const std::function<TableRows()>& table) {
 
 void dimText(const Text& text) { ImGui::TextDisabled("%s", text.c_str()); }
 
+namespace {
+
+float wrapWidth() { return ImGui::CalcWrapWidthForPos(ImGui::GetCursorScreenPos(), 0); }
+
+}  // namespace
+
 void wrapped(const Text& text) {
   ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(text.c_str());
+  ImGui::TextUnformatted(wholeNumbers(text, wrapWidth()).c_str());
   ImGui::PopTextWrapPos();
 }
 
@@ -314,7 +374,7 @@ void property(const Text& label, const Text& value) {
   ImGui::PopStyleColor();
   ImGui::TableNextColumn();
   ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(value.empty() ? "–" : value.c_str());
+  ImGui::TextUnformatted(value.empty() ? "–" : wholeNumbers(value, wrapWidth()).c_str());
   ImGui::PopTextWrapPos();
   if (!value.empty() && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0))
     ImGui::SetClipboardText(value.c_str());
@@ -378,6 +438,16 @@ std::string fittingLabel(const char* icon, const char* text, const char* id, flo
          "###" + id;
 }
 
+std::string fittingText(const std::string& text, float width) {
+  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
+  std::string cut = text;
+  while (!cut.empty() && ImGui::CalcTextSize((cut + "…").c_str()).x > width) {
+    while (!cut.empty() && (static_cast<unsigned char>(cut.back()) & 0xC0) == 0x80) cut.pop_back();  // of one letter
+    if (!cut.empty()) cut.pop_back();
+  }
+  return cut + "…";
+}
+
 void fitted(const Text& text, float width) {
   if (ImGui::CalcTextSize(text.c_str()).x <= width) {
     ImGui::TextUnformatted(text.c_str());
@@ -406,13 +476,3 @@ std::string durationText(double seconds) {
 ImU32 packed(const std::array<std::uint8_t, 4>& c) { return IM_COL32(c[0], c[1], c[2], c[3]); }
 
 }  // namespace standpoint
-std::string fittingText(const std::string& text, float width) {
-  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
-  std::string cut = text;
-  while (!cut.empty() && ImGui::CalcTextSize((cut + "…").c_str()).x > width) {
-    while (!cut.empty() && (static_cast<unsigned char>(cut.back()) & 0xC0) == 0x80) cut.pop_back();  // of one letter
-    if (!cut.empty()) cut.pop_back();
-  }
-  return cut + "…";
-}
-

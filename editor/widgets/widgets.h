@@ -69,6 +69,10 @@ void listEach(const char* list, bool& each);
 void tooltip(const Text& text);
 double tooltipDue_s();  // until one is to be shown; less than 0: none waits
 
+// The text with a line break wherever Dear ImGui, wrapping it to this width, would part a number in itself ("0." and
+// "08") or from its unit.
+std::string wholeNumbers(const std::string& text, float width);
+
 void heading(const Style& style, const char* text);
 // A part that can be folded, and is; its head is as wide as the column. `label` may have an id.
 bool foldedSection(const std::string& label);
@@ -97,12 +101,12 @@ void textRightAligned(const Text& text);
 float shareOfRow(int count);
 // The label of a button of this width: icon and text, or only what of them fits.
 std::string fittingLabel(const char* icon, const char* text, const char* id, float width);
+// The text, or as much of it before … as fits: for labels of buttons.
+std::string fittingText(const std::string& text, float width);
 // Cuts the text with … to what fits; the tooltip then has all of it.
 void fitted(const Text& text, float width);
 
 }  // namespace ui
-// The text, or as much of it before … as fits: for labels of buttons.
-std::string fittingText(const std::string& text, float width);
 
 std::string metres(double value, int decimals = 3);  // "1.250 m"
 std::string coordinates(const Eigen::Vector3d& v);   // "1.250  2.000  0.000"
