@@ -11,6 +11,7 @@ namespace standpoint {
 struct Editor;
 
 void openPalette(Editor& editor);
+void openPaletteOfRooms(Editor& editor);  // and storeys
 void askForProject(Editor& editor);
 void askForModel(Editor& editor);
 void askForChangedModel(Editor& editor);

@@ -3,6 +3,7 @@
 #include <array>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -207,9 +208,19 @@ void drawEntry(Editor& editor, const Entry& entry, bool chosen, bool& done) {
   entry.run();
 }
 
+// A field that has just got the keyboard has all of its text selected, which the first letter would replace.
+int typeAtEnd(ImGuiInputTextCallbackData* data) {
+  if (!std::exchange(*static_cast<bool*>(data->UserData), false)) return 0;
+  data->ClearSelection();
+  data->CursorPos = data->BufTextLen;
+  return 0;
+}
+
 }  // namespace
 
 void openPalette(Editor& editor) { editor.dialogs.palette = {.open = true}; }
+
+void openPaletteOfRooms(Editor& editor) { editor.dialogs.palette = {.open = true, .query = "@", .at_end = true}; }
 
 void drawPalette(Editor& editor) {
   auto& state = editor.dialogs.palette;
@@ -227,7 +238,7 @@ void drawPalette(Editor& editor) {
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (ImGui::InputTextWithHint("###query",
                                tr("Search; only @ rooms and storeys, # stations, * bookmarks, / products").c_str(),
-                               &state.query))
+                               &state.query, ImGuiInputTextFlags_CallbackAlways, typeAtEnd, &state.at_end))
     state.chosen = 0;
   const bool enter = keyboard::pressed(kKeyEnter);
   const auto shown = matching(editor, state.query);

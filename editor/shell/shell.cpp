@@ -119,7 +119,7 @@ void viewMenu(Editor& editor) {
                  "shapes", "holes", "labels"});
   submenu(editor, "", "Points###menu-points", {"points-larger", "points-smaller", "shaded-points"});
   submenu(editor, "", "More labels###menu-labels", {"room-names", "labels-through-walls"});
-  items(editor, {"", "walk", "teleport", "look-from-station"});
+  items(editor, {"", "walk", "teleport", "go-to", "look-from-station"});
   submenu(editor, "", "More moves###menu-moves",
           {"fly", "door", "record-walk", "scan-walk", "step-out-of-sight", "return-to-instrument", "add-bookmark"});
   ImGui::Separator();

@@ -12,7 +12,6 @@
 #define ICON_CHEVRON_RIGHT "\xef\x84\x85"
 #define ICON_CIRCLE "\xef\x84\x91"
 #define ICON_CLOSE "\xef\x80\x8d"
-#define ICON_COMMAND "\xef\x84\xa0"
 #define ICON_COMPRESS "\xef\x81\xa6"
 #define ICON_COPY "\xef\x83\x85"
 #define ICON_CROSSHAIRS "\xef\x81\x9b"

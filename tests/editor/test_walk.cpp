@@ -354,6 +354,18 @@ TEST_F(Walking, GoesToABookmarkInTheListAndRenamesItByF2) {
   gui.frames(3);
   const auto kept = editor.view.camera;
   look(editor.view.camera, StandardView::top);
+TEST_F(Walking, JumpsToARoomByTheMenuWithoutASign) {
+  ASSERT_TRUE(invoke(editor, "go-to"));
+  gui.frames(4);
+  EXPECT_TRUE(gui.says("Living room"));
+  gui.type("liv");
+  EXPECT_EQ(editor.dialogs.palette.query, "@liv") << "what is typed goes on behind the sign";
+  gui.key(kKeyEnter);
+  editor.walk_ground.wait();
+  gui.frames(3);
+  EXPECT_EQ(walkPlaceName(editor), "Living room · Ground floor");
+}
+
   gui.frames(2);
   ASSERT_TRUE(gui.click("###bookmark"));
   gui.frames(2);
