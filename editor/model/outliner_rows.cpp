@@ -8,6 +8,7 @@
 
 #include "core/readable_name.h"
 #include "editor/labels/alphabetical.h"
+#include "editor/words/words.h"
 
 namespace standpoint {
 
@@ -45,6 +46,26 @@ std::string readableClass(const std::string& ifc_class) {
     result += i > 0 ? static_cast<char>(std::tolower(static_cast<unsigned char>(bare[i]))) : bare[i];
   }
   return result;
+}
+
+std::string withReadableClasses(const std::string& text) {
+  constexpr std::string_view kPrefix = "Ifc";
+  const auto isLetter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  std::string readable;
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t end = at;
+    const bool begins = at == 0 || !isLetter(text[at - 1]);
+    if (begins && text.compare(at, kPrefix.size(), kPrefix) == 0)
+      while (end < text.size() && isLetter(text[end])) ++end;
+    const bool named = end > at + kPrefix.size() && end + 1 < text.size() && text[end] == ' ' &&
+                       (text[end + 1] == '\'' || text[end + 1] == '#' || text.compare(end + 1, 3, "„") == 0);
+    if (named)
+      readable += tr(readableClass(text.substr(at, end - at)));
+    else
+      readable += text[at], end = at + 1;
+    at = end;
+  }
+  return readable;
 }
 
 std::string productLabel(const Product& product) {

@@ -65,6 +65,9 @@ class Outliner {
 std::string readableClass(const std::string& ifc_class);
 // Name, else what can be said instead.
 std::string productLabel(const Product& product);
+// "IfcSlab 'Roof' and IfcWall #12 touch" → "Slab 'Roof' and Wall #12 touch", in the language that is spoken: what the
+// command line says of products, as the editor calls them. Only before a name or an id.
+std::string withReadableClasses(const std::string& text);
 // Case-insensitive: every word of the filter is in the name, long name, class, id, GlobalId or a material.
 bool matchesFilter(const Product& product, const std::string& filter);
 

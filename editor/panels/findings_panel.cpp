@@ -58,7 +58,7 @@ void drawList(const Model& model, FindingsState& state, Actions& actions,
       ImGui::SameLine();
       const auto area = fmt::format("{:.1f} m²", finding.area_m2);
       const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(area.c_str()).x - model.px(14);
-      ui::fitted(shownSentence(finding.message), room);
+      ui::fitted(withReadableClasses(shownSentence(finding.message)), room);
       ImGui::SameLine();
       ui::textRightAligned(area);
       ImGui::PopID();
@@ -97,9 +97,9 @@ void drawAcceptance(const Model& model, FindingsState& state, Actions& actions, 
 }
 
 void drawFinding(const Model& model, FindingsState& state, Actions& actions, const MaterialFinding& finding) {
-  ui::wrapped(shownSentence(finding.message));
+  ui::wrapped(withReadableClasses(shownSentence(finding.message)));
   ImGui::PushStyleColor(ImGuiCol_Text, tone::kDim);
-  ui::wrapped(shownSentence(finding.why));
+  ui::wrapped(withReadableClasses(shownSentence(finding.why)));
   ImGui::PopStyleColor();
   if (ui::iconButton(ICON_CROSSHAIRS "  Isolate###look", "Hides everything else and frames the products",
                      finding.products.empty() ? "This finding has no products" : ""))

@@ -264,9 +264,13 @@ void drawImportPreview(const Model& model, ImportPreviewState& state, Actions& a
     ImGui::EndDisabled();
     const float row = ImGui::GetTextLineHeightWithSpacing();
     const float free = ImGui::GetContentRegionAvail().y - 4 * row - model.px(24);
-    const float fraction = preview.outcome()->report.issues.empty() ? 1 : 0.5F;  // of the room that the two lists have
+    // The classes have what the issues leave, and at least half of the room that the two lists have.
+    const auto& issues = preview.issues();
+    const auto listed =
+        std::count_if(issues.begin(), issues.end(), [&](const LogEntry& issue) { return passes(issue, state.filter); });
+    const float most = issues.empty() ? free : std::max(free / 2, free - row * (static_cast<float>(listed) + 1));
     const float classes = std::clamp(row * (static_cast<float>(preview.facts().classes.size()) + 0.5F), row,
-                                     std::max(row, free * fraction - 2 * row));
+                                     std::max(row, most - 2 * row));
     drawClasses(model, classes);
     drawIssues(model, state, actions);
   }

@@ -29,7 +29,7 @@ void finish(Editor& editor) {
   measuring.problem.clear();
   if (const auto fits = checkMeasurement({name, measuring.kind, measuring.points, {}}); !fits)
     measuring.problem = trSentence(fits.error().message);
-  else if (!editor.session.start(options, trf("Measure {} {}", rowOf(measuring.kind).name, name)))
+  else if (!editor.session.start(options, trf("Measure {} {}", tr(rowOf(measuring.kind).name), name)))
     measuring.problem = editor.session.whyNot("measure");
   if (!measuring.problem.empty()) editor.say(measuring.problem);
   measuring.points.clear();

@@ -49,7 +49,7 @@ std::string PanelActions::refused(const std::string& title) {
   auto& errors = editor_.session.errors();
   const auto found = std::find_if(errors.begin(), errors.end(), [&](const auto& e) { return e.title == title; });
   if (found == errors.end()) return {};
-  std::string why = trSentence(found->error.message);
+  std::string why = withReadableClasses(trSentence(found->error.message));
   errors.erase(found);
   return why;
 }

@@ -263,26 +263,33 @@ void drawToolbar(Editor& editor, const Box& box) {
   ImGui::End();
 }
 
-// What tabs show, by the room there is: all of it, no icons, or the title of the chosen one alone.
-enum class TabLabels { whole, titles, chosen_title };
+// What tabs show, by the room there is: all of it, no icons, these closely side by side, or the title of the chosen one
+// alone.
+enum class TabLabels { whole, titles, close_titles, chosen_title };
+constexpr float kClosePadding_pt = 3;
 
 TabLabels tabLabels(const Editor& editor, Area area) {
-  float titles = 0, icons = 0;
+  const float spared = 2 * (ImGui::GetStyle().FramePadding.x - editor.px(kClosePadding_pt));
+  float titles = 0, icons = 0, close = 0;
   for (const auto& panel : panels())
     if (panel.area[static_cast<std::size_t>(editor.workspace)] == area) {
       titles += ImGui::CalcTextSize(tr(panel.title).c_str()).x + 2 * ImGui::GetStyle().FramePadding.x +
                 ImGui::GetStyle().ItemInnerSpacing.x;
       icons += editor.px(26);
+      close += spared;
     }
   const float room = ImGui::GetContentRegionAvail().x;
-  return titles + icons <= room ? TabLabels::whole : titles <= room ? TabLabels::titles : TabLabels::chosen_title;
+  return titles + icons <= room   ? TabLabels::whole
+         : titles <= room         ? TabLabels::titles
+         : titles - close <= room ? TabLabels::close_titles
+                                  : TabLabels::chosen_title;
 }
 
 std::string tabLabel(const Panel& panel, TabLabels labels) {
   const std::string id = std::string("###") + panel.id, title = tr(panel.title);
   const bool chosen = ImGui::GetCurrentContext()->CurrentTabBar->SelectedTabId == ImGui::GetID(id.c_str());
   if (labels == TabLabels::whole) return std::string(panel.icon) + "  " + title + id;
-  return (labels == TabLabels::titles || chosen ? title : panel.icon) + id;
+  return (labels != TabLabels::chosen_title || chosen ? title : panel.icon) + id;
 }
 
 void drawPanelTabs(Editor& editor, Area area, const char* id) {
@@ -295,7 +302,11 @@ void drawPanelTabs(Editor& editor, Area area, const char* id) {
     for (const auto& panel : panels()) {
       if (panel.area[workspace] != area) continue;
       const auto flags = wanted == panel.id ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
+      const ImVec2 padding = ImGui::GetStyle().FramePadding;
+      ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
+                          {labels == TabLabels::close_titles ? editor.px(kClosePadding_pt) : padding.x, padding.y});
       const bool open = ImGui::BeginTabItem(tabLabel(panel, labels).c_str(), nullptr, flags);
+      ImGui::PopStyleVar();
       if (labels == TabLabels::chosen_title) ui::tooltip(panel.title);
       if (!open) continue;
       editor.front_tab[static_cast<std::size_t>(area)] = panel.id;

@@ -120,6 +120,9 @@ TEST(Outliner, HasOneRowForARoomWithItsNumberAndName) {
 TEST(Outliner, ReadsClassNamesAloud) {
   EXPECT_EQ(readableClass("IfcWallStandardCase"), "Wall standard case");
   EXPECT_EQ(readableClass(""), "Object");
+  EXPECT_EQ(withReadableClasses("IfcSlab 'Dach-1' touches IfcWallStandardCase #12, class IfcDoor"),
+            "Slab 'Dach-1' touches Wall standard case #12, class IfcDoor");
+  EXPECT_EQ(withReadableClasses("Ifc 'x' MyIfcSlab 'y' IfcSlab"), "Ifc 'x' MyIfcSlab 'y' IfcSlab");
 }
 
 TEST(Selection, KeepsItsOrderAndItsLastChoice) {

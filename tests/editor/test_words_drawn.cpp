@@ -284,6 +284,30 @@ TEST_F(DrawnWords, HaveALetterInTheAtlasForEachOfTheDevicesLanguages) {
   }
 }
 
+TEST_F(DrawnWords, OfTabsAreAllThereAt1280By800InAnyLanguage) {
+  speakThrough(nullptr);
+  open();
+  editor.fonts = buildFonts(1);
+  unsigned char* pixels = nullptr;
+  int w = 0, h = 0;
+  ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&pixels, &w, &h);
+  for (const auto& language : languages()) {
+    speak(language.code);
+    for (int workspace = 0; workspace < kWorkspaces; ++workspace) {
+      editor.workspace = static_cast<Workspace>(workspace);
+      gui.frames(3);
+      for (const auto& panel : panels()) {
+        if (panel.area[static_cast<std::size_t>(workspace)] == Area::none) continue;
+        const auto title = tr(panel.title) + "###" + panel.id;
+        EXPECT_TRUE(std::any_of(itemProbe().items.begin(), itemProbe().items.end(),
+                                [&](const GuiItem& item) { return item.label.ends_with(title); }))
+            << language.code << " " << workspace << " " << title;
+      }
+    }
+  }
+  speak("en");
+}
+
 // What a German or Ukrainian reads may be longer, but ends where it is to be read.
 TEST_F(DrawnWords, AreNotCutInBarsAndChipsAt1280By800InAnyLanguage) {
   speakThrough(nullptr);
