@@ -580,7 +580,7 @@ class VtkSceneView : public SceneView {
   vtkNew<vtkRenderStepsPass> steps_;
   SceneLayers layers_{renderer_};
   PointLayers points_;
-  std::shared_ptr<const Environment> any_model_;  // that was drawn to prepare for others
+  std::shared_ptr<const Environment> any_model_;                      // that was drawn to prepare for others
   enum class Parts { all, still, moving } shown_parts_ = Parts::all;  // of the picture that is being drawn
   std::unique_ptr<StillParts> still_;                                 // made when an instrument works
   std::unique_ptr<PointComposer> composer_;                           // made when the first points are drawn
