@@ -117,23 +117,34 @@ void drawFigures(const json& object) {
     if (!value.is_primitive() && !isRow(value)) drawBranch(readableKey(key), value);
 }
 
+// A few lines, all in sight in a small dialog.
+bool isShort(const ShownAnswer& answer) {
+  constexpr std::size_t kFew = 8, kShortText = 300;
+  const auto& figures = answer.figures;
+  const bool flat = figures.is_null() || std::all_of(figures.begin(), figures.end(), [](const json& value) {
+                      return value.is_primitive() || isRow(value) || value.empty();
+                    });
+  return flat && figures.size() <= kFew && answer.text.size() <= kShortText;
+}
+
 }  // namespace
 
 void drawAnswer(Editor& editor) {
   auto& answers = editor.session.answers();
-  if (!ui::beginModal(editor, "Result###answer", !answers.empty(), 680, 520)) return;
+  const bool is_short = !answers.empty() && isShort(answers.front());
+  if (!ui::beginModal(editor, "Result###answer", !answers.empty(), is_short ? 480 : 680, is_short ? 0 : 520)) return;
   const ShownAnswer& shown = answers.front();
   if (editor.fonts.bold != nullptr) ImGui::PushFont(editor.fonts.bold);
   ui::wrapped(trSentence(shown.title));
   if (editor.fonts.bold != nullptr) ImGui::PopFont();
   const float footer = ImGui::GetFrameHeightWithSpacing();
-  ImGui::BeginChild("answer", {0, ImGui::GetContentRegionAvail().y - footer});
+  if (!is_short) ImGui::BeginChild("answer", {0, ImGui::GetContentRegionAvail().y - footer});
   if (!shown.text.empty()) {
     ui::wrapped(linesInWords(shown.text));
     ui::gap(editor, 4);
   }
   if (shown.figures.is_object() && !shown.figures.empty()) drawFigures(shown.figures);
-  ImGui::EndChild();
+  if (!is_short) ImGui::EndChild();
   const bool close = ui::primaryButton("Close###close-answer", {}, {editor.px(110), 0}) || ui::modalCancelled();
   ImGui::SameLine();
   if (ui::button("Copy text###copy-answer"))

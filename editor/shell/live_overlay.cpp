@@ -38,10 +38,9 @@ std::string scanningText(const Editor& editor) {
   const auto& recording = editor.recording;
   const LiveFigures& figures = recording.live.figures();
   if (!figures.problem.empty()) return trf("No live points: {}. The walk is recorded.", figures.problem);
-  std::string text =
-      trf("Live preview   {}   {} points, {} shown   {} per second", durationText(recording.record.seconds()),
-          groupedDigits(figures.points), groupedDigits(figures.shown),
-          groupedDigits(1000 * static_cast<std::uint64_t>(figures.points_per_s / 1000 + 0.5)));
+  std::string text = trf("Live preview   {}   {} points   {} per second", durationText(recording.record.seconds()),
+                         groupedDigits(figures.points),
+                         groupedDigits(1000 * static_cast<std::uint64_t>(figures.points_per_s / 1000 + 0.5)));
   if (figures.one_pulse_in > 1) text += "   " + trf("1 pulse in {}", figures.one_pulse_in);
   return text + "   " + paceText(recording.pace);
 }
@@ -53,7 +52,7 @@ std::string readoutText(const Editor& editor) {
   if (recording.record.active()) return paceText(recording.pace);
   if (recording.live.empty()) return {};
   return trf("Live preview, {} points: no noise and no trajectory error in it",
-             groupedDigits(recording.live.figures().shown));
+             groupedDigits(recording.live.figures().points));
 }
 
 // As devices say it: what to do, and by how much.

@@ -182,6 +182,7 @@ const char* movingHint(const Editor& editor) {
     return "W A S D to fly, E up, Q down, Shift faster, U to walk, drag to look around   Esc to leave";
   if (editor.fieldwork.at_screen) return "F to look up   Esc to leave";
   if (editor.view.tool != Tool::walk) return nullptr;
+  if (editor.recording.live.active()) return "W A S D to walk, drag to look   Ctrl+Shift+L to end the scan";
   if (editor.held.carried) return "G to put the instrument down here   W A S D to walk, Shift to run   Esc to leave";
   if (instrumentInReach(editor))
     return "F to look at the instrument's screen, G to carry it, H to step out of its sight, B to put up a sphere   "

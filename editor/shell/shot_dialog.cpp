@@ -12,6 +12,7 @@
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/keyboard.h"
 #include "editor/widgets/modal.h"
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
@@ -222,6 +223,12 @@ void askForFileThenBegin(Editor& editor) {
              [&editor](const std::filesystem::path& chosen) { begin(editor, chosen); });
 }
 
+// In the dialog itself: not in a field, which takes over what was typed, nor in an open list.
+bool enterPressed() {
+  return (keyboard::pressed(kKeyEnter) || keyboard::pressed(kKeyPadEnter)) && !ImGui::GetIO().WantTextInput &&
+         ImGui::IsWindowFocused(ImGuiFocusedFlags_ChildWindows | ImGuiFocusedFlags_NoPopupHierarchy);
+}
+
 void drawSetup(Editor& editor) {
   auto& dialog = editor.shots;
   drawKinds(dialog);
@@ -230,10 +237,12 @@ void drawSetup(Editor& editor) {
   ui::gap(editor, 4);
   drawMade(editor, dialog);
   ui::gap(editor, 4);
-  if (ui::primaryButton("Save as…###shot-make", whyNot(editor), {editor.px(110), 0})) askForFileThenBegin(editor);
+  const auto why = whyNot(editor);
+  if (ui::primaryButton("Save as…###shot-make", why, {editor.px(110), 0}) || (why.empty() && enterPressed()))
+    askForFileThenBegin(editor);
   ImGui::SameLine();
   if (ImGui::Button(ui::Label("Close###shot-close"), {editor.px(110), 0}) || ui::modalCancelled()) dialog.open = false;
-  if (const auto why = whyNot(editor); !why.empty()) {
+  if (!why.empty()) {
     ImGui::SameLine();
     ImGui::PushStyleColor(ImGuiCol_Text, tone::kWarning);
     ui::fitted(tr(why), ImGui::GetContentRegionAvail().x);

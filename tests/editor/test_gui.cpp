@@ -17,6 +17,7 @@
 #include "editor/shell/dialogs.h"
 #include "editor/shell/shell.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/keyboard.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 #include "editor/words/words.h"
@@ -639,6 +640,44 @@ TEST_F(Gui, AssignsTheChosenMaterialToWhatWasSelectedBeforeTheList) {
   EXPECT_EQ(materialOf(), wanted);
   EXPECT_EQ(editor.selection.products(), std::vector<std::uint32_t>{wall});
   EXPECT_EQ(editor.view.colour, ColourMode::material) << "so that it is seen";
+}
+
+TEST_F(Gui, AShortResultHasASmallDialogAndEnterSavesAPicture) {
+  open();
+  editor.session.answers().push_back({"Exported", "2 files", {{"file", "a.glb"}, {"bytes", 12}}});
+  gui.frames(4);
+  const auto* dialog = gui.find("###close-answer");
+  ASSERT_NE(dialog, nullptr);
+  const auto* window = ImGui::FindWindowByName(dialog->window.c_str());
+  ASSERT_NE(window, nullptr);
+  EXPECT_LT(window->Size.y, 260) << "two lines of result";
+  EXPECT_LT(window->Size.x, 520);
+  ASSERT_TRUE(gui.click("###close-answer"));
+  gui.frames(2);
+  struct Picture : SceneView {
+    std::uint64_t texture(const ViewState&, int, int, bool) override { return 0; }
+    std::uint64_t texture(const std::shared_ptr<const PixelPicture>&) override { return 0; }
+  };
+  ASSERT_TRUE(invoke(editor, "picture"));
+  gui.frames(3);
+  gui.key(kEnter);
+  gui.frames(3);
+  EXPECT_FALSE(editor.dialogs.file.open) << "without OpenGL there is nothing to save";
+  EXPECT_TRUE(gui.says("Nothing draws pictures")) << "it may be cut, and says why in a tooltip";
+  Picture picture;
+  editor.scene = &picture;
+  gui.frames(2);
+  ASSERT_TRUE(gui.click("###shot-size"));
+  gui.key(kEnter);
+  gui.frames(3);
+  EXPECT_FALSE(editor.dialogs.file.open) << "it belongs to the open list";
+  gui.key(kKeyEscape);
+  gui.frames(2);
+  EXPECT_TRUE(editor.shots.open);
+  gui.key(kEnter);
+  gui.frames(3);
+  EXPECT_TRUE(editor.dialogs.file.open) << "it asks where to";
+  editor.scene = nullptr;
 }
 
 TEST_F(Gui, NamesTheTaskOfAnExportShortly) {
