@@ -2,6 +2,8 @@
 #include "editor/panels/survey_inspector.h"
 
 #include <cmath>
+#include <set>
+#include <string>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -27,6 +29,7 @@ namespace {
 
 struct SurveyInspectorState {
   SurveyEdit station, target, underlay;
+  std::set<std::string> free_stations;  // that are held or hang: their places are checked so
 };
 
 const NumberFormat kPlace{.kind = {.unit = "m"}, .decimals = 3};
@@ -57,8 +60,8 @@ void drawRefusal(const Model& model, const Station& station) {
   ui::dimWrapped(refused->reason);
 }
 
-StationOptions movedStation(const Station& station, const SurveyEdit& edit) {
-  StationOptions options{.move = station.name, .at = edit.at, .yaw_deg = edit.heading_deg};
+StationOptions movedStation(const Station& station, const SurveyEdit& edit, StationStand stand) {
+  StationOptions options{.move = station.name, .at = edit.at, .stand = stand, .yaw_deg = edit.heading_deg};
   if (edit.tilt_deg > 0) {
     options.tilt_deg = edit.tilt_deg;
     options.tilt_towards_deg = edit.tilt_towards_deg;
@@ -78,7 +81,26 @@ bool tiltRows(SurveyEdit& edit) {
          changed;
 }
 
-void stationFieldRows(const Model& model, SurveyEdit& edit, Actions& actions, const Station& station) {
+// What refusals advise where no tripod can stand; the place in the fields is then tried again.
+bool standRow(std::set<std::string>& free_stations, const std::string& station) {
+  static constexpr const char* kStands[] = {"Tripod", "Free"};
+  const bool free = free_stations.contains(station);
+  bool changed = false;
+  ui::propertyLabel("Stand");
+  if (ImGui::BeginCombo("###inspected-stand", tr(kStands[static_cast<int>(free)]).c_str())) {
+    for (const bool offered : {false, true})
+      if (ImGui::Selectable(ui::Label(kStands[static_cast<int>(offered)]), offered == free) && offered != free) {
+        changed = true;
+        offered ? void(free_stations.insert(station)) : void(free_stations.erase(station));
+      }
+    ImGui::EndCombo();
+  }
+  ui::tooltip("Free: suspended or handheld. Only its clearance is checked.");
+  return changed;
+}
+
+void stationFieldRows(const Model& model, SurveyInspectorState& state, Actions& actions, const Station& station) {
+  SurveyEdit& edit = state.station;
   if (!ui::beginProperties("station", 0.36F)) return;
   const auto why = model.session.whyNot("station");
   ImGui::BeginDisabled(!why.empty());
@@ -94,9 +116,11 @@ void stationFieldRows(const Model& model, SurveyEdit& edit, Actions& actions, co
     edit.at.z() += edit.height_m - before;
     moved = true;
   }
+  moved = standRow(state.free_stations, station.name) || moved;
   moved = headingRow(edit, "Direction of the instrument's X axis, counter-clockwise from the file's X") || moved;
   moved = tiltRows(edit) || moved;
-  if (moved) startEdit(actions, edit, movedStation(station, edit), trf("Move station {}", station.name));
+  const auto stand = state.free_stations.contains(station.name) ? StationStand::free : StationStand::tripod;
+  if (moved) startEdit(actions, edit, movedStation(station, edit, stand), trf("Move station {}", station.name));
   ImGui::EndDisabled();
   if (station.solved_pose) {
     const Pose& solved = *station.solved_pose;
@@ -108,7 +132,8 @@ void stationFieldRows(const Model& model, SurveyEdit& edit, Actions& actions, co
 }
 
 void drawStation(const Model& model, PanelStates& states, Actions& actions, const Station& station) {
-  SurveyEdit& edit = states.of<SurveyInspectorState>().station;
+  auto& state = states.of<SurveyInspectorState>();
+  SurveyEdit& edit = state.station;
   if (begins(edit, &station, actions)) {
     edit.name = station.name;
     edit.at = station.true_pose.translation + model.shift_m();
@@ -119,7 +144,7 @@ void drawStation(const Model& model, PanelStates& states, Actions& actions, cons
     edit.tilt_towards_deg = edit.tilt_deg > 0 ? tilt.towards_rad / kRadPerDeg : 0;
   }
   ui::heading(model, (trf("Station {}", station.name)).c_str());
-  stationFieldRows(model, edit, actions, station);
+  stationFieldRows(model, state, actions, station);
   drawProblem(edit);
   drawRefusal(model, station);
   const float width = columnWidth(3);

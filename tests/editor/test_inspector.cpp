@@ -51,6 +51,22 @@ TEST_F(Inspector, MovesAStationByATypedNumberAndUndoTakesItBack) {
   EXPECT_EQ(job().stations[0].true_pose.translation, before.true_pose.translation);
 }
 
+TEST_F(Inspector, OffersTheStandThatTheRefusalOfAPlaceByTheFloorAdvises) {
+  editor.survey.station = 0;
+  gui.frames(3);
+  const auto before = job().stations[0].true_pose.translation;
+  typeInto("###inspected-Z", fmt::format("{}-1.3", before.z() + editor.shift_m().z()).c_str());
+  EXPECT_TRUE(gui.says("use the stand 'free'")) << "no tripod is so low";
+  ASSERT_TRUE(gui.click("###inspected-stand"));
+  gui.frames(2);
+  ASSERT_TRUE(gui.click("Free"));
+  gui.settle();
+  EXPECT_NEAR(job().stations[0].true_pose.translation.z(), before.z() - 1.3, 1e-9);
+  EXPECT_FALSE(gui.says("use the stand 'free'"));
+  typeInto("###inspected-X", fmt::format("{}+0.1", before.x() + editor.shift_m().x()).c_str());
+  EXPECT_NEAR(job().stations[0].true_pose.translation.x(), before.x() + 0.1, 1e-9) << "it stays so for the next move";
+}
+
 TEST_F(Inspector, WhatCannotBeReadStaysInTheFieldsOfItsOwnStation) {
   ASSERT_GE(job().stations.size(), 2U);
   editor.survey.station = 0;
