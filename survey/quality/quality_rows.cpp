@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -26,12 +27,13 @@ class Rows {
  public:
   Rows(const SurveyQuality& quality, const Job& job) : quality_(quality), job_(job) {}
 
+  // The worst place is one in rooms, where these are surveyed; the figure is of the whole model.
   Figure coverage() const {
     Figure figure{100 * quality_.seen.all.coverage(), "of all surfaces in the scene; excluded products do not count"};
     if (quality_.seen.holes.empty()) return figure;
-    const auto product = quality_.seen.holes.front().product;
+    const auto product = mostUnseen();
     figure.worst.product = product;
-    figure.worst.at = whereUnseen(product);
+    figure.worst.at = worstOf([&](std::size_t k) { return sample(k).product == product && isUnseen(k); });
     return figure;
   }
 
@@ -39,13 +41,7 @@ class Rows {
     if (quality_.stations.size() < 2) return unknown("needs two stations");
     const auto& all = quality_.seen.all;
     Figure figure{all.exposed == 0 ? 0 : 100 * static_cast<double>(all.twice) / static_cast<double>(all.exposed), {}};
-    std::vector<Vector3d> once;
-    for (std::size_t k = 0; k < quality_.samples.samples.size(); ++k) {
-      int times = 0;
-      for (const auto& station : quality_.stations) times += station.seen[k];
-      if (times == 1) once.push_back(quality_.samples.samples[k].place.position);
-    }
-    figure.worst.at = worstPlace(once, std::vector<double>(once.size(), 1), WorstBy::number);
+    figure.worst.at = worstOf([&](std::size_t k) { return timesSeen(k) == 1; });
     return figure;
   }
 
@@ -75,7 +71,7 @@ class Rows {
   template <class Value>
   Figure bestOfEachSample(Value value) const {
     std::vector<Vector3d> places;
-    std::vector<double> values;
+    std::vector<double> values, all;
     for (std::size_t k = 0; k < quality_.samples.samples.size(); ++k) {
       std::optional<double> best;
       for (const auto& scan : quality_.scans)
@@ -84,12 +80,14 @@ class Rows {
           best = std::min(best.value_or(found), found);
         }
       if (!best) continue;
-      places.push_back(quality_.samples.samples[k].place.position);
+      all.push_back(*best);
+      if (quality_.surveyed[k] == 0) continue;
+      places.push_back(sample(k).place.position);
       values.push_back(*best);
     }
-    if (values.empty()) return unknown("no surface is seen");
+    if (all.empty()) return unknown("no surface is seen");
     WorstPlace worst{worstPlace(places, values, WorstBy::mean), {}, {}};
-    return {fractile(values, 0.95), {}, std::move(worst)};
+    return {fractile(all, 0.95), {}, std::move(worst)};
   }
 
   // √ of the area for which one point stands, by how many lie within the radius of a sample.
@@ -185,15 +183,35 @@ class Rows {
   }
 
  private:
-  std::optional<Vector3d> whereUnseen(std::uint32_t product) const {
-    std::vector<Vector3d> unseen;
+  const SurfaceSample& sample(std::size_t k) const { return quality_.samples.samples[k]; }
+  int timesSeen(std::size_t k) const {
+    int times = 0;
+    for (const auto& station : quality_.stations) times += station.seen[k];
+    return times;
+  }
+  bool isUnseen(std::size_t k) const { return sample(k).exposed && timesSeen(k) == 0; }
+
+  // The product with most unseen surface of what is surveyed; where all of that is seen, of the scene.
+  std::uint32_t mostUnseen() const {
+    std::map<std::uint32_t, std::size_t> unseen;
+    for (std::size_t k = 0; k < quality_.samples.samples.size(); ++k)
+      if (quality_.surveyed[k] != 0 && isUnseen(k)) ++unseen[sample(k).product];
+    const auto most = std::max_element(unseen.begin(), unseen.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
+    return most == unseen.end() ? quality_.seen.holes.front().product : most->first;
+  }
+
+  // Where most of the samples are that are meant: of those surveyed, else of all.
+  template <class Meant>
+  std::optional<Vector3d> worstOf(Meant meant) const {
+    std::vector<Vector3d> surveyed, all;
     for (std::size_t k = 0; k < quality_.samples.samples.size(); ++k) {
-      const auto& sample = quality_.samples.samples[k];
-      const bool seen = std::any_of(quality_.stations.begin(), quality_.stations.end(),
-                                    [k](const StationQuality& s) { return s.seen[k] != 0; });
-      if (sample.product == product && sample.exposed && !seen) unseen.push_back(sample.place.position);
+      if (!meant(k)) continue;
+      all.push_back(sample(k).place.position);
+      if (quality_.surveyed[k] != 0) surveyed.push_back(all.back());
     }
-    return worstPlace(unseen, std::vector<double>(unseen.size(), 1), WorstBy::number);
+    const auto& places = surveyed.empty() ? all : surveyed;
+    return worstPlace(places, std::vector<double>(places.size(), 1), WorstBy::number);
   }
 
   const SurveyQuality& quality_;

@@ -9,12 +9,14 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "core/progress_part.h"
 #include "core/units.h"
 #include "pointclouds/formats.h"
 #include "pointclouds/statistics/cloud_sample.h"
 #include "pointclouds/statistics/coverage.h"
 #include "survey/instruments.h"
 #include "survey/quality/scan_marks.h"
+#include "survey/quality/surveyed_samples.h"
 #include "survey/scene/model_surface.h"
 #include "survey/stations/levelling.h"
 #include "survey/targets/target_sight.h"
@@ -234,11 +236,7 @@ Result<Report> readScans(const fs::path& file, PointSink& sink, Progress& progre
   const CloudFormat* const format = readableCloudFormat(file);
   if (format == nullptr || format->read == nullptr)
     return failure(ErrorKind::usage, "unsupported point-cloud format", file.string());
-  Progress reading;
-  reading.onChange([&] {
-    progress.advance(reading.fraction());
-    if (progress.cancelled()) reading.cancel();
-  });
+  ProgressPart reading(progress, 0, 1);
   return format->read(file, sink, reading);
 }
 
@@ -416,6 +414,9 @@ Result<SurveyQuality> assessSurvey(const Job& job, const std::shared_ptr<const R
   TRY(assessment.read(scanFilesOf(job), progress));
   assessment.tellStations();
   progress.stage("Judge", 0.95, 1);
+  std::vector<Vector3d> stands;
+  for (const auto s : request.stations) stands.push_back(job.stations[s].true_pose.translation);
+  quality.surveyed = surveyedSamples(quality.samples, model, stands);
   seeByStation(quality, request);
   comparePoses(quality, job);
   countTargets(quality, job, model, request.target_rules);

@@ -65,6 +65,7 @@ struct QualityRow {
 
 struct SurveyQuality {
   SurfaceSamples samples;
+  std::vector<std::uint8_t> surveyed;  // of each sample (surveyed_samples.h): where a worst place is looked for first
   double radius_m = 0;
   std::vector<ScanFigures> scans;
   std::vector<ScanTrouble> troubles;

@@ -95,6 +95,24 @@ TEST_F(Assess, AClosedRoomIsCoveredButForTheDiscBelowTheInstrument) {
   EXPECT_NEAR(value(answer, "pose_position"), 0, 1e-6);
 }
 
+// Around the room a field of 40 x 40 m, of which a station in the room sees nothing.
+TEST_F(Assess, TheWorstPlaceOfAnIndoorSurveyIsInTheRoomAndNotOnTheGroundOutside) {
+  auto d = closedRoom();
+  auto e = std::make_shared<Environment>(*d.imported);
+  addBox(*e, "field", "IfcGeographicElement", {-20, -20, -0.25}, {20, 20, -0.05});
+  d.imported = e;
+  const auto inside = assess(scanned(with(d, "S", {0, 0, 1.5})));
+  EXPECT_EQ(inside["holes"][0]["id"], "field") << "the list of products still begins with the largest gap";
+  const auto worst = row(inside, "coverage")["worst"];
+  EXPECT_EQ(worst["product"]["id"], "room");
+  EXPECT_NEAR(std::hypot(worst["at"][0].get<double>(), worst["at"][1].get<double>()), 0, 1)
+      << "the disc below the instrument";
+  const auto outside = assess(scanned(with(d, "T", {12, 0, 0.5}), {{"ideal", true}}, "t.e57"));
+  const auto at = row(outside, "coverage")["worst"]["at"];
+  EXPECT_GT(std::max(std::abs(at[0].get<double>()) - 5, std::abs(at[1].get<double>()) - 4), -1)
+      << "who surveys the outside has missed something there";
+}
+
 TEST_F(Assess, WhatStandsInTheWayHidesTheWallBehindItAndItsOwnBack) {
   const auto answer = assess(scanned(with(closedRoom(true), "S", {0, 0, 1.5})));
   const double blind = std::numbers::pi * std::pow(kBlind_m - kRadius_m, 2), shadow = std::pow(2.5 - 2 * kRadius_m, 2);
