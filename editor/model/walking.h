@@ -41,6 +41,8 @@ class ViewHistory {
 // Where the next release of a key or click puts somebody.
 struct TeleportAim {
   bool by_key = false, by_click = false;
+  double begun_s = 0;       // by key, of the interface's clock
+  double goes_on_to_s = 0;  // after a tap of the key: until then a click goes on to another place
   bool active() const { return by_key || by_click; }
 };
 

@@ -206,7 +206,8 @@ constexpr std::array kMouse = {
     Hint{"Wheel, two fingers up or down", "Zoom to pointer; Ctrl: to the middle; Shift: pan"},
     Hint{"Wheel or two fingers to the side", "Turn"},
     Hint{"W A S D", "Walk (W to start, Shift to run, C to crouch, wheel for the speed, E for doors, Esc to leave)"},
-    Hint{"T (hold)", "Teleport: aim with the pointer, release to stand there; Esc or right button cancels"},
+    Hint{"T",
+         "Teleport to the place under the pointer; hold to aim first, release or click to stand there, Esc cancels"},
     Hint{"Left drag on a station", "Move it; its handles turn, raise and tilt it"},
     Hint{"Right click", "Context menu"},
 };

@@ -188,11 +188,13 @@ const char* movingHint(const Editor& editor) {
     return "F to look at the instrument's screen, G to carry it, H to step out of its sight, B to put up a sphere   "
            "W A S D to walk   Esc to leave";
   if (!editor.held.instrument.empty() && !editor.walk.doorInReach(editor.view.camera))
-    return "R to return to the instrument, H to step out of its sight   W A S D to walk, T to teleport, B to put up a "
+    return "R to return to the instrument, H to step out of its sight   W A S D to walk, T to teleport to the pointer, "
+           "B to put up a "
            "sphere   Esc to leave";
-  return editor.walk.doorInReach(editor.view.camera)
-             ? "E to open or close the door   W A S D to walk, drag to look, Shift to run, T to teleport   Esc to leave"
-             : "W A S D to walk, drag to look, Shift to run, C to crouch, T to teleport, B: sphere   Esc to leave";
+  return editor.walk.doorInReach(editor.view.camera) ? "E to open or close the door   W A S D to walk, drag to look, "
+                                                       "Shift to run, T to teleport to the pointer   Esc to leave"
+                                                     : "W A S D to walk, drag to look, Shift to run, C to crouch, T to "
+                                                       "teleport to the pointer, B: sphere   Esc to leave";
 }
 
 float drawMovingLine(const Editor& editor, ImVec2 origin, ImVec2 size, float above_pt) {

@@ -17,6 +17,7 @@
 #include "editor/shell/moving.h"
 #include "editor/shell/navigation_cube_view.h"
 #include "editor/shell/row_overlay.h"
+#include "editor/shell/teleport.h"
 #include "editor/shell/trajectory_overlay.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/number_field.h"
@@ -238,8 +239,9 @@ ui::Text toolHint(const Editor& editor) {
   if (editor.walk_ground.preparing())
     return trf("Preparing the walkable surface … {:.0f} %   Esc to cancel", 100 * editor.walk_ground.fraction());
   if (view.teleport.active())
-    return view.teleport.by_key ? "Aim with the pointer, release T to stand there   Esc to cancel"
+    return view.teleport.by_key ? "Aim with the pointer, release T or click to stand there   Esc to cancel"
                                 : "Click where to stand   Esc to cancel";
+  if (goesOnByClick(editor)) return "T went to the place under the pointer; click to go on   Alt+Left to go back";
   if (view.tool == Tool::select && looksFromStation(editor)) return "Drag to look around   Alt+Left to go back";
   std::string measuring;
   const char* hint = movingHint(editor);

@@ -13,6 +13,7 @@ namespace standpoint {
 namespace {
 
 constexpr double kTick_m = 0.35, kPole_m = 1.6;
+constexpr double kTap_s = 0.35, kGoesOn_s = 4;
 constexpr int kRingCorners = 40;
 constexpr ImU32 kCanStand = IM_COL32(0, 158, 115, 255), kCannot = IM_COL32(213, 94, 0, 255);
 
@@ -30,6 +31,14 @@ std::optional<Landing> landingUnderPointer(const Editor& editor) {
   auto landing = landingOn(*ground, editor.walker, hit->position, hit->normal);
   landing.why_not = whyNoLanding(landing, editor);
   return landing;
+}
+
+bool teleportToPointer(Editor& editor) {
+  const auto& hit = editor.view.hover;
+  const auto landing = landingUnderPointer(editor);
+  if (!hit || (landing && !landing->why_not.empty())) return false;
+  teleport(editor, *hit);
+  return true;
 }
 
 struct AimPen {
@@ -76,7 +85,7 @@ void drawAimCross(const AimPen& pen, const Eigen::Vector3d& feet, double radius)
 
 bool aimTeleport(Editor& editor, bool hovered) {
   auto& aim = editor.view.teleport;
-  if (!aim.active() && startsAiming(editor)) aim.by_key = true;
+  if (!aim.active() && startsAiming(editor)) aim = {.by_key = true, .begun_s = ImGui::GetTime()};
   if (!aim.active()) return false;
   editor.walk_ground.prepare(editor.session.document(), editor.walker, editor.wake);
   if (ImGui::IsMouseClicked(1)) {
@@ -85,10 +94,20 @@ bool aimTeleport(Editor& editor, bool hovered) {
   }
   const bool released = aim.by_key && !keyboard::held('T');
   if (!released && !(hovered && ImGui::IsMouseClicked(0))) return true;
-  aim = {};
-  const auto& hit = editor.view.hover;
-  const auto landing = landingUnderPointer(editor);
-  if (hit && (!landing || landing->why_not.empty())) teleport(editor, *hit);
+  const bool tapped = released && ImGui::GetTime() - aim.begun_s < kTap_s;
+  const bool went = teleportToPointer(editor);
+  // Where nobody can stand a tap leaves the ring, with the reason, for a click.
+  aim = {.by_click = tapped && !went, .goes_on_to_s = tapped && went ? ImGui::GetTime() + kGoesOn_s : 0};
+  return true;
+}
+
+bool goesOnByClick(const Editor& editor) {
+  return editor.view.tool == Tool::walk && ImGui::GetTime() < editor.view.teleport.goes_on_to_s;
+}
+
+bool clickAfterTap(Editor& editor) {
+  if (!goesOnByClick(editor) || !teleportToPointer(editor)) return false;
+  editor.view.teleport.goes_on_to_s = ImGui::GetTime() + kGoesOn_s;
   return true;
 }
 

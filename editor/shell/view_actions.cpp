@@ -257,7 +257,7 @@ const std::array kView = {
            [](Editor& e) { sayRefused(e, returnToInstrument(e)); },
            [](const Editor& e) { return whyNotReturn(e); }},
     Action{"teleport",
-           "Teleport: click where to stand (hold T)",
+           "Teleport: click where to stand (T: to the pointer)",
            ICON_CROSSHAIRS,
            {},
            [](Editor& e) { e.view.teleport.by_click = true; },

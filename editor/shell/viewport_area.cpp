@@ -199,7 +199,8 @@ void handleMouse(Editor& editor, ImVec2 origin, bool hovered) {
     startDrag(editor, origin);
   if (view.dragging) continueDrag(editor);
   const bool previewed = editor.preview.isOpen() || editor.proof;  // it can be turned and nothing else
-  if (view.dragging && !view.dragged && ImGui::IsMouseReleased(0) && !previewed) click(editor);
+  if (view.dragging && !view.dragged && ImGui::IsMouseReleased(0) && !previewed && !clickAfterTap(editor))
+    click(editor);
   if (view.dragging && !view.dragged && ImGui::IsMouseReleased(1) && !previewed && !openStationMenu(editor, origin)) {
     if (view.hover && !editor.selection.contains(view.hover->product)) editor.select(view.hover->product, true);
     ImGui::OpenPopup("###viewport-menu");

@@ -160,6 +160,48 @@ TEST_F(Walking, IsTakenToWhereOneAimsWhileTIsHeld) {
   EXPECT_NEAR((editor.walk.feet() - from).norm(), 0, 0.01) << "Alt+Left goes back";
 }
 
+TEST_F(Walking, ATapOfTGoesToThePointerAndAClickAfterItGoesOn) {
+  walk();
+  editor.view.camera.azimuth_rad = 0;
+  gui.frame();
+  EXPECT_TRUE(gui.says("T to teleport to the pointer")) << "what a tap does stands in the hint";
+  const Eigen::Vector3d from = editor.walk.feet(), first = from + Eigen::Vector3d(1.4, 3.3, 0);
+  gui.moveTo(pixelOf(first));
+  gui.key('T');
+  gui.frames(3);
+  EXPECT_NEAR((editor.walk.feet() - first).norm(), 0, 0.05) << editor.walk.feet().transpose();
+  EXPECT_TRUE(gui.says("click to go on"));
+  editor.view.camera.azimuth_rad = std::numbers::pi;  // towards where it came from
+  gui.frame();
+  gui.moveTo(pixelOf(from));
+  gui.press();
+  gui.frames(3);
+  EXPECT_NEAR((editor.walk.feet() - from).norm(), 0, 0.05) << editor.walk.feet().transpose();
+  EXPECT_TRUE(editor.selection.empty());
+  gui.frames(300);  // 5 s later a click is one as ever
+  EXPECT_FALSE(gui.says("click to go on"));
+  editor.view.camera.azimuth_rad = 0;
+  gui.frame();
+  gui.moveTo(pixelOf(first));
+  gui.press();
+  gui.frames(3);
+  EXPECT_NEAR((editor.walk.feet() - from).norm(), 0, 0.05) << editor.walk.feet().transpose();
+}
+
+TEST_F(Walking, ATapOfTWhereNobodyCanStandLeavesTheRingForAClick) {
+  walk();
+  const Eigen::Vector3d from = editor.walk.feet();
+  editor.view.hover.reset();
+  gui.moveTo({-10, -10});
+  gui.key('T');
+  gui.frames(3);
+  EXPECT_EQ(editor.walk.feet(), from);
+  EXPECT_TRUE(editor.view.teleport.by_click);
+  gui.key(kKeyEscape);
+  gui.frames(2);
+  EXPECT_FALSE(editor.view.teleport.active());
+}
+
 TEST_F(Walking, IsBegunByTeleportFromOutsideAndNotWithEscape) {
   const Eigen::Vector3d lawn(5, -4, -0.3);
   editor.view.camera = {lawn, 12, 0, 0.6};
