@@ -142,6 +142,8 @@ struct ViewportState {
   bool measurements = true;                    // kept ones are drawn
   std::optional<Eigen::Vector3d> measured_at;  // under the pointer while a tool measures: of a cloud, or the model
   std::string measured_cloud;                  // that it is a point of; "": of the model
+  Eigen::Vector2d measured_px{0, 0};           // where in the view the pointer is then
+  std::optional<Eigen::Vector2d> missed_px;    // where a click found nothing to measure, until the pointer is elsewhere
   bool dragging = false;
   Camera camera_before_drag;  // which Esc brings back
   bool dragged = false;

@@ -18,6 +18,7 @@ namespace standpoint {
 namespace {
 
 constexpr double kReach_px = 5;  // of a point of a cloud
+constexpr float kMissed_px = 60, kRim_px = 24;
 
 // Keeps what was clicked as a measurement of the project; the tool stays for the next one.
 void finish(Editor& editor) {
@@ -105,6 +106,25 @@ void drawWall(Editor& editor, const ViewPen& pen) {
   pen.ring(corners, tone::kAccent, 2);
 }
 
+// A click beside everything is answered where it was made.
+bool missed(ViewportState& view) {
+  view.missed_px = view.measured_at ? std::nullopt : std::optional(view.measured_px);
+  return view.missed_px.has_value();
+}
+
+// Moved inwards from the rim of the view, where it would not be whole.
+void drawMissed(const Editor& editor, ImVec2 origin, LabelBoard& labels) {
+  const auto& px = editor.view.missed_px;
+  if (!px) return;
+  auto words = tr("Nothing to measure here");
+  const Eigen::Vector2d rim(editor.px(kRim_px) + ImGui::CalcTextSize(words.c_str()).x / 2,
+                            editor.px(kRim_px) + ImGui::GetTextLineHeight());
+  const Eigen::Vector2d inner(editor.view.size.x() - rim.x(), editor.view.size.y());
+  const Eigen::Vector2d at = px->cwiseMin(inner).cwiseMax(rim);
+  labels.over({origin.x + static_cast<float>(at.x()), origin.y + static_cast<float>(at.y())}, {std::move(words)},
+              tone::kWarning);
+}
+
 }  // namespace
 
 bool measures(const Editor& editor) {
@@ -116,6 +136,7 @@ void followInspectTools(Editor& editor, ImVec2 origin, bool hovered) {
   auto& view = editor.view;
   if (!measures(editor)) {
     view.measured_at.reset();
+    view.missed_px.reset();
     return;
   }
   if (!view.dragging) {
@@ -126,6 +147,8 @@ void followInspectTools(Editor& editor, ImVec2 origin, bool hovered) {
                            : std::nullopt;
     view.measured_at = place ? std::optional(place->position) : std::nullopt;
     view.measured_cloud = place ? place->cloud : std::string();
+    view.measured_px = {p.x - origin.x, p.y - origin.y};
+    if (view.missed_px && (*view.missed_px - view.measured_px).norm() > editor.px(kMissed_px)) view.missed_px.reset();
   }
   if (view.tool != Tool::measure || ImGui::GetIO().WantTextInput || editor.device_has_keys ||
       ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId))
@@ -137,15 +160,15 @@ void followInspectTools(Editor& editor, ImVec2 origin, bool hovered) {
 
 void clickMeasure(Editor& editor) {
   auto& view = editor.view;
-  if (!view.measured_at) return;
+  if (missed(view)) return;
   if (view.measuring.points.empty()) view.measuring.problem.clear();
   view.measuring.points.push_back(*view.measured_at);
   if (isFull(view.measuring)) finish(editor);
 }
 
 void clickWall(Editor& editor) {
-  const auto& view = editor.view;
-  if (!view.measured_at) return;
+  auto& view = editor.view;
+  if (missed(view)) return;
   // Only where the model itself was clicked its face says which wall is meant.
   std::optional<Eigen::Vector3d> normal;
   if (!editor.cloud() && view.hover && (view.hover->position - *view.measured_at).norm() < 1e-6)
@@ -161,6 +184,7 @@ void drawInspectMarks(Editor& editor, ImVec2 origin) {
   list.PushClipRect(origin, {origin.x + size.x, origin.y + size.y}, true);
   LabelBoard labels(origin, size, editor.scale);
   drawWall(editor, pen);
+  drawMissed(editor, origin, labels);
   drawUnfinished(editor, pen, labels);
   drawKept(editor, pen, labels);
   labels.draw(list);

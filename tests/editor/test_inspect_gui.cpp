@@ -62,6 +62,29 @@ TEST_F(Inspect, TwoClicksKeepADistanceInTheProjectAndUndoTakesItBack) {
   EXPECT_EQ(kept(), 0u);
 }
 
+TEST_F(Inspect, AClickBesideEverythingIsAnsweredWhereItWasMade) {
+  editor.view.camera.distance_m *= 2;  // the model is in the middle and nothing around it
+  const auto clickBeside = [&] {
+    const auto* window = ImGui::FindWindowByName("###viewport");
+    gui.moveTo({window->Pos.x + 12, window->Pos.y + 0.6F * window->Size.y});
+    gui.frames(2);
+    ASSERT_FALSE(editor.view.measured_at);
+    gui.press();
+    gui.settle();
+  };
+  gui.key('M');
+  EXPECT_FALSE(gui.says("Nothing to measure here"));
+  clickBeside();
+  EXPECT_TRUE(gui.says("Nothing to measure here"));
+  EXPECT_TRUE(editor.view.measuring.points.empty());
+  clickAt({1.5, 5, 0});
+  EXPECT_FALSE(gui.says("Nothing to measure here"));
+  EXPECT_EQ(editor.view.measuring.points.size(), 1u);
+  clickBeside();
+  EXPECT_TRUE(gui.says("Nothing to measure here"));
+  EXPECT_EQ(editor.view.measuring.points.size(), 1u) << "the first point stays";
+}
+
 TEST_F(Inspect, EnterEndsAPolygonAndBackspaceTakesTheLastCornerBack) {
   gui.key('M', true, true);
   clickAt({1.5, 5, 0});
