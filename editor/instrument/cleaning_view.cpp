@@ -73,7 +73,7 @@ void drawCleaning(InstrumentDesk& desk, Editor& editor) {
   ui::gap(editor);
   ui::dimText("Cleaning in the office");
   ImGui::SetNextItemWidth(-1);
-  ImGui::InputTextWithHint("###filters", "moving:distance=0.05", &desk.filters);
+  ImGui::InputTextWithHint("###filters", "name:option=value", &desk.filters);
   ui::tooltip(trf("Filters in this order, separated by spaces: {}", filterList()));
   if (desk.cleaning) {
     if (ui::button("Cancel###cancel-cleaning")) desk.cleaning->progress().cancel();
