@@ -113,8 +113,8 @@ ScanPattern::ScanPattern(const MovingHead& head, const ScanSettings& settings)
   for (std::size_t h = 0; h < static_cast<std::size_t>(head.heads); ++h) {
     Head& of = heads_.emplace_back();
     if (!head.tilts_rad.empty()) portable::sinCos(head.tilts_rad[h], of.tilt_sine, of.tilt_cosine);
-    if (!head.forward_m.empty()) of.at.x() = head.forward_m[h];
-    if (!head.up_m.empty()) of.at.z() = head.up_m[h];
+    if (!head.forward_m.empty()) of.at[0] = head.forward_m[h];
+    if (!head.up_m.empty()) of.at[2] = head.up_m[h];
   }
   channels_ = static_cast<std::uint32_t>(of_head_.size() * heads_.size());
   firings_per_block_ = std::max(kLeastFirings, kPulsesPerBlock / channels_);

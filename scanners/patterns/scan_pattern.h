@@ -61,7 +61,7 @@ class ScanPattern {
   };
   struct Head {
     double tilt_sine = 0, tilt_cosine = 1;
-    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+    double at[3] = {};
   };
 
   // What all pulses have in common.
