@@ -4,8 +4,9 @@
 #include <bit>
 #include <cstdint>
 
+#include <Eigen/Geometry>
+
 #include "core/portable_math.h"
-#include "core/survey.h"
 
 // Sixteen of a kind side by side, and what is done to one of them: with the very operations of Eigen, in their order,
 // so that a lane has the same bits as one that is worked out alone.
@@ -29,12 +30,6 @@ struct PoseLanes {
   double qx[kPacket] = {}, qy[kPacket] = {}, qz[kPacket] = {}, qw[kPacket] = {};
 
   Eigen::Quaterniond rotation(std::uint32_t lane) const { return {qw[lane], qx[lane], qy[lane], qz[lane]}; }
-  Pose at(std::uint32_t lane) const { return {rotation(lane), translation.at(lane)}; }
-  void set(std::uint32_t lane, const Pose& pose) {
-    translation.set(lane, pose.translation);
-    qx[lane] = pose.rotation.x(), qy[lane] = pose.rotation.y();
-    qz[lane] = pose.rotation.z(), qw[lane] = pose.rotation.w();
-  }
 };
 
 // Of each lane that is in `bits`.
