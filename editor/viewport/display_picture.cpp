@@ -9,6 +9,8 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include "editor/viewport/draw_lists.h"
+
 namespace standpoint {
 
 namespace {
@@ -39,14 +41,7 @@ std::shared_ptr<const PixelPicture> DisplayPicture::taken(const ImDrawData& laid
   std::vector<ImDrawList*> lists;
   for (int i = 0; i < laid_out.CmdListsCount; ++i)
     if (belongsTo(laid_out.CmdLists[i], display.window)) lists.push_back(laid_out.CmdLists[i]);
-  part.CmdListsCount = static_cast<int>(lists.size());
-#if IMGUI_VERSION_NUM >= 18980  // a vector since then, a pointer before
-  part.CmdLists.resize(part.CmdListsCount);
-  std::copy(lists.begin(), lists.end(), part.CmdLists.begin());
-#else
-  part.CmdLists = lists.data();
-#endif
-  ImGui_ImplOpenGL3_RenderDrawData(&part);
+  ImGui_ImplOpenGL3_RenderDrawData(&DrawListsOf(part, lists).data());
   auto picture = drawnPixels(width, height);
   if (last_ == nullptr || last_->width != width || last_->height != height || last_->rgba != picture.rgba)
     last_ = std::make_shared<const PixelPicture>(std::move(picture));

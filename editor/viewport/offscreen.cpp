@@ -13,6 +13,7 @@
 #include "editor/film/picture_file.h"
 #include "editor/shell/shell.h"
 #include "editor/viewport/display_picture.h"
+#include "editor/viewport/kept_frame.h"
 #include "editor/viewport/vtk_scene_view.h"
 #include "editor/widgets/theme.h"
 
@@ -131,10 +132,7 @@ class EglOffscreen : public Offscreen {
 
   void paint() {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-    glViewport(0, 0, width_, height_);
-    glClearColor(0.1F, 0.1F, 0.1F, 1);
-    glClear(GL_COLOR_BUFFER_BIT);
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    kept_.draw(*ImGui::GetDrawData(), takeRepainted({scene_.get(), beside_.get()}));
   }
 
   void makeTarget() {
@@ -150,7 +148,8 @@ class EglOffscreen : public Offscreen {
   int width_, height_;
   float scale_;
   Fonts fonts_;
-  std::unique_ptr<SceneView> scene_, beside_;
+  std::unique_ptr<PaintedScene> scene_, beside_;
+  KeptFrame kept_;
   DisplayPicture display_;
   GLuint texture_ = 0, framebuffer_ = 0;
 };

@@ -130,7 +130,7 @@ bool onlyPartsMove(const ViewState& a, const ViewState& b) {
   return moved == b;
 }
 
-class VtkSceneView : public SceneView {
+class VtkSceneView : public PaintedScene {
  public:
   VtkSceneView() {
     setUpWindow();
@@ -168,17 +168,19 @@ class VtkSceneView : public SceneView {
       draw(state, fine, resized);
       shading_ = shades(state);
       if (shading_) finish().begin();
-      shown_ = finished(state);
+      show(finished(state));
     } else if (refining()) {
       if (points_.pending() && points_.refine()) {
         takePoints();
         window_->Render();
       }
-      shown_ = finished(state);
+      show(finished(state));
     }
     if (shown_ != 0) smooth(shown_);
     return shown_;
   }
+
+  std::vector<std::uint64_t> takeRepainted() override { return std::exchange(repainted_, {}); }
 
   bool prepare(const ViewState& state, int width, int height) override {
     const int w = std::max(width, 8), h = std::max(height, 8);
@@ -263,10 +265,16 @@ class VtkSceneView : public SceneView {
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, picture->width, picture->height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
                  picture->rgba.data());
     glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(bound));
+    repainted_.push_back(shown->texture);
     return shown->texture;
   }
 
  private:
+  void show(GLuint picture) {
+    shown_ = picture;
+    repainted_.push_back(picture);
+  }
+
   // What is drawn larger than the picture is averaged, as the screen would.
   static Result<PixelPicture> readBack(GLuint texture, int width, int height) {
     GLint bound = 0, wide = 0, high = 0;
@@ -599,6 +607,7 @@ class VtkSceneView : public SceneView {
   std::unique_ptr<Backdrop> backdrop_;
   std::unique_ptr<Finish> finish_;
   GLuint shown_ = 0;  // the picture
+  std::vector<std::uint64_t> repainted_;
   std::uint64_t moved_pictures_ = 0, worked_pictures_ = 0;
   int factor_ = 1;  // pixels that are drawn, for each of the picture, each way
   bool shading_ = false;
@@ -617,6 +626,15 @@ class VtkSceneView : public SceneView {
 
 }  // namespace
 
-std::unique_ptr<SceneView> makeVtkSceneView() { return std::make_unique<VtkSceneView>(); }
+std::unique_ptr<PaintedScene> makeVtkSceneView() { return std::make_unique<VtkSceneView>(); }
+
+std::vector<std::uint64_t> takeRepainted(std::initializer_list<PaintedScene*> scenes) {
+  std::vector<std::uint64_t> all;
+  for (PaintedScene* scene : scenes) {
+    const auto some = scene->takeRepainted();
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
 
 }  // namespace standpoint

@@ -19,6 +19,7 @@
 #include "editor/shell/import_preview.h"
 #include "editor/shell/shell.h"
 #include "editor/viewport/display_picture.h"
+#include "editor/viewport/kept_frame.h"
 #include "editor/viewport/lost_display.h"
 #include "editor/viewport/vtk_scene_view.h"
 #include "editor/widgets/keyboard.h"
@@ -239,6 +240,7 @@ class Window {
     if (!editor_.fonts.problem.empty()) editor_.say(editor_.fonts.problem);
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
+    kept_.forget();
   }
 
   void drawFrame() {
@@ -261,10 +263,7 @@ class Window {
     const auto not_measured = editor_.graphics.notMeasured();
     standpoint::drawFrame(editor_);
     if (editor_.graphics.notMeasured() != not_measured) pacer_.drawSome();  // its line has grown
-    glViewport(0, 0, w, h);
-    glClearColor(0.09F, 0.10F, 0.11F, 1);
-    glClear(GL_COLOR_BUFFER_BIT);
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    kept_.draw(*ImGui::GetDrawData(), takeRepainted({scene_.get(), beside_.get()}));
     if (takeDisplay(editor_, display_, *ImGui::GetDrawData())) pacer_.drawSome();
     glFinish();
     timeFrame(glfwGetTime() - now, scene_->movedPictures() != moved_pictures,
@@ -299,7 +298,8 @@ class Window {
   Editor& editor_;
   GLFWwindow* handle_;
   InputQueue input_;
-  std::unique_ptr<SceneView> scene_, beside_;
+  std::unique_ptr<PaintedScene> scene_, beside_;
+  KeptFrame kept_;
   GLFWcursor* cursors_[ImGuiMouseCursor_COUNT] = {};
   DisplayPicture display_;
   FramePacer& pacer_;
