@@ -204,7 +204,7 @@ BodyLayers::BodyLayers() {
   head_.drawSurface(0);
   display_.drawSurface(-1);
   glow_.drawSurface(0);
-  glow_.actor->GetProperty()->SetLighting(false);
+  glow_.light(false);
   glow_.actor->ForceTranslucentOn();
   for (Layer* layer : {&solids_, &head_, &display_, &glow_}) layer->hide();
 }

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <string>
 
+#include <fmt/format.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkFloatArray.h>
@@ -15,6 +17,7 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkProperty.h>
+#include <vtkShaderProperty.h>
 #include <vtkUnsignedCharArray.h>
 
 namespace standpoint {
@@ -48,7 +51,43 @@ vtkSmartPointer<vtkUnsignedCharArray> coloursOf(const std::vector<Rgba>& colours
   return array;
 }
 
+// What VTK computes for distant lights, without the highlights, which a surface here has none of: they take a processor
+// that draws a third of a picture, though they come out as 0.
+std::string diffuseLight() {
+  std::string code = "  vec3 diffuse = vec3(0,0,0);\n";
+  for (int i = 0; i < kLights; ++i) {
+    const std::string n = std::to_string(i);
+    code += "  diffuse += (max(0.0, dot(normalVCVSOutput, -lightDirectionVC" + n + ")) * lightColor" + n + ");\n";
+  }
+  return code +
+         "  diffuse = diffuse * diffuseColor;\n"
+         "  gl_FragData[0] = vec4(ambientColor + diffuse, opacity);\n";
+}
+
+// What coincides is told apart by depths that differ by so many units of 1/65000. VTK itself would add them to each
+// pixel's: a processor then has to shade what is hidden before it knows that. Here they are added to the corners.
+void shiftDepths(vtkShaderProperty& shader, double units) {
+  constexpr double kUnits = 65000, kDepthsInClipSpace = 2;  // of the whole range
+  shader.ClearAllVertexShaderReplacements();
+  shader.AddVertexShaderReplacement("//VTK::PositionVC::Impl", true,
+                                    fmt::format("//VTK::PositionVC::Impl\n  gl_Position.z += {:.9e} * gl_Position.w;\n",
+                                                kDepthsInClipSpace * units / kUnits),
+                                    false);
+}
+
 }  // namespace
+
+void Layer::light(bool wanted) {
+  if (lit == wanted) return;  // a shader that is said anew is compiled anew
+  lit = wanted;
+  actor->GetProperty()->SetLighting(wanted);
+  auto* shader = actor->GetShaderProperty();
+  shader->ClearAllFragmentShaderReplacements();
+  if (!wanted) return;
+  shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true, diffuseLight(), false);
+  // For the same reason; nothing that is lit is invisible.
+  shader->AddFragmentShaderReplacement("if (gl_FragData[0].a <= 0.0)", true, "if (false)", false);
+}
 
 void Layer::drawSurface(double offset) {
   auto* property = actor->GetProperty();
@@ -56,17 +95,19 @@ void Layer::drawSurface(double offset) {
   property->SetAmbient(0.34);
   property->SetDiffuse(0.78);
   property->SetSpecular(0);
+  light(true);
   mapper->SetColorModeToDirectScalars();
-  mapper->SetResolveCoincidentTopologyToPolygonOffset();
-  mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(offset, offset);
+  shiftDepths(*actor->GetShaderProperty(), offset);
 }
 
 void Layer::drawLines(std::array<double, 3> colour, double opacity, double width) {
   auto* property = actor->GetProperty();
-  property->SetLighting(false);
+  light(false);
   property->SetColor(colour.data());
   property->SetOpacity(opacity);
   property->SetLineWidth(static_cast<float>(width));
+  constexpr double kBeforeSurfaces = -4;
+  shiftDepths(*actor->GetShaderProperty(), kBeforeSurfaces);
 }
 
 void Layer::show(const MergedTriangles& triangles) {
@@ -93,7 +134,7 @@ void Layer::show(const PaintedTriangles& painted, vtkTexture* texture) {
     std::memcpy(coordinates->GetPointer(0), painted.coordinates.data(), painted.coordinates.size() * sizeof(float));
   vtkPolyData::SafeDownCast(mapper->GetInput())->GetPointData()->SetTCoords(coordinates);
   actor->SetTexture(texture);
-  actor->GetProperty()->SetLighting(!painted.unlit);
+  light(!painted.unlit);
 }
 
 void Layer::show(const MergedLines& lines) {

@@ -19,6 +19,8 @@
 
 namespace standpoint {
 
+constexpr int kLights = 3;  // of a scene, all of them distant
+
 // One drawn thing: an actor whose geometry is replaced when it changes.
 struct Layer {
   vtkNew<vtkPolyDataMapper> mapper;
@@ -27,11 +29,13 @@ struct Layer {
   bool revealed = false;  // and it is to be drawn
   bool spared = false;    // but not in this picture
   std::vector<ClipPlane> cut_by;
+  std::optional<bool> lit;
 
   // How it is drawn, to be said once. Flat surfaces in the colours of their triangles; what has a smaller `offset` lies
   // before what coincides with it.
   void drawSurface(double offset);
   void drawLines(std::array<double, 3> colour, double opacity, double width);
+  void light(bool wanted);
 
   void show(const MergedTriangles& triangles);
   void show(const PaintedTriangles& painted, vtkTexture* texture);

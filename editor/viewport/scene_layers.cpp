@@ -26,7 +26,7 @@ vtkSmartPointer<vtkTexture> textureOf(const GroundShadow& shadow) {
 SceneLayers::SceneLayers(vtkRenderer* renderer) : renderer_(renderer), model_(renderer, edge_cache_) {
   grid_.drawLines({0.6, 0.6, 0.6}, 1, 1);
   shadow_.drawSurface(0);
-  shadow_.actor->GetProperty()->SetLighting(false);
+  shadow_.light(false);
   doors_.drawSurface(1);
   door_glass_.drawSurface(1);
   door_edges_.drawLines({0.07, 0.08, 0.10}, 0.55, 1);
