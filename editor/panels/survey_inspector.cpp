@@ -2,6 +2,7 @@
 #include "editor/panels/survey_inspector.h"
 
 #include <cmath>
+#include <memory>
 #include <set>
 #include <string>
 
@@ -17,9 +18,11 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
+#include "editor/widgets/verdict_sign.h"
 #include "editor/widgets/widgets.h"
 #include "editor/words/sentences.h"
 #include "project/survey/underlays.h"
+#include "survey/quality/place_verdict.h"
 #include "survey/scanning/scan_age.h"
 #include "survey/stations/levelling.h"
 
@@ -27,8 +30,18 @@ namespace standpoint {
 
 namespace {
 
+// Of the place where a station stands, kept until that or what is around it is another.
+struct KeptVerdict {
+  std::weak_ptr<const RayScene> scene;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  bool on_tripod = true;
+  double nearest_m = 0;
+  PlaceVerdict answer;
+};
+
 struct SurveyInspectorState {
   SurveyEdit station, target, underlay;
+  KeptVerdict verdict;
   std::set<std::string> free_stations;  // that are held or hang: their places are checked so
 };
 
@@ -48,6 +61,25 @@ bool placeRows(SurveyEdit& edit) {
 bool headingRow(SurveyEdit& edit, const char* help) {
   ui::propertyLabel("Heading");
   return ui::numberField("###inspected-heading", edit.heading_deg, kHeading, help);
+}
+
+// What was said of its place while it was held there.
+void drawPlaceVerdict(const Model& model, SurveyInspectorState& state, const Station& station) {
+  const auto* placement = model.placement.placement();
+  const auto scene = model.picker.scene();
+  if (placement == nullptr || &placement->scene() != scene.get()) return;  // it is being prepared
+  const Eigen::Vector3d& centre = station.true_pose.translation;
+  const bool on_tripod = !state.free_stations.contains(station.name);
+  const auto* instrument = model.instrument(model.scan_choice.instrument);
+  const double nearest_m = instrument != nullptr ? instrument->min_range_m : 0;
+  auto& kept = state.verdict;
+  if (kept.scene.lock() != scene || kept.centre != centre || kept.on_tripod != on_tripod || kept.nearest_m != nearest_m)
+    kept = {scene, centre, on_tripod, nearest_m, judgeStation(*placement, centre, on_tripod, nearest_m)};
+  const auto& found = kept.answer;
+  ImGui::TextColored(colour(verdictInk(found.verdict)), "%s", verdictSign(found.verdict));
+  ImGui::SameLine();
+  ui::wrapped(trSentence(found.brief));
+  if (!found.reason.empty()) ui::dimWrapped(trSentence(found.reason));
 }
 
 // It was let go where it cannot stand.
@@ -144,6 +176,7 @@ void drawStation(const Model& model, PanelStates& states, Actions& actions, cons
     edit.tilt_towards_deg = edit.tilt_deg > 0 ? tilt.towards_rad / kRadPerDeg : 0;
   }
   ui::heading(model, (trf("Station {}", station.name)).c_str());
+  drawPlaceVerdict(model, state, station);
   stationFieldRows(model, state, actions, station);
   drawProblem(edit);
   drawRefusal(model, station);

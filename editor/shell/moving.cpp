@@ -17,6 +17,7 @@
 #include "editor/shell/view_pen.h"
 #include "editor/widgets/keyboard.h"
 #include "editor/widgets/number_field.h"
+#include "editor/widgets/verdict_sign.h"
 
 namespace standpoint {
 

@@ -15,6 +15,7 @@
 #include "editor/shell/view_pen.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
+#include "editor/widgets/verdict_sign.h"
 #include "editor/words/sentences.h"
 #include "editor/words/words.h"
 #include "survey/stations/station_places.h"

@@ -11,6 +11,7 @@
 #include "editor/shell/place_ghost.h"
 #include "editor/shell/view_pen.h"
 #include "editor/widgets/number_field.h"
+#include "editor/widgets/verdict_sign.h"
 #include "editor/words/words.h"
 #include "survey/stations/station_places.h"
 

@@ -20,6 +20,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
+#include "editor/widgets/verdict_sign.h"
 #include "editor/words/words.h"
 
 namespace standpoint {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 
 namespace standpoint {
@@ -31,26 +30,6 @@ std::vector<ImVec2> hullOf(std::vector<ImVec2> points) {
 }
 
 }  // namespace
-
-ImU32 verdictTone(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::good: return IM_COL32(0, 170, 125, 255);
-    case Verdict::warn: return IM_COL32(240, 214, 66, 255);
-    case Verdict::bad: return IM_COL32(224, 100, 20, 255);
-    case Verdict::unknown: break;
-  }
-  return tone::kDim;
-}
-
-const char* verdictSign(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::good: return ICON_CHECK;
-    case Verdict::warn: return ICON_WARNING;
-    case Verdict::bad: return ICON_BAN;
-    case Verdict::unknown: break;
-  }
-  return ICON_CIRCLE;
-}
 
 std::optional<ImVec2> ViewPen::at(const Eigen::Vector3d& p) const {
   const auto pixel = project(editor_.view.camera, p, editor_.view.size);

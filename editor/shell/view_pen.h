@@ -8,13 +8,8 @@
 #include <imgui.h>
 
 #include "editor/shell/editor.h"
-#include "survey/quality/quality_limits.h"
 
 namespace standpoint {
-
-// Told apart by people who do not tell red from green, too; each has a sign besides.
-ImU32 verdictTone(Verdict verdict);
-const char* verdictSign(Verdict verdict);
 
 // Draws what stands in the scene over its picture.
 class ViewPen {

@@ -14,14 +14,28 @@ namespace {
 
 constexpr double kEvenEnough_rad = 10 * kRadPerDeg;  // steeper ground holds a tripod, but makes levelling awkward
 
+// What is too near to be measured; "" nothing.
+std::string nearness(const StationPlacement& placement, const Eigen::Vector3d& centre, double nearest_m) {
+  const auto near = placement.nearest(centre, nearest_m);
+  if (!near) return {};
+  const auto& product = placement.scene().environment().products[near->product];
+  return fmt::format("{:.0f} cm from {}", near->distance_m * 100, plainKind(product));
+}
+
+PlaceVerdict refused(const Refusal& refusal) { return {Verdict::bad, refusal.brief, sentenceOf(refusal)}; }
+
+PlaceVerdict doubted(std::string doubt) {
+  if (doubt.empty()) return {Verdict::good, "Good place", {}};
+  return {Verdict::warn, std::move(doubt), {}};
+}
+
 // What speaks against a place that is not refused; "" nothing.
 std::string doubtOf(const StationPlacement& placement, const RayHit& hit, double height_m, double nearest_m) {
   const auto& environment = placement.scene().environment();
   const auto& ground = environment.products[hit.product];
   if (!isMadeForStanding(ground)) return "On " + someKind(ground);
   const Eigen::Vector3d centre = hit.position + Eigen::Vector3d(0, 0, height_m);
-  if (const auto near = placement.nearest(centre, nearest_m))
-    return fmt::format("{:.0f} cm from {}", near->distance_m * 100, plainKind(environment.products[near->product]));
+  if (auto near = nearness(placement, centre, nearest_m); !near.empty()) return near;
   if (const double slope = slopeOf(hit); slope > kEvenEnough_rad)
     return fmt::format("On a slope of {:.0f}°", slope / kRadPerDeg);
   return placement.remark(centre) ? "Inside a closed body" : "";
@@ -36,11 +50,18 @@ std::string sentenceOf(const Refusal& refusal) {
 }
 
 PlaceVerdict judgePlace(const StationPlacement& placement, const RayHit& hit, double height_m, double nearest_m) {
-  if (const auto refusal = placement.whyNotOn(hit, height_m))
-    return {Verdict::bad, refusal->brief, sentenceOf(*refusal)};
-  if (auto doubt = doubtOf(placement, hit, height_m, nearest_m); !doubt.empty())
-    return {Verdict::warn, std::move(doubt), {}};
-  return {Verdict::good, "Good place", {}};
+  if (const auto refusal = placement.whyNotOn(hit, height_m)) return refused(*refusal);
+  return doubted(doubtOf(placement, hit, height_m, nearest_m));
+}
+
+PlaceVerdict judgeStation(const StationPlacement& placement, const Eigen::Vector3d& centre, bool on_tripod,
+                          double nearest_m) {
+  constexpr double kFar_m = 100;  // a tripod is no higher
+  if (on_tripod)
+    if (const auto hit = placement.scene().intersect(centre, -Eigen::Vector3d::UnitZ(), kFar_m))
+      return judgePlace(placement, *hit, centre.z() - hit->position.z(), nearest_m);
+  if (const auto refusal = on_tripod ? placement.whyNot(centre) : placement.tooNear(centre)) return refused(*refusal);
+  return doubted(nearness(placement, centre, nearest_m));
 }
 
 Verdict placeFigureVerdict(const char* limit_id, double value) {

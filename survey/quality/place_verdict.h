@@ -22,6 +22,10 @@ std::string sentenceOf(const Refusal& refusal);
 // On a surface that was pointed at. `nearest_m` is the shortest range that the instrument measures: what is nearer
 // stays unseen.
 PlaceVerdict judgePlace(const StationPlacement& placement, const RayHit& hit, double height_m, double nearest_m);
+// Of a station that is there, by its centre: on what lies straight below it; one that is held or hangs by its clearance
+// alone.
+PlaceVerdict judgeStation(const StationPlacement& placement, const Eigen::Vector3d& centre, bool on_tripod,
+                          double nearest_m);
 
 // The same verdict, where it is good, with what is expected to be seen from there: "Overlaps K2 by 12 %".
 PlaceVerdict withForecast(PlaceVerdict verdict, const PlaceForecast& forecast);

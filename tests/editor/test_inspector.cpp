@@ -51,6 +51,18 @@ TEST_F(Inspector, MovesAStationByATypedNumberAndUndoTakesItBack) {
   EXPECT_EQ(job().stations[0].true_pose.translation, before.true_pose.translation);
 }
 
+TEST_F(Inspector, SaysOfAStationWhatWasSaidOfItsPlaceWhileItWasHeldThere) {
+  editor.picker.wait();
+  editor.survey.station = 0;
+  gui.frames(4);
+  ASSERT_TRUE(editor.placement.ready());
+  EXPECT_TRUE(gui.says("Good place"));
+  typeInto("###inspected-X", fmt::format("{}", 0.7 + editor.shift_m().x()).c_str());
+  ASSERT_TRUE(editor.session.errors().empty());
+  EXPECT_TRUE(gui.says("40 cm from wall"));
+  EXPECT_FALSE(gui.says("Good place"));
+}
+
 TEST_F(Inspector, OffersTheStandThatTheRefusalOfAPlaceByTheFloorAdvises) {
   editor.survey.station = 0;
   gui.frames(3);

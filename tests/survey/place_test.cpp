@@ -58,6 +58,22 @@ TEST_F(PlaceOnGround, IsDoubtfulNearerThanTheInstrumentMeasures) {
   EXPECT_EQ(place.brief, "40 cm from wall");
 }
 
+TEST_F(PlaceOnGround, AStationThatStandsThereIsJudgedAsThePlaceWas) {
+  const auto stands = [&](const Eigen::Vector3d& centre, bool on_tripod = true) {
+    return judgeStation(*placement, centre, on_tripod, 0.5);
+  };
+  EXPECT_EQ(stands({-4, -4, 1.6}).brief, "Good place");
+  EXPECT_EQ(stands({0.6, 0, 1.6}).verdict, Verdict::warn);
+  EXPECT_EQ(stands({0.6, 0, 1.6}).brief, "40 cm from wall");
+  EXPECT_EQ(stands({0.82, 0, 1.6}).brief, "18 cm from wall");
+  EXPECT_NE(stands({0.82, 0, 1.6}).reason.find("move it 20 mm away"), std::string::npos);
+  EXPECT_EQ(stands({-5.5, 6.5, 4.6}).brief, "On a roof");
+  EXPECT_EQ(stands({-4, -4, 8}).verdict, Verdict::bad) << "no tripod is so high";
+  EXPECT_EQ(stands({-4, -4, 8}, false).verdict, Verdict::good) << "it hangs";
+  EXPECT_EQ(stands({0.6, 0, 2.9}, false).brief, "40 cm from wall");
+  EXPECT_EQ(stands({0.82, 0, 2.9}, false).verdict, Verdict::bad);
+}
+
 TEST_F(PlaceOnGround, InsideAWallIsRefusedAsSuch) {
   const auto hit = scene->intersect({1.25, 0, -0.001}, Eigen::Vector3d::UnitZ(), 100);
   const auto why = placement->whyNot({1.25, 0, 1.6});
