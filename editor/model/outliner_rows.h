@@ -36,7 +36,7 @@ class Outliner {
   Outliner() = default;
   explicit Outliner(const Environment& environment);
 
-  const Node& node(std::uint32_t n) const { return nodes_[n]; }
+  const Node& node(std::uint32_t n) const { return nodes_[n]; }  // the first are those of Environment::spatial
   // Rows from top to bottom. With a filter, what matches and its ancestors, all open.
   std::vector<OutlinerRow> rows(const Environment& environment, const std::string& filter) const;
   bool expanded(std::uint32_t node) const { return expanded_.count(node) != 0; }

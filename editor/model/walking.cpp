@@ -54,6 +54,16 @@ bool begin(Model& model, const std::shared_ptr<const WalkedGround>& ground, cons
   return true;
 }
 
+// A room or storey that is selected as a whole is so no longer for whoever stands in it: all that he sees would have
+// the colour of the selection.
+void deselectAround(Model& model, const std::vector<std::uint32_t>& room) {
+  const auto& selected = model.selection.products();
+  if (room.empty() || !std::includes(selected.begin(), selected.end(), room.begin(), room.end())) return;
+  std::vector<std::uint32_t> left;
+  std::set_difference(selected.begin(), selected.end(), room.begin(), room.end(), std::back_inserter(left));
+  model.selection.set(std::move(left));
+}
+
 // What the middle of the picture shows.
 std::optional<Eigen::Vector3d> lookedAt(const Model& model) {
   const auto ray = rayThrough(model.view.camera, model.view.size / 2, model.view.size);
@@ -119,11 +129,13 @@ void teleport(Model& model, const RayHit& hit) {
 }
 
 void jumpToRoom(Model& model, std::uint32_t product) {
-  jump(model, [product, body = model.walker](const WalkedGround& ground) -> Result<StartPlace> {
-    if (auto place = placeInRoom(*ground.environment, product, *ground.collision, ground.obstacles, body))
-      return *place;
-    return tl::unexpected(
-        nowhere(trf("No floor to stand on in room {}", readableName(ground.environment->products[product]))));
+  jump(model, [&model, product, body = model.walker](const WalkedGround& ground) -> Result<StartPlace> {
+    const auto place = placeInRoom(*ground.environment, product, *ground.collision, ground.obstacles, body);
+    if (!place)
+      return tl::unexpected(
+          nowhere(trf("No floor to stand on in room {}", readableName(ground.environment->products[product]))));
+    deselectAround(model, {product});
+    return *place;
   });
 }
 
@@ -145,10 +157,12 @@ void jumpToStorey(Model& model, std::int32_t node) {
                                                                    ? low + kHighestStorey_m
                                                                    : std::next(storey)->elevation_m - kStoreySill;
   jump(model, [&model, low, high, node, body = model.walker](const WalkedGround& ground) -> Result<StartPlace> {
-    if (auto place = placeOnLevel(*ground.environment, *ground.collision, ground.obstacles, body, low, high))
-      return *place;
-    return tl::unexpected(nowhere("No floor of 2 m² to stand on in " +
-                                  model.environment()->spatial[static_cast<std::size_t>(node)].name));
+    const auto place = placeOnLevel(*ground.environment, *ground.collision, ground.obstacles, body, low, high);
+    if (!place)
+      return tl::unexpected(nowhere("No floor of 2 m² to stand on in " +
+                                    model.environment()->spatial[static_cast<std::size_t>(node)].name));
+    deselectAround(model, model.outliner.tree.productsBelow(static_cast<std::uint32_t>(node)));
+    return *place;
   });
 }
 

@@ -49,6 +49,8 @@ class Actions {
   virtual void flyTo(const Eigen::Vector3d& place) = 0;           // on a floor, local frame: looks at it from near
   virtual void showWorstPlace(const Eigen::Vector3d& place) = 0;  // local frame: marks it and brings it into view
   virtual void goToBookmark(std::size_t bookmark) = 0;            // index into the document's
+  virtual void goToRoom(std::uint32_t product) = 0;               // walks there
+  virtual void goToStorey(std::int32_t node) = 0;                 // likewise; index into Environment::spatial
   virtual void colourBy(ColourMode colour) = 0;
   virtual void showSide(ModelSide side) = 0;
   virtual void showReflectanceAt(double wavelength_nm) = 0;

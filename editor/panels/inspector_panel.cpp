@@ -352,6 +352,9 @@ void draw(const Model& model, PanelStates& states, Actions& actions) {
   ui::wrapped(productLabel(product));
   if (model.fonts.bold != nullptr) ImGui::PopFont();
   drawIdentity(model, product);
+  if (product.ifc_class == "IfcSpace" && !product.excluded &&
+      ui::button(ICON_WALK "  Go there###go-to-room", {}, {-FLT_MIN, 0}, "Walk into the room"))
+    actions.goToRoom(index);
   drawButtons(actions);
   drawPhysicalMaterial(model, state, actions, index);
   drawGeometry(model, state, index);

@@ -71,11 +71,37 @@ void drawEye(const Model& model, Actions& actions, const std::vector<std::uint32
   ImGui::PopStyleColor();
 }
 
+bool isRoom(const Model& model, const Outliner::Node& node) {
+  if (node.kind != OutlinerRow::Kind::product) return false;
+  const auto& product = model.environment()->products[node.index];
+  return product.ifc_class == "IfcSpace" && !product.excluded;
+}
+
+bool isStorey(const Model& model, const Outliner::Node& node) {
+  const auto& storeys = model.storeys();
+  return node.kind == OutlinerRow::Kind::spatial &&
+         std::any_of(storeys.begin(), storeys.end(),
+                     [&](const StoreyLevel& s) { return s.node == static_cast<std::int32_t>(node.index); });
+}
+
+// Into a room, or onto a storey.
+void goTo(const Model& model, Actions& actions, const Outliner::Node& node) {
+  if (isRoom(model, node))
+    actions.goToRoom(node.index);
+  else
+    actions.goToStorey(static_cast<std::int32_t>(node.index));
+}
+
 // For all that is chosen; a row that is not becomes so.
 void productMenu(const Model& model, OutlinerState& state, Actions& actions, const std::vector<OutlinerRow>& rows,
                  int index, bool chosen) {
   if (!ImGui::BeginPopupContextItem("###row-menu")) return;
   if (ImGui::IsWindowAppearing() && !chosen) choose(model, state, actions, rows, index);
+  const auto& node = model.outliner.tree.node(rows[static_cast<std::size_t>(index)].node);
+  if (isRoom(model, node) || isStorey(model, node)) {
+    if (ui::menuItem(ICON_WALK, tr("Go there") + "###row-go-there", nullptr, {})) goTo(model, actions, node);
+    ImGui::Separator();
+  }
   for (const char* id : {"frame", "hide", "isolate", "show-all"}) actions.menuItem(id);
   ImGui::Separator();
   for (const char* id : {"exclude", "keep", "by-rules"}) actions.menuItem(id);
@@ -94,11 +120,15 @@ void drawRow(const Model& model, OutlinerState& state, Actions& actions, const s
   if (ImGui::Selectable("###row", chosen, ImGuiSelectableFlags_AllowItemOverlap | ImGuiSelectableFlags_AllowDoubleClick,
                         {0, model.px(19)})) {
     const bool on_arrow = ImGui::GetIO().MousePos.x < ImGui::GetWindowPos().x + left + indent + model.px(16);
-    if (row.expandable && (on_arrow || ImGui::IsMouseDoubleClicked(0)))
+    const bool twice = ImGui::IsMouseDoubleClicked(0), room = isRoom(model, node);
+    if (row.expandable && (on_arrow || (twice && !room)))
       actions.expand(row.node, !row.expanded);
     else
       choose(model, state, actions, rows, index);
-    if (product && ImGui::IsMouseDoubleClicked(0)) actions.frameSelection();
+    if (room && twice && !on_arrow)
+      goTo(model, actions, node);
+    else if (product && twice)
+      actions.frameSelection();
   }
   const bool hovered = ImGui::IsItemHovered();
   productMenu(model, state, actions, rows, index, chosen);

@@ -76,6 +76,8 @@ void PanelActions::bringIntoView(const Bounds& box) { editor_.bringIntoView(box)
 void PanelActions::flyTo(const Eigen::Vector3d& place) { standpoint::flyTo(editor_, place); }
 void PanelActions::showWorstPlace(const Eigen::Vector3d& place) { standpoint::showWorstPlace(editor_, place); }
 void PanelActions::goToBookmark(std::size_t bookmark) { standpoint::goToBookmark(editor_, bookmark); }
+void PanelActions::goToRoom(std::uint32_t product) { jumpToRoom(editor_, product); }
+void PanelActions::goToStorey(std::int32_t node) { jumpToStorey(editor_, node); }
 void PanelActions::colourBy(ColourMode colour) { editor_.view.colour = colour; }
 void PanelActions::showSide(ModelSide side) { editor_.view.side = side; }
 void PanelActions::showReflectanceAt(double wavelength_nm) { editor_.view.wavelength_nm = wavelength_nm; }

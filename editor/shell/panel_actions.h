@@ -34,6 +34,8 @@ class PanelActions final : public Actions {
   void flyTo(const Eigen::Vector3d& place) override;
   void showWorstPlace(const Eigen::Vector3d& place) override;
   void goToBookmark(std::size_t bookmark) override;
+  void goToRoom(std::uint32_t product) override;
+  void goToStorey(std::int32_t node) override;
   void colourBy(ColourMode colour) override;
   void showSide(ModelSide side) override;
   void showReflectanceAt(double wavelength_nm) override;

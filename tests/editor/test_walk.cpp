@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "core/data_folder.h"
+#include "demo_document.h"
 #include "demo_verbs.h"
+#include "editor/panels/outliner_panel.h"
 #include "editor/shell/actions.h"
 #include "editor/widgets/keyboard.h"
 #include "item_probe.h"
@@ -243,6 +245,76 @@ TEST_F(Walking, JumpsToARoomAndToAStationByName) {
   EXPECT_EQ(walkPlaceName(editor), "Ground floor");
   choose("living room");  // as anybody asks who does not know the signs
   EXPECT_EQ(walkPlaceName(editor), "Living room · Ground floor");
+}
+
+TEST_F(Walking, GoesToARoomOrStoreyOfTheOutlinerWhichIsSelectedNoLonger) {
+  const auto room = productNamed(*editor.environment(), "Living room");
+  const auto outline = [&](const char* filter) {
+    editor.panels.of<OutlinerState>().filter = filter;
+    stopWalking(editor);
+    editor.selection.clear();
+    gui.frames(3);
+  };
+  const auto row = [&](const std::string& label) {
+    const auto rows = editor.outliner.tree.rows(*editor.environment(), editor.panels.of<OutlinerState>().filter);
+    std::size_t place = 0;
+    while (place < rows.size() && editor.outliner.tree.node(rows[place].node).label != label) ++place;
+    for (const auto& item : itemProbe().items)
+      if (item.label == "###row" && place-- == 0) return item.rect.GetCenter();
+    return ImVec2(-1, -1);
+  };
+  const auto arrive = [&] {
+    editor.walk_ground.wait();
+    gui.frames(3);
+    return editor.walk.active() ? walkPlaceName(editor) : "";
+  };
+  outline("living");
+  gui.moveTo(row("Living room"));
+  gui.press(1);
+  gui.frames(2);
+  EXPECT_EQ(editor.selection.products(), std::vector{room});
+  ASSERT_TRUE(gui.click("###row-go-there"));
+  EXPECT_EQ(arrive(), "Living room · Ground floor");
+  EXPECT_TRUE(editor.selection.empty()) << "it would be all blue around";
+  outline("living");
+  gui.moveTo(row("Living room"));
+  gui.press();
+  gui.press();  // a double click
+  EXPECT_EQ(arrive(), "Living room · Ground floor");
+  EXPECT_TRUE(editor.selection.empty());
+  outline("");
+  gui.moveTo(row("Upper floor"));
+  gui.press(1);
+  gui.frames(2);
+  EXPECT_FALSE(editor.selection.empty());
+  ASSERT_TRUE(gui.click("###row-go-there"));
+  EXPECT_EQ(arrive(), "Upper floor");
+  EXPECT_TRUE(editor.selection.empty());
+  outline("");
+  gui.moveTo(row("House"));
+  gui.press(1);
+  gui.frames(2);
+  EXPECT_EQ(gui.find("###row-go-there"), nullptr) << "a building is no place";
+}
+
+TEST_F(Walking, GoesToTheRoomThatTheInspectorShowsAndLeavesOtherProductsSelected) {
+  const auto room = productNamed(*editor.environment(), "Living room"),
+             wall = productNamed(*editor.environment(), "Wall east OG");
+  editor.wanted_tab[1] = "inspector";
+  editor.select(wall, true);
+  gui.frames(3);
+  EXPECT_EQ(gui.find("###go-to-room"), nullptr);
+  jumpToRoom(editor, room);
+  editor.walk_ground.wait();
+  gui.frames(3);
+  EXPECT_EQ(editor.selection.products(), std::vector{wall}) << "it is looked for from there";
+  editor.select(room, true);
+  gui.frames(3);
+  ASSERT_TRUE(gui.click("###go-to-room"));
+  editor.walk_ground.wait();
+  gui.frames(3);
+  EXPECT_EQ(walkPlaceName(editor), "Living room · Ground floor");
+  EXPECT_TRUE(editor.selection.empty());
 }
 
 TEST_F(Walking, UndoTakesBackAJumpBeforeAnyChangeOfTheDocument) {
