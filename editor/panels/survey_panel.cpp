@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -35,7 +36,19 @@ void drawOlder(const Station& station, const std::string& age) {
   ImGui::SameLine();
 }
 
-void drawStationRow(const Model& model, Actions& actions, const Station& station, int i) {
+std::string placeText(const Eigen::Vector3d& p, int decimals) {
+  return fmt::format("{:.{}f}  {:.{}f}  {:.{}f}", p.x(), decimals, p.y(), decimals, p.z(), decimals);
+}
+
+// Of all places of a list: as many as tell what was typed, but no more than there is room for.
+int decimalsOf(const std::vector<Eigen::Vector3d>& places, float width) {
+  const auto inCentimetres = [](double x) { return std::abs(100 * x - std::round(100 * x)) < 0.05; };
+  const auto coarse = [&](const Eigen::Vector3d& p) { return std::all_of(p.begin(), p.end(), inCentimetres); };
+  const auto fits = [&](const Eigen::Vector3d& p) { return ImGui::CalcTextSize(placeText(p, 3).c_str()).x <= width; };
+  return !std::all_of(places.begin(), places.end(), coarse) && std::all_of(places.begin(), places.end(), fits) ? 3 : 2;
+}
+
+void drawStationRow(const Model& model, Actions& actions, const Station& station, int i, int decimals) {
   ImGui::PushID(i);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
@@ -49,9 +62,8 @@ void drawStationRow(const Model& model, Actions& actions, const Station& station
   ImGui::TextColored(colour(tone::kStation), "%s", ICON_STATION);
   ImGui::SameLine();
   ui::fitted(station.name, ImGui::GetContentRegionAvail().x);
-  const Eigen::Vector3d p = station.true_pose.translation + model.shift_m();
   ImGui::TableNextColumn();
-  ui::fitted(fmt::format("{:.1f}  {:.1f}  {:.1f}", p.x(), p.y(), p.z()), ImGui::GetContentRegionAvail().x);
+  ui::fitted(placeText(station.true_pose.translation + model.shift_m(), decimals), ImGui::GetContentRegionAvail().x);
   ImGui::TableNextColumn();
   const auto age = ageText(station, model.session.document().job->targets);
   if (!age.empty()) drawOlder(station, age);
@@ -78,14 +90,20 @@ void drawStations(const Model& model, Actions& actions, const Job& job) {
   });
   const float height = std::min(
       model.px(26) + ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(job.stations.size()), model.px(260));
+  const float name = model.px(70), scans = model.px(38);
+  const auto& style = ImGui::GetStyle();
+  std::vector<Eigen::Vector3d> places;
+  for (const auto& s : job.stations) places.emplace_back(s.true_pose.translation + model.shift_m());
+  const int decimals = decimalsOf(
+      places, ImGui::GetContentRegionAvail().x - name - scans - 6 * style.CellPadding.x - style.ScrollbarSize);
   if (!ImGui::BeginTable("stations", 3, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg, {0, height})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn(ui::Label("Name"), ImGuiTableColumnFlags_WidthFixed, model.px(70));
+  ImGui::TableSetupColumn(ui::Label("Name"), ImGuiTableColumnFlags_WidthFixed, name);
   ImGui::TableSetupColumn("X  Y  Z", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn(ui::Label("Scans"), ImGuiTableColumnFlags_WidthFixed, model.px(38));
+  ImGui::TableSetupColumn(ui::Label("Scans"), ImGuiTableColumnFlags_WidthFixed, scans);
   ImGui::TableHeadersRow();
   for (int i = 0; i < static_cast<int>(job.stations.size()); ++i)
-    drawStationRow(model, actions, job.stations[static_cast<std::size_t>(i)], i);
+    drawStationRow(model, actions, job.stations[static_cast<std::size_t>(i)], i, decimals);
   ImGui::EndTable();
 }
 

@@ -63,6 +63,25 @@ TEST_F(Inspector, SaysOfAStationWhatWasSaidOfItsPlaceWhileItWasHeldThere) {
   EXPECT_FALSE(gui.says("Good place"));
 }
 
+TEST_F(Inspector, TheListOfStationsHasTheDecimalsThatWereTyped) {
+  editor.workspace = Workspace::survey;
+  editor.wanted_tab[0] = "survey";
+  editor.settings.areas[static_cast<std::size_t>(Workspace::survey)].left = 500;
+  editor.survey.station = 0;
+  editor.wanted_tab[1] = "inspector";
+  gui.frames(4);
+  EXPECT_TRUE(gui.says("500003.20  5800002.00  51.60"));
+  typeInto("###inspected-X", "500003.4-0.35");
+  EXPECT_TRUE(gui.says("500003.05  5800002.00  51.60"));
+  EXPECT_TRUE(gui.says("500007.50  5800005.00  51.60"));
+  typeInto("###inspected-X", "500003.055");
+  EXPECT_TRUE(gui.says("500003.055  5800002.000  51.600"));
+  EXPECT_TRUE(gui.says("500007.500  5800005.000  51.600")) << "all alike";
+  editor.settings.areas[static_cast<std::size_t>(Workspace::survey)].left = 300;
+  gui.frames(3);
+  EXPECT_FALSE(gui.says("500007.500")) << "no room for them";
+}
+
 TEST_F(Inspector, OffersTheStandThatTheRefusalOfAPlaceByTheFloorAdvises) {
   editor.survey.station = 0;
   gui.frames(3);
