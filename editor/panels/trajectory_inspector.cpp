@@ -109,7 +109,55 @@ void bringPathIntoView(const Model& model, Actions& actions, const CarriedTrajec
   actions.bringIntoView(around);
 }
 
-void drawRow(const Model& model, Actions& actions, const CarriedTrajectory& trajectory, int i) {
+bool isKnown(const TrajectoryWay* way) { return way != nullptr && way->problem.empty(); }
+
+std::string lengthOf(const TrajectoryWay* way) {
+  return isKnown(way) ? fmt::format("{:.1f} m", way->length_m) : way == nullptr ? "…" : "–";
+}
+
+std::string durationOf(const TrajectoryWay* way) {
+  return isKnown(way) ? durationText(way->seconds) : way == nullptr ? "…" : "–";
+}
+
+// What its row has no room for.
+std::string aboutTrajectory(const TrajectoryWay* way, const CarriedTrajectory& trajectory) {
+  std::string text = fmt::format("{}: {}", tr("Carrier"), carrierOf(trajectory));
+  if (isKnown(way))
+    text += fmt::format("\n{}: {}\n{}: {}", tr("Length"), lengthOf(way), tr("Duration"), durationOf(way));
+  if (way != nullptr && !way->problem.empty()) text += "\n" + way->problem;
+  if (way != nullptr && !way->obstacles.empty())
+    text += "\n" + trn("It goes through {} surface", "It goes through {} surfaces", way->obstacles.size(),
+                       way->obstacles.size());
+  return text;
+}
+
+// Of the list, in points of the screen; 0 of one that it has no room for. A name has what they leave.
+struct FigureColumns {
+  float length = 0, duration = 0, scans = 0;
+};
+
+FigureColumns columnsBeside(const Model& model, const Job& job) {
+  const auto wide = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
+  FigureColumns wanted{wide(tr("Length")), wide(tr("Duration")), wide(tr("Scans"))};
+  for (std::size_t i = 0; i < job.trajectories.size(); ++i) {
+    const auto* way = model.trajectory_ways.of(i);
+    wanted.length = std::max(wanted.length, wide(lengthOf(way)));
+    wanted.duration = std::max(wanted.duration, wide(durationOf(way)));
+  }
+  const auto& style = ImGui::GetStyle();
+  const float gap = 2 * style.CellPadding.x, name = model.px(120);
+  float left = ImGui::GetContentRegionAvail().x - style.ScrollbarSize - wanted.scans - 2 * gap - name;
+  FigureColumns columns{0, 0, wanted.scans};
+  for (const auto column : {&FigureColumns::length, &FigureColumns::duration}) {
+    if (left < wanted.*column + gap) break;
+    left -= wanted.*column + gap;
+    columns.*column = wanted.*column;
+  }
+  return columns;
+}
+
+void drawRow(const Model& model, Actions& actions, const CarriedTrajectory& trajectory, int i,
+             const FigureColumns& columns) {
   const auto* way = model.trajectory_ways.of(static_cast<std::size_t>(i));
   const bool troubled = way != nullptr && (!way->problem.empty() || !way->obstacles.empty());
   ImGui::PushID(i);
@@ -120,22 +168,19 @@ void drawRow(const Model& model, Actions& actions, const CarriedTrajectory& traj
     actions.inspect(SurveyChoice{.trajectory = i});
     if (ImGui::IsMouseDoubleClicked(0)) bringPathIntoView(model, actions, trajectory);
   }
-  if (troubled)
-    ui::tooltip(way->problem.empty() ? trn("It goes through {} surface", "It goes through {} surfaces",
-                                           way->obstacles.size(), way->obstacles.size())
-                                     : way->problem);
+  ui::tooltip(aboutTrajectory(way, trajectory));
   ImGui::SameLine(0, 0);
   ImGui::TextColored(colour(troubled ? tone::kWarning : tone::kStation), "%s", troubled ? ICON_WARNING : ICON_WALK);
   ImGui::SameLine();
   ui::fitted(trajectory.name, ImGui::GetContentRegionAvail().x);
-  ImGui::TableNextColumn();
-  ui::fitted(carrierOf(trajectory), ImGui::GetContentRegionAvail().x);
-  const bool known = way != nullptr && way->problem.empty();
-  const std::string none = way == nullptr ? "…" : "–";
-  ImGui::TableNextColumn();
-  ui::textRightAligned(known ? fmt::format("{:.1f} m", way->length_m) : none);
-  ImGui::TableNextColumn();
-  ui::textRightAligned(known ? durationText(way->seconds) : none);
+  if (columns.length > 0) {
+    ImGui::TableNextColumn();
+    ui::textRightAligned(lengthOf(way));
+  }
+  if (columns.duration > 0) {
+    ImGui::TableNextColumn();
+    ui::textRightAligned(durationOf(way));
+  }
   ImGui::TableNextColumn();
   ui::textRightAligned(trajectory.scans.empty() ? "–" : std::to_string(trajectory.scans.size()));
   ImGui::PopID();
@@ -413,18 +458,23 @@ void drawTrajectories(const Model& model, Actions& actions) {
     ui::dimWrapped("No trajectories. They carry mobile scanners.");
     return;
   }
-  if (!ImGui::BeginTable("trajectories", 5, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg,
+  const auto columns = columnsBeside(model, *job);
+  const int count = 2 + static_cast<int>(columns.length > 0) + static_cast<int>(columns.duration > 0);
+  if (!ImGui::BeginTable(fmt::format("trajectories-{}", count).c_str(), count,
+                         ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg,
                          {0, listHeight(model, job->trajectories.size())}))
     return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn(ui::Label("Name"), ImGuiTableColumnFlags_WidthStretch, 1.4F);
-  ImGui::TableSetupColumn(ui::Label("Carrier"), ImGuiTableColumnFlags_WidthStretch, 1);
-  ImGui::TableSetupColumn(ui::Label("Length"), ImGuiTableColumnFlags_WidthFixed, model.px(52));
-  ImGui::TableSetupColumn(ui::Label("Duration"), ImGuiTableColumnFlags_WidthFixed, model.px(58));
-  ImGui::TableSetupColumn(ui::Label("Scans"), ImGuiTableColumnFlags_WidthFixed, model.px(38));
+  ImGui::TableSetupColumn(ui::Label("Name"), ImGuiTableColumnFlags_WidthStretch);
+  const auto setUp = [](const char* label, float width) {
+    if (width > 0) ImGui::TableSetupColumn(ui::Label(label), ImGuiTableColumnFlags_WidthFixed, width);
+  };
+  setUp("Length", columns.length);
+  setUp("Duration", columns.duration);
+  setUp("Scans", columns.scans);
   ImGui::TableHeadersRow();
   for (int i = 0; i < static_cast<int>(job->trajectories.size()); ++i)
-    drawRow(model, actions, job->trajectories[static_cast<std::size_t>(i)], i);
+    drawRow(model, actions, job->trajectories[static_cast<std::size_t>(i)], i, columns);
   ImGui::EndTable();
 }
 

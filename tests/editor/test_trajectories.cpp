@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -91,6 +92,32 @@ TEST_F(Trajectories, AreLaidByClicksAndChosenWhenTheyAreThere) {
   editor.session.undo();
   gui.frames(3);
   EXPECT_TRUE(job().trajectories.empty());
+}
+
+TEST_F(Trajectories, TheirNamesHaveTheRoomOfANarrowListAndTheirFiguresWhatIsLeft) {
+  lay();
+  ASSERT_TRUE(editor.session.start("trajectory", {{"rename", "W1"}, {"name", "Upper corridor"}}));
+  settle();
+  editor.survey = {};
+  editor.workspace = Workspace::instrument;
+  editor.wanted_tab[0] = "survey";
+  auto& left = editor.settings.areas[static_cast<std::size_t>(Workspace::instrument)].left;
+  left = 230;
+  gui.frames(3);
+  EXPECT_TRUE(gui.says("Upper corridor"));
+  EXPECT_FALSE(gui.says("Duration"));
+  const auto length = fmt::format("{:.1f} m", editor.trajectory_ways.of(0)->length_m);
+  EXPECT_FALSE(gui.says(length));
+  gui.moveTo(gui.find("###trajectory")->rect.GetCenter());
+  gui.frames(40);  // it rests
+  EXPECT_TRUE(gui.says("Carrier: "));
+  EXPECT_TRUE(gui.says(length)) << "in the tooltip";
+  left = 420;
+  gui.moveTo({700, 700});
+  gui.frames(3);
+  EXPECT_TRUE(gui.says("Upper corridor"));
+  EXPECT_TRUE(gui.says("Duration"));
+  EXPECT_TRUE(gui.says(length));
 }
 
 TEST_F(Trajectories, TheLastWaypointIsTakenBackAndEscGivesAllOfThemUp) {
