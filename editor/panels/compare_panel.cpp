@@ -49,7 +49,8 @@ void chooseCloud(float width, Actions& actions, const char* id, const std::vecto
                  ComparedPart& part, PanelStates& states, bool is_a) {
   ImGui::SetNextItemWidth(width);
   const auto name = nameOf(clouds, part);
-  const bool open = ImGui::BeginCombo(id, name.c_str());
+  const float room = width - ImGui::GetFrameHeight() - 2 * ImGui::GetStyle().FramePadding.x;  // beside its arrow
+  const bool open = ImGui::BeginCombo(id, ui::fittingMiddle(name, room).c_str());
   if (!open) {
     ui::tooltip(name);
     return;
@@ -130,7 +131,7 @@ void drawBars(const Model& model, const Row& row) {
 void drawRow(const Model& model, const Row& row) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  ui::fitted(row.unit.empty() ? row.name : row.name + ", " + row.unit, ImGui::GetContentRegionAvail().x);
+  ui::fittedMiddle(row.unit.empty() ? row.name : row.name + ", " + row.unit, ImGui::GetContentRegionAvail().x);
   for (const auto& text : {number(row.a, row.decimals), number(row.b, row.decimals), changeText(row)}) {
     ImGui::TableNextColumn();
     ui::textRightAligned(text);
@@ -152,11 +153,15 @@ void drawTable(const Model& model, const std::vector<Row>& rows, const char* id)
 }
 
 // Those that both have.
-std::vector<Row> materialRows(const CompareAnswer& answer) {
+std::vector<Row> materialRows(const Model& model, const CompareAnswer& answer) {
+  const auto name = [&](const std::string& id) {
+    const auto* material = model.offeredMaterial(id);
+    return material != nullptr ? tr(material->label) : id;
+  };
   std::vector<Row> rows;
   for (const auto& a : answer.a.materials)
     for (const auto& b : answer.b.materials)
-      if (a.material == b.material) rows.push_back({a.material, "", a.mean, b.mean, 4});
+      if (a.material == b.material) rows.push_back({name(a.material), "", a.mean, b.mean, 4});
   return rows;
 }
 
@@ -164,7 +169,7 @@ void drawAnswer(const Model& model, const CompareState& state, const CompareAnsw
                 const std::vector<InspectedCloud>& clouds) {
   const auto a = nameOf(clouds, state.shown_a), b = nameOf(clouds, state.shown_b);
   auto rows = rowsOf(answer);
-  const auto materials = materialRows(answer);
+  const auto materials = materialRows(model, answer);
   if (ui::iconButton(ICON_COPY "###copy-compare", "Copy table")) {
     rows.insert(rows.end(), materials.begin(), materials.end());
     ImGui::SetClipboardText(rowsText(tableOf(rows, a, b)).c_str());

@@ -74,10 +74,10 @@ bool drawMaterial(const Model& model, Actions& actions, const PhysicalMaterial* 
   ui::swatch(model, materialColour(material));
   ImGui::SameLine();
   if (unassigned) ImGui::PushStyleColor(ImGuiCol_Text, tone::kUnassigned);
-  ui::fitted(unassigned            ? tr("Unassigned")
-             : material != nullptr ? tr(material->label)
-                                   : id,
-             ImGui::GetContentRegionAvail().x);
+  ui::fittedMiddle(unassigned            ? tr("Unassigned")
+                   : material != nullptr ? tr(material->label)
+                                         : id,
+                   ImGui::GetContentRegionAvail().x);
   if (unassigned) ImGui::PopStyleColor();
   return pressed;
 }
@@ -118,14 +118,21 @@ TableRows libraryTable(const Model& model, const MaterialsState& state) {
 void drawUses(const Model& model, MaterialsState& state, Actions& actions, const MaterialResult& result, float height) {
   const auto flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX;
   if (!ImGui::BeginTable("uses", 4, flags, {0, height})) return;
+  auto uses = result.report.uses;
+  // Figures take the room that they need; a name has what is left.
+  const auto wide = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
+  const auto wavelength = fmt::format("{:.0f}", model.view.wavelength_nm);
+  float area = wide("m²"), share = std::max(wide("100 %"), wide(wavelength)), count = wide("n");
+  for (const auto& use : uses) {
+    area = std::max(area, wide(fmt::format("{:.1f}", use.area_m2)));
+    count = std::max(count, wide(std::to_string(use.products.size())));
+  }
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn(ui::Label("Material"), ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("m²", ImGuiTableColumnFlags_WidthFixed, model.px(52));
-  ImGui::TableSetupColumn(fmt::format("{:.0f}", model.view.wavelength_nm).c_str(), ImGuiTableColumnFlags_WidthFixed,
-                          model.px(40));
-  ImGui::TableSetupColumn("n", ImGuiTableColumnFlags_WidthFixed, model.px(30));
+  ImGui::TableSetupColumn("m²", ImGuiTableColumnFlags_WidthFixed, area);
+  ImGui::TableSetupColumn(wavelength.c_str(), ImGuiTableColumnFlags_WidthFixed, share);
+  ImGui::TableSetupColumn("n", ImGuiTableColumnFlags_WidthFixed, count);
   ImGui::TableHeadersRow();
-  auto uses = result.report.uses;
   std::stable_partition(uses.begin(), uses.end(), [](const MaterialUse& u) { return u.material.empty(); });
   for (const auto& use : uses) {
     const auto* material = use.material.empty() ? nullptr : materialById(result.assignment, use.material);

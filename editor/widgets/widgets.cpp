@@ -7,6 +7,7 @@
 #include <iterator>
 #include <sstream>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <imgui_internal.h>
@@ -446,6 +447,28 @@ std::string fittingText(const std::string& text, float width) {
     if (!cut.empty()) cut.pop_back();
   }
   return cut + "…";
+}
+
+std::string fittingMiddle(const std::string& text, float width) {
+  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
+  std::vector<std::size_t> letters;  // where each begins
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) letters.push_back(i);
+  if (letters.empty()) return text;
+  const auto cut = [&](std::size_t kept) {
+    const std::size_t tail = kept / 2;
+    return text.substr(0, letters[kept - tail]) + "…" +
+           (tail > 0 ? text.substr(letters[letters.size() - tail]) : std::string());
+  };
+  std::size_t kept = letters.size() - 1;
+  while (kept > 0 && ImGui::CalcTextSize(cut(kept).c_str()).x > width) --kept;
+  return cut(kept);
+}
+
+void fittedMiddle(const Text& text, float width) {
+  const auto shown = fittingMiddle(text, width);
+  ImGui::TextUnformatted(shown.c_str());
+  if (shown != static_cast<const std::string&>(text)) tooltip(text);
 }
 
 void fitted(const Text& text, float width) {

@@ -103,8 +103,11 @@ float shareOfRow(int count);
 std::string fittingLabel(const char* icon, const char* text, const char* id, float width);
 // The text, or as much of it before … as fits: for labels of buttons.
 std::string fittingText(const std::string& text, float width);
+// The same with … in its middle: names of one kind differ at either end.
+std::string fittingMiddle(const std::string& text, float width);
 // Cuts the text with … to what fits; the tooltip then has all of it.
 void fitted(const Text& text, float width);
+void fittedMiddle(const Text& text, float width);
 
 }  // namespace ui
 

@@ -42,6 +42,31 @@ class Wrapping : public testing::Test {
   GuiDriver gui{editor};
 };
 
+TEST_F(Wrapping, ANameIsCutInItsMiddleAndBetweenItsLetters) {
+  const std::string name = "Wärmedämmverbundsystem, mineralisch, 140 mm";
+  gui.draws = [&] {
+    ImGui::Begin("wrapping");
+    const auto wide = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
+    EXPECT_EQ(ui::fittingMiddle(name, wide(name)), name);
+    EXPECT_EQ(ui::fittingMiddle("", 10), "");
+    EXPECT_EQ(ui::fittingMiddle(name, 0), "…");
+    for (float width = wide("…"); width < wide(name); width += 5) {
+      const auto cut = ui::fittingMiddle(name, width);
+      EXPECT_LE(wide(cut), width);
+      const auto gap = cut.find("…");
+      ASSERT_NE(gap, std::string::npos);
+      const auto head = cut.substr(0, gap), tail = cut.substr(gap + std::string("…").size());
+      EXPECT_TRUE(name.starts_with(head) && name.ends_with(tail)) << cut;
+      const auto whole = [](const std::string& part) {  // no half letter
+        return part.empty() || (static_cast<unsigned char>(part.front()) & 0xC0U) != 0x80U;
+      };
+      EXPECT_TRUE(whole(name.substr(head.size())) && whole(tail)) << cut;
+    }
+    ImGui::End();
+  };
+  gui.frame();
+}
+
 TEST_F(Wrapping, KeepsANumberWholeAndBesideItsUnit) {
   const std::string text =
       "IfcSlab #12 'Floor' is 0.08 m above the instrument centre, which needs 0.20 m of headroom: lower it by 1,234.5 "
