@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -31,6 +32,23 @@ void stripes(const Style& style, ImVec2 from, ImVec2 to) {
   list.PopClipRect();
 }
 
+// What has been said of each job that is shown. A job that is no longer asked for may have left its address to another.
+TimeLeft& timeLeftOf(const Progress& progress, double seconds_so_far) {
+  struct Kept {
+    TimeLeft left;
+    double seconds_so_far = 0;
+    int frame = 0;
+  };
+  static std::unordered_map<const Progress*, Kept> jobs;
+  const int frame = ImGui::GetFrameCount();
+  std::erase_if(jobs, [&](const auto& job) { return frame < job.second.frame || frame > job.second.frame + 1; });
+  auto& job = jobs[&progress];
+  if (seconds_so_far < job.seconds_so_far) job = {};
+  job.seconds_so_far = seconds_so_far;
+  job.frame = frame;
+  return job.left;
+}
+
 }  // namespace
 
 void jobBar(const Style& style, const Progress& progress, float width) {
@@ -45,7 +63,7 @@ std::string jobText(const Progress& progress, double seconds_so_far) {
     if (!part.empty()) text += (text.empty() ? "" : "   ") + part;
   };
   if (known(progress)) add(fmt::format("{:.0f} %", progress.fraction() * 100));
-  add(timeLeftText(progress.fraction(), seconds_so_far));
+  add(timeLeftText(timeLeftOf(progress, seconds_so_far).after(progress.fraction(), seconds_so_far)));
   return text;
 }
 

@@ -150,18 +150,40 @@ TEST_F(Wake, TicksWhileAJobRunsAndNeverWhenIdle) {
   EXPECT_EQ(events.ticks, 1);
 }
 
-TEST(TimeLeft, IsSaidFromATenthOrTwoSecondsOn) {
-  EXPECT_FALSE(timeLeft(0.05, 1)) << "too early";
-  ASSERT_TRUE(timeLeft(0.1, 1));
-  EXPECT_DOUBLE_EQ(*timeLeft(0.1, 1), 9);
-  ASSERT_TRUE(timeLeft(0.05, 2));
-  EXPECT_DOUBLE_EQ(*timeLeft(0.05, 2), 38);
-  EXPECT_FALSE(timeLeft(0, 60)) << "nothing is known";
-  EXPECT_FALSE(timeLeft(0.5, 0)) << "nor how long it took";
-  EXPECT_FALSE(timeLeft(1, 60)) << "only the end is missing";
-  EXPECT_EQ(timeLeftText(0.5, 30), "30 s left");
-  EXPECT_EQ(timeLeftText(0.5, 125), "2:05 min left");
-  EXPECT_EQ(timeLeftText(0, 125), "");
+TEST(TimeLeft, IsSaidWhenEnoughIsDoneToTell) {
+  const auto first = [](double fraction, double seconds) { return TimeLeft().after(fraction, seconds); };
+  EXPECT_FALSE(first(0.3, 1)) << "too early";
+  EXPECT_FALSE(first(0.05, 3)) << "too little";
+  ASSERT_TRUE(first(0.1, 2));
+  EXPECT_DOUBLE_EQ(*first(0.1, 2), 18);
+  ASSERT_TRUE(first(0.02, 10)) << "of a long one a fiftieth is enough";
+  EXPECT_DOUBLE_EQ(*first(0.02, 10), 490);
+  EXPECT_FALSE(first(0, 60)) << "nothing is known";
+  EXPECT_FALSE(first(0.5, 0)) << "nor how long it took";
+  EXPECT_FALSE(first(1, 60)) << "only the end is missing";
+  EXPECT_EQ(timeLeftText(30), "30 s left");
+  EXPECT_EQ(timeLeftText(124.2), "2:05 min left");
+  EXPECT_EQ(timeLeftText({}), "");
+}
+
+TEST(TimeLeft, NeverRises) {
+  TimeLeft steady;
+  ASSERT_EQ(steady.after(0.25, 4), 12);
+  EXPECT_EQ(steady.after(0.3, 6), 12) << "a little slower: it waits";
+  EXPECT_EQ(steady.after(0.5, 8), 8);
+  TimeLeft late;
+  ASSERT_EQ(late.after(0.25, 4), 12);
+  EXPECT_FALSE(late.after(0.25, 15)) << "it would be 45 s";
+  EXPECT_FALSE(late.after(0.5, 30));
+  EXPECT_EQ(late.after(0.75, 36), 12);
+  double before = 1e9;
+  TimeLeft slowing;
+  for (double done = 0.01; done < 1; done += 0.01)  // each hundredth takes longer
+    if (const auto left = slowing.after(done, 40 * done * done)) {
+      EXPECT_LE(*left, before);
+      before = *left;
+    }
+  EXPECT_LT(before, 1);
 }
 
 }  // namespace
