@@ -39,21 +39,18 @@ double phaseProgress(const Device& d) {
   return lasts > 0 ? std::clamp(d.state().elapsed_s / lasts, 0.0, 1.0) : 0;
 }
 
+double wholeScan_s(const Device& d) { return d.expected().scan_seconds + d.expected().imaging_seconds; }
+
 // What is done of the whole scan with its pictures, never further than the simulation behind it.
 double progress(const Device& d) {
   const auto& s = d.state();
   if (!s.running) return 0;
-  const double fraction =
-      std::clamp(s.scanned_s / std::max(1.0, d.expected().scan_seconds + d.expected().imaging_seconds), 0.0, 1.0);
+  const double fraction = std::clamp(s.scanned_s / std::max(1.0, wholeScan_s(d)), 0.0, 1.0);
   return s.data ? fraction : std::min(fraction, s.engine_fraction);
 }
 
-// By the instrument's clock, which may be ahead of the simulation.
-double remaining(const Device& d) {
-  return d.state().running
-             ? std::max(0.0, d.expected().scan_seconds + d.expected().imaging_seconds - d.state().scanned_s)
-             : 0;
-}
+// By the instrument's clock, as far as the scan has come: where that waits for the simulation, this does, too.
+double remaining(const Device& d) { return d.state().running ? (1 - progress(d)) * wholeScan_s(d) : 0; }
 
 double spacing(const Device& d) {
   const auto& e = d.expected();

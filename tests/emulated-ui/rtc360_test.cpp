@@ -232,8 +232,10 @@ TEST_F(Rtc360, WaitsForTheSimulationWhenItIsSlowerThanTheInstrument) {
   const auto order = d->takeOrder();
   d->orderMoved(0.4);
   ASSERT_TRUE(d->hand("plug_in"));
+  const double whole_s = d->expected().scan_seconds + d->expected().imaging_seconds;
   d->tick(100000);
   EXPECT_EQ(d.shows("progress"), "40 %") << "what is shown as done is done";
+  EXPECT_NEAR(d->number("remaining"), 0.6 * whole_s, 1e-6) << "and what is not is still to come";
   EXPECT_TRUE(d->busy());
   d.finish(std::get<ScanOrder>(*order));
   d->tick(10);
