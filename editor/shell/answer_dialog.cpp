@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "editor/desktop/file_list.h"
 #include "editor/model/option_form.h"
 #include "editor/model/table_text.h"
 #include "editor/shell/dialogs.h"
@@ -26,6 +27,7 @@ constexpr std::size_t kMostRows = 200, kOpenRows = 8;  // of a list: that are dr
 
 // "latitude_deg" → "Latitude, °"
 std::string readableKey(std::string key) {
+  if (key == "bytes") return tr("Size");
   std::string unit;
   for (const auto& [ending, written] :
        {std::pair{"_deg", "°"}, {"_mm", "mm"}, {"_nm", "nm"}, {"_m2", "m²"}, {"_m", "m"}})
@@ -81,6 +83,15 @@ std::string linesInWords(const std::string& text) {
   return all;
 }
 
+// Sizes as a folder shows them, large counts in groups of digits.
+std::string figureText(std::string_view key, const json& value) {
+  if (key == "bytes" && value.is_number_integer()) return readableSize(value.get<std::uint64_t>());
+  if ((key == "points" || key == "triangles") && value.is_number_integer())
+    return groupedDigits(value.get<std::uint64_t>());
+  if (isSaid(key)) return trSentence(scalarText(value));
+  return value.is_primitive() ? scalarText(value) : rowText(value);
+}
+
 void drawFigures(const json& object);
 
 void drawBranch(const std::string& title, const json& value) {
@@ -107,10 +118,7 @@ void drawBranch(const std::string& title, const json& value) {
 void drawFigures(const json& object) {
   if (ui::beginProperties("figures", 0.36F)) {
     for (const auto& [key, value] : object.items())
-      if (value.is_primitive() || isRow(value))
-        ui::property(readableKey(key), isSaid(key)            ? trSentence(scalarText(value))
-                                       : value.is_primitive() ? scalarText(value)
-                                                              : rowText(value));
+      if (value.is_primitive() || isRow(value)) ui::property(readableKey(key), figureText(key, value));
     ui::endProperties();
   }
   for (const auto& [key, value] : object.items())

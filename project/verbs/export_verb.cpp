@@ -122,6 +122,14 @@ std::size_t noteWithoutHull(const CollideResult& collision, const Environment& m
   return shapes;
 }
 
+std::uint64_t sizeWithCompanions(const fs::path& file) {
+  const auto extension = lowerExtension(file);
+  std::vector<fs::path> files = {file};
+  if (extension == ".gltf") files.push_back(fs::path(file).replace_extension(".bin"));
+  if (extension == ".obj") files.push_back(fs::path(file).replace_extension(".mtl"));
+  return sizeOf(files);
+}
+
 // One for each surface; empty where the project has no materials.
 std::vector<const PhysicalMaterial*> physicalSurfaces(const Document& document,
                                                       std::span<Environment* const> environments, LooksOfSplit looks) {
@@ -230,6 +238,7 @@ const AnswerFields<ExportAnswer>& answerFields(const ExportAnswer*) {
   using A = ExportAnswer;
   static const AnswerFields<A> fields = {{"file", &A::file},
                                          {"triangles", &A::triangles},
+                                         {"bytes", &A::bytes},
                                          {"schema", &A::schema, kLeftOut},
                                          {"levels", &A::levels, kLeftOut},
                                          {"collision_shapes", &A::collision_shapes, kLeftOut}};
@@ -258,7 +267,7 @@ Result<Answered<ExportAnswer>> runExport(const Document& document, const ExportO
   TRY(checkFolderOf(file, "--output"));
   Environment scene = ifc ? *document.environment() : sceneOf(*document.environment());
   dropUnusedMeshes(scene);
-  Answered<ExportAnswer> outcome{document, {file, triangleCount(scene), {}, {}, {}}};
+  Answered<ExportAnswer> outcome{document, {file, triangleCount(scene)}};
   TRY(ifc                  ? exportIfc(document, scene, file, outcome, progress)
       : gltf               ? exportGltf(document, scene, file, options, outcome, progress)
       : helios || physical ? exportPhysical(document, scene, file, helios, outcome.report, progress)
@@ -266,6 +275,7 @@ Result<Answered<ExportAnswer>> runExport(const Document& document, const ExportO
   if (const auto left_out = document.environment()->instances.size() - scene.instances.size(); left_out > 0)
     outcome.report.note(
         "spaces", fmt::format("{} bodies outside the scene (spaces, excluded products) were not exported", left_out));
+  outcome.answer.bytes = sizeWithCompanions(file);
   outcome.description = "Exported " + file.filename().string();
   return outcome;
 }

@@ -2,6 +2,7 @@
 #include "project/verbs/file_verbs.h"
 
 #include <algorithm>
+#include <memory>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -25,6 +26,24 @@ namespace {
 
 using nlohmann::json;
 namespace fs = std::filesystem;
+
+// Passes all on.
+class CountingSink final : public PointSink {
+ public:
+  CountingSink(PointSink& to, std::uint64_t& points) : to_(to), points_(points) {}
+  Result<void> begin(const ScanHeader& header) override { return to_.begin(header); }
+  Result<void> write(const PointBlock& block) override {
+    points_ += block.size();
+    return to_.write(block);
+  }
+  Result<void> picture(const StationPicture& picture) override { return to_.picture(picture); }
+  Result<void> end() override { return to_.end(); }
+  Result<void> close() override { return to_.close(); }
+
+ private:
+  PointSink& to_;
+  std::uint64_t& points_;
+};
 
 InfoSurvey surveyInfo(const Job& job) {
   InfoSurvey survey{job.stations.size(), job.targets.size(), 0, 0};
@@ -103,6 +122,14 @@ Result<Answered<ConvertAnswer>> convertTo(const ConvertOptions& options, Answere
 
 }  // namespace
 
+std::uint64_t sizeOf(const std::vector<fs::path>& files) {
+  std::uint64_t bytes = 0;
+  std::error_code error;
+  for (const auto& file : files)
+    if (const auto size = fs::file_size(file, error); !error) bytes += size;
+  return bytes;
+}
+
 const Fields<ConvertOptions>& convertFields() {
   using O = ConvertOptions;
   std::vector<const char*> sets;
@@ -130,7 +157,9 @@ const Fields<ConvertOptions>& convertFields() {
 }
 
 const AnswerFields<ConvertAnswer>& answerFields(const ConvertAnswer*) {
-  static const AnswerFields<ConvertAnswer> fields = {{"files", &ConvertAnswer::files}};
+  using A = ConvertAnswer;
+  static const AnswerFields<A> fields = {
+      {"files", &A::files}, {"points", &A::points, kLeftOut}, {"bytes", &A::bytes, kLeftOut}};
   return fields;
 }
 
@@ -149,10 +178,15 @@ Result<Answered<ConvertAnswer>> runConvert(const Document& document, const Conve
     TRY(mustExist(options.to_trajectory));
     TRY_ASSIGN(outcome.answer.files, placeAnew(in, options.out, options.as, options.from_trajectory,
                                                options.to_trajectory, outcome.report, progress));
+    outcome.answer.bytes = sizeOf(outcome.answer.files);
     outcome.description = "Placed " + in.filename().string() + " by another trajectory";
     return outcome;
   }
-  TRY_ASSIGN(outcome.answer.files, convertCloud(in, options.out, options.as, outcome.report, progress));
+  std::uint64_t points = 0;
+  const auto counted = [&](PointSink& writer) { return std::make_unique<CountingSink>(writer, points); };
+  TRY_ASSIGN(outcome.answer.files, convertCloud(in, options.out, options.as, outcome.report, progress, counted));
+  outcome.answer.points = points;
+  outcome.answer.bytes = sizeOf(outcome.answer.files);
   outcome.description = "Converted " + in.filename().string();
   return outcome;
 }

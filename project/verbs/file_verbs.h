@@ -23,6 +23,8 @@ namespace standpoint {
 
 std::span<const Choice<CollisionNaming>> choices(CollisionNaming);
 
+std::uint64_t sizeOf(const std::vector<std::filesystem::path>& files);  // in bytes, of those that are there
+
 struct ExportOptions {
   std::filesystem::path output;     // .glb, .gltf, .obj, or .xml for HELIOS++
   bool physical = false;            // of an .obj
@@ -39,6 +41,7 @@ const AnswerFields<ExportLevel>& answerFields(const ExportLevel*);
 struct ExportAnswer {
   std::filesystem::path file;
   std::uint64_t triangles = 0;
+  std::uint64_t bytes = 0;                      // of the file, and of the .bin or .mtl beside it
   std::optional<std::string> schema;            // of an IFC file
   std::vector<ExportLevel> levels;              // that were asked for
   std::optional<std::size_t> collision_shapes;  // likewise
@@ -57,6 +60,8 @@ const Fields<ConvertOptions>& convertFields();
 
 struct ConvertAnswer {
   std::vector<std::filesystem::path> files;  // written
+  std::optional<std::uint64_t> points;       // in them; not of a data set
+  std::optional<std::uint64_t> bytes;        // likewise
 };
 const AnswerFields<ConvertAnswer>& answerFields(const ConvertAnswer*);
 Result<Answered<ConvertAnswer>> runConvert(const Document& document, const ConvertOptions& options, Progress& progress);

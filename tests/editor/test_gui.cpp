@@ -644,8 +644,11 @@ TEST_F(Gui, AssignsTheChosenMaterialToWhatWasSelectedBeforeTheList) {
 
 TEST_F(Gui, AShortResultHasASmallDialogAndEnterSavesAPicture) {
   open();
-  editor.session.answers().push_back({"Exported", "2 files", {{"file", "a.glb"}, {"bytes", 12}}});
+  editor.session.answers().push_back(
+      {"Exported", "2 files", {{"file", "a.glb"}, {"bytes", 2411000}, {"triangles", 23842}}});
   gui.frames(4);
+  EXPECT_TRUE(gui.says("2.4 MB"));
+  EXPECT_TRUE(gui.says(groupedDigits(23842)));
   const auto* dialog = gui.find("###close-answer");
   ASSERT_NE(dialog, nullptr);
   const auto* window = ImGui::FindWindowByName(dialog->window.c_str());

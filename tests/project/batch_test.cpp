@@ -253,6 +253,27 @@ TEST(EmptyScan, OfASurfaceThatIsTooNearAllRoundSaysFromWhereOnTheInstrumentMeasu
   EXPECT_THAT(said(done->report), HasSubstr("closer than 0.50 m, the minimum range of the Leica RTC360"));
 }
 
+TEST(Batch, ConvertTellsHowManyPointsAndBytesItHasWritten) {
+  const TemporaryFolder folder;
+  const auto o = options(folder.path() / "s.e57");
+  ASSERT_TRUE(run("scan", threeStations(), o));
+  const auto converted = run("convert", Document(), {{"in", o["output"]}, {"out", (folder.path() / "s.ply").string()}});
+  ASSERT_TRUE(converted) << describe(converted.error());
+  Progress progress;
+  std::uint64_t points = 0, bytes = 0;
+  ASSERT_EQ(converted->answer.at("files").size(), 3U) << "a PLY holds one scan";
+  for (const auto& file : converted->answer.at("files")) {
+    const fs::path written = file.get<std::string>();
+    const auto measured = measureCloud(written, progress);
+    ASSERT_TRUE(measured);
+    points += measured->points;
+    bytes += fs::file_size(written);
+  }
+  EXPECT_GT(points, 10000U);
+  EXPECT_EQ(converted->answer.at("points"), points);
+  EXPECT_EQ(converted->answer.at("bytes"), bytes);
+}
+
 TEST(EmptyScan, OfASceneWithNothingInItIsRefusedOrEmptyInClearWords) {
   const TemporaryFolder folder;
   Document d = twoStoreyDocument();

@@ -37,7 +37,10 @@ TEST(Treat, WhatIsExcludedIsNeitherCountedNorWalkedOnNorExported) {
   // The table is 1 m × 1 m in the corner region of a room: without it, at least that much more floor can be walked on.
   EXPECT_GT(open->document.collision->walkable_area_m2, solid->document.collision->walkable_area_m2 + 1.0);
   const auto file = (folder.path() / "bare.obj").string();
-  EXPECT_EQ(run("export", bare, {{"output", file}})->answer.at("triangles"), 11 * 12);
+  const auto exported = run("export", bare, {{"output", file}});
+  EXPECT_EQ(exported->answer.at("triangles"), 11 * 12);
+  EXPECT_EQ(exported->answer.at("bytes"),
+            std::filesystem::file_size(file) + std::filesystem::file_size(folder.path() / "bare.mtl"));
 }
 
 TEST(Treat, NoBeamMeetsWhatIsExcluded) {
