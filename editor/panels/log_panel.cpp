@@ -69,11 +69,21 @@ void drawHead(const Model& model, LogState& state, Actions& actions) {
   });
 }
 
+void rowMenu(const LogEntry& entry) {
+  if (!ImGui::BeginPopupContextItem("###log-menu")) return;
+  if (ui::menuItem(ICON_COPY, tr("Copy row") + "###copy-log-row", nullptr, {}))
+    ImGui::SetClipboardText(rowsText({{entry.time, entry.source, trSentence(entry.message)}}).c_str());
+  ImGui::EndPopup();
+}
+
 void drawEntry(const Model& model, Actions& actions, const LogEntry& entry, int i) {
   const Look look = lookOf(entry.level);
   ImGui::PushID(i);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
+  ImGui::Selectable("###log-row", false, ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap);
+  rowMenu(entry);
+  ImGui::SameLine(0, 0);
   ImGui::TextColored(colour(look.tone), "%s", look.icon);
   ImGui::TableNextColumn();
   ui::dimText(entry.time);
@@ -82,12 +92,13 @@ void drawEntry(const Model& model, Actions& actions, const LogEntry& entry, int 
     const auto product = model.environment() ? productOf(*model.environment(), entry.source) : std::nullopt;
     if (product) {
       ImGui::PushStyleColor(ImGuiCol_Text, tone::kLink);
-      if (ImGui::Selectable(entry.source.c_str())) {
+      const auto source = ui::fittingMiddle(entry.source, ImGui::GetContentRegionAvail().x);
+      if (ImGui::Selectable((source + "###log-source").c_str())) {
         actions.reveal(*product);
         actions.frameSelection();
       }
       ImGui::PopStyleColor();
-      ui::tooltip("Select product");
+      ui::tooltip(source == entry.source ? tr("Select product") : entry.source + "\n" + tr("Select product"));
     } else {
       ui::fitted(entry.source, ImGui::GetContentRegionAvail().x);
     }

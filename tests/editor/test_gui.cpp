@@ -367,6 +367,23 @@ TEST_F(Gui, TheLogOpensAtItsNewestLineAndFollowsItUnlessSomebodyScrollsUp) {
   EXPECT_FALSE(shows("Entry 300")) << "what somebody reads stays in place";
 }
 
+TEST_F(Gui, ARowOfTheLogIsCopiedByItsMenu) {
+  open();
+  editor.session.clearLog();
+  editor.session.say(LogLevel::warning, "house.ifc line 7", "An opening is not cut");
+  openPanel(editor, Workspace::environment, "log");
+  gui.frames(4);
+  const auto* row = gui.find("###log-row");
+  ASSERT_NE(row, nullptr);
+  gui.moveTo(row->rect.GetCenter());
+  gui.press(1);
+  gui.frames(2);
+  ASSERT_TRUE(gui.click("###copy-log-row"));
+  gui.frames(2);
+  const std::string copied = ImGui::GetClipboardText();
+  EXPECT_TRUE(copied.ends_with("\thouse.ifc line 7\tAn opening is not cut\n")) << copied;
+}
+
 TEST_F(Gui, AMessageThatTheLogHasNoRoomForIsWholeInItsTooltip) {
   std::string text = "Scanned";
   for (int i = 0; i < 60; ++i) text += " word" + std::to_string(i);
