@@ -53,7 +53,8 @@ class LatestTask {
     task_ = std::make_unique<Task<T>>(title_, std::exchange(waiting_, nullptr), wake_);
   }
   bool busy() const { return task_ != nullptr; }
-  void wait() {  // until the newest wish has its answer
+  Task<T>* task() const { return task_.get(); }  // that runs, for its progress; null: none
+  void wait() {                                  // until the newest wish has its answer
     while (task_) {
       task_->wait();
       poll();

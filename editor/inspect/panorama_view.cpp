@@ -19,8 +19,10 @@ std::pair<double, double> shownSize(const PanoramaWindow& window, double aspect)
   return {std::min(1.0, height * aspect / 2), height};
 }
 
+double leastZoom(double aspect) { return std::clamp(aspect / 2, 1.0, kMostZoom); }
+
 PanoramaWindow kept(PanoramaWindow window, double aspect) {
-  window.zoom = std::clamp(window.zoom, 1.0, kMostZoom);
+  window.zoom = std::clamp(window.zoom, leastZoom(aspect), kMostZoom);
   const double half = shownSize(window, aspect).second / 2;
   window.x -= std::floor(window.x);
   window.y = std::clamp(window.y, half, 1 - half);
@@ -58,6 +60,8 @@ std::pair<double, double> panoramaAt(const PanoramaWindow& window, double at_x, 
   return {x - std::floor(x), window.y + (at_y - 0.5) * height};
 }
 
+PanoramaWindow fillingWidth(const PanoramaWindow& window, double aspect) { return kept(window, aspect); }
+
 PanoramaWindow panned(const PanoramaWindow& window, double by_x, double by_y, double aspect) {
   const auto [width, height] = shownSize(window, aspect);
   PanoramaWindow moved = window;
@@ -69,7 +73,7 @@ PanoramaWindow panned(const PanoramaWindow& window, double by_x, double by_y, do
 PanoramaWindow zoomed(const PanoramaWindow& window, double factor, double at_x, double at_y, double aspect) {
   const auto before = shownSize(window, aspect);
   PanoramaWindow nearer = window;
-  nearer.zoom = std::clamp(window.zoom * factor, 1.0, kMostZoom);
+  nearer.zoom = std::clamp(window.zoom * factor, leastZoom(aspect), kMostZoom);
   const auto after = shownSize(nearer, aspect);
   nearer.x += (at_x - 0.5) * (before.first - after.first);
   nearer.y += (at_y - 0.5) * (before.second - after.second);

@@ -13,6 +13,7 @@
 #include "editor/colours/colour_scale.h"
 #include "pointclouds/inspection/panorama.h"
 #include "project/latest_task.h"
+#include "project/task.h"
 
 namespace standpoint {
 
@@ -31,10 +32,12 @@ struct PanoramaRead {
 // Rows from the top; what nothing came back from is dark.
 std::vector<Rgba8> paintPanorama(const Panorama& panorama, PanoramaChannel channel, const PanoramaShades& shades);
 
-// Which part of a panorama is shown, in fractions of it; `zoom` 1 shows all of its height. It is a ring: x wraps.
+// Which part of a panorama is shown, in fractions of it; `zoom` 1 shows all of its height. It is a ring: x wraps, and
+// never more than once around it is shown.
 struct PanoramaWindow {
   double x = 0.5, y = 0.5, zoom = 1;  // the middle
 };
+PanoramaWindow fillingWidth(const PanoramaWindow& window, double aspect);  // zoomed in until it is so
 // Keeps what is under `at` (0..1 of the shown part) where it is; `aspect` is width over height of the widget.
 PanoramaWindow zoomed(const PanoramaWindow& window, double factor, double at_x, double at_y, double aspect);
 PanoramaWindow panned(const PanoramaWindow& window, double by_x, double by_y,
@@ -48,6 +51,7 @@ class PanoramaView {
   explicit PanoramaView(std::function<void()> wake) : latest_("Panorama", std::move(wake)) {}
   void start(PanoramaRequest request);
   bool busy() const { return latest_.busy() && latest_.wanted(); }
+  Task<std::shared_ptr<const PanoramaRead>>* task() const { return latest_.task(); }  // while it is busy
   void wait() { latest_.wait(); }
   void poll() { latest_.poll(); }  // once a frame
   // Of the last start; null until it is done, and where there is none, or see problem().

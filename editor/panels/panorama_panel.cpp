@@ -9,6 +9,7 @@
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/job_progress.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
 #include "editor/words/words.h"
@@ -16,6 +17,8 @@
 namespace standpoint {
 
 namespace {
+
+constexpr float kPicture_pt = 320;  // of the panel: most of the ring's height is in sight
 
 struct PanoramaState {
   PanoramaChannel channel = PanoramaChannel::intensity;
@@ -27,9 +30,12 @@ struct PanoramaState {
   bool moved = false;  // since the button was pressed
 };
 
-void paint(PanoramaState& state, const std::shared_ptr<const PanoramaRead>& read) {
+void paint(PanoramaState& state, Actions& actions, const std::shared_ptr<const PanoramaRead>& read) {
   if (state.painted == read && state.painted_channel == state.channel) return;
-  if (state.painted != read) state.window = {};
+  if (state.painted != read) {
+    state.window = {};
+    actions.growBottom(kPicture_pt);
+  }
   state.painted = read;
   state.painted_channel = state.channel;
   state.shades = shadesOf(read->panorama, state.channel);
@@ -121,9 +127,9 @@ void drawRing(const PanoramaState& state, std::uint64_t texture, ImVec2 corner, 
 // Pans, zooms, and leads to what is clicked.
 void drawPicture(const Model& model, PanoramaState& state, Actions& actions, const PanoramaRead& read) {
   const ImVec2 corner = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
-  // Not wider than the whole ring is.
-  const ImVec2 size(std::min(room.x, 2 * room.y), std::max(room.y, model.px(40)));
+  const ImVec2 size(room.x, std::max(room.y, model.px(40)));
   const double aspect = size.x / size.y;
+  state.window = fillingWidth(state.window, aspect);
   ImGui::InvisibleButton("###panorama-picture", size);
   const auto& io = ImGui::GetIO();
   const double at_x = (io.MousePos.x - corner.x) / size.x, at_y = (io.MousePos.y - corner.y) / size.y;
@@ -152,8 +158,11 @@ void draw(const Model& model, PanoramaState& state, Actions& actions) {
   chooseCloud(model, actions);
   const auto read = model.panorama.result();
   if (model.panorama.busy()) {
-    ImGui::SameLine();
-    ui::dimText("Reading the scan …");
+    auto& task = *model.panorama.task();
+    ui::gap(model, 6);
+    ui::dimText(ui::jobText(task.progress(), task.seconds()));
+    ui::gap(model, 2);
+    ui::jobBar(model, task.progress(), ImGui::GetContentRegionAvail().x);
     return;
   }
   if (!model.panorama.problem().empty()) {
@@ -164,7 +173,7 @@ void draw(const Model& model, PanoramaState& state, Actions& actions) {
   if (!read) return;
   chooseScanOfFile(model, actions, *read);
   chooseChannel(read->panorama, state);
-  paint(state, read);
+  paint(state, actions, read);
   if (state.channel != PanoramaChannel::colour) {
     ImGui::SameLine();
     const auto scale = state.channel == PanoramaChannel::range

@@ -351,6 +351,16 @@ TEST(InspectedClouds, AreTheScansNewestFirstThenTheUnderlays) {
   EXPECT_LT((inverse(pose) * (pose * Eigen::Vector3d(4, 5, 6)) - Eigen::Vector3d(4, 5, 6)).norm(), 1e-9);
 }
 
+TEST(PanoramaWindow, OfAWideWidgetShowsTheWholeRingOnceAndPartOfItsHeight) {
+  const auto wide = fillingWidth({}, 6);
+  EXPECT_DOUBLE_EQ(wide.zoom, 3);
+  EXPECT_NEAR(panoramaAt(wide, 0.999, 0.5, 6).first - panoramaAt(wide, 0.001, 0.5, 6).first, 0.998, 1e-9);
+  EXPECT_NEAR(panoramaAt(wide, 0.5, 0, 6).second, 1 / 3.0, 1e-9) << "around the horizon";
+  EXPECT_DOUBLE_EQ(zoomed(wide, 0.5, 0.5, 0.5, 6).zoom, 3) << "not twice around";
+  EXPECT_DOUBLE_EQ(zoomed(wide, 2, 0.5, 0.5, 6).zoom, 6);
+  EXPECT_DOUBLE_EQ(fillingWidth({}, 1.5).zoom, 1) << "of a narrow one all of the height";
+}
+
 TEST(PanoramaWindow, KeepsWhatIsUnderThePointerWhileZoomingAndWrapsAroundTheRing) {
   const PanoramaWindow window{0.5, 0.5, 2};
   const auto before = panoramaAt(window, 0.8, 0.3, 2);
