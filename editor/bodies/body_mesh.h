@@ -10,7 +10,7 @@
 namespace standpoint {
 
 // What a part of a body is made of; each instrument says what colour its shells have.
-enum class BodyPaint : std::uint8_t { shell, trim, dark, glass, metal, accent, legs, rubber };
+enum class BodyPaint : std::uint8_t { shell, trim, dark, glass, metal, accent, legs, rubber, clothes };
 using BodyColour = std::array<std::uint8_t, 3>;
 
 // Triangles of closed solids, seen anticlockwise from outside; metres.

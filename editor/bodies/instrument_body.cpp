@@ -275,6 +275,7 @@ BodyColour colourOf(const InstrumentBody& body, BodyPaint paint) {
     case P::accent: return {196, 64, 44};
     case P::legs: return body.heavy_tripod ? BodyColour{206, 152, 70} : BodyColour{48, 50, 54};
     case P::rubber: return {28, 28, 30};
+    case P::clothes: return {92, 108, 130};
   }
   return body.shell;
 }

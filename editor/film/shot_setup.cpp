@@ -97,6 +97,7 @@ std::shared_ptr<const HiddenProducts> withoutDoors(const Model& model) {
 // Whoever looks from a station, or walks from one to the next, would be inside of them.
 void leaveOutInstruments(ViewState& view) {
   view.instruments.reset();
+  view.under_way.reset();
   view.working.reset();
 }
 

@@ -434,14 +434,18 @@ ViewState Model::viewState() const {
   state.quick_points = recording.live.active();
   if (document.job && !visibility.alone()) {
     // Of one that stands on a storey which is cut open, all is shown.
-    const auto kept = [&](const Station& s) {
-      const auto& centre = s.true_pose.translation;
-      return (!state.cut_height_m || centre.z() - s.instrument_height_m < *state.cut_height_m) &&
+    const auto kept_at = [&](const Eigen::Vector3d& centre, double height_m) {
+      return (!state.cut_height_m || centre.z() - height_m < *state.cut_height_m) &&
              (!state.clip || state.clip->contains(centre));
     };
+    const auto kept = [&](const Station& s) { return kept_at(s.true_pose.translation, s.instrument_height_m); };
     auto scene = standing_.of(*document.job, held, scan_choice.instrument, view.camera.eye(), kept);
     state.instruments = std::move(scene.still);
     state.working = std::move(scene.working);
+    InstrumentsUnderWay under_way{carriedInstruments(*this, kept_at)};
+    if (!under_way_ || !(*under_way_ == under_way))
+      under_way_ = std::make_shared<const InstrumentsUnderWay>(std::move(under_way));
+    if (!under_way_->carried.empty()) state.under_way = under_way_;
     if (state.working && state.working->stands.body->display_m.x() > 0) state.display = display;
   }
   return state;

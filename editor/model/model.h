@@ -55,6 +55,7 @@
 #include "editor/placing/place_figures.h"
 #include "editor/placing/placement_view.h"
 #include "editor/trajectories/carried_scan.h"
+#include "editor/trajectories/path_moment.h"
 #include "editor/trajectories/trajectory_draft.h"
 #include "editor/trajectories/trajectory_ways.h"
 #include "editor/trajectories/walk_recording.h"
@@ -258,6 +259,7 @@ struct Model : Style {
   ChosenMaterial material;
   ScanChoice scan_choice{.instrument = "leica-rtc360"};  // what the next scan is set to
   CarriedScan carried_scan;
+  PathMoment path_moment;
   SeenLimits seen;
   WallView wall;
   WallChoice wall_choice;
@@ -375,6 +377,7 @@ struct Model : Style {
   Bounds boundsOfVisible(bool with_terrain) const;                        // of the model
   KeptExpectation kept_expectation_;
   mutable StandingKeeper standing_;
+  mutable std::shared_ptr<const InstrumentsUnderWay> under_way_;  // the same pointer as long as nothing of it changes
   Bounds shownScanBounds() const;
   std::optional<Camera> camera_before_preview_;
   CloudLoader cloud_loader_;

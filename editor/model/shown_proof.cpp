@@ -66,6 +66,7 @@ ViewState Model::proofState(const std::shared_ptr<const Cloud>& cloud) const {
   state.cloud_paint.reset();
   state.underlays.clear();
   state.instruments.reset();
+  state.under_way.reset();
   state.working.reset();
   state.clip.reset();
   state.cut_height_m.reset();

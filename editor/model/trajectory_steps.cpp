@@ -194,4 +194,90 @@ void followDraft(Model& model) {
     model.trajectory_ways.dropDraft();
 }
 
+double shownMoment_s(const Model& model) {
+  const auto* chosen = chosenTrajectory(model);
+  if (chosen == nullptr || chosen->name != model.path_moment.trajectory) return 0;
+  const auto* way = model.trajectory_ways.of(static_cast<std::size_t>(model.survey.trajectory));
+  return std::clamp(model.path_moment.after_s, 0.0, way == nullptr ? 0.0 : way->seconds);
+}
+
+std::string whyNoMoment(const Model& model) {
+  if (chosenTrajectory(model) == nullptr) return whyNoTrajectory(model);
+  const auto* way = model.trajectory_ways.of(static_cast<std::size_t>(model.survey.trajectory));
+  if (way == nullptr) return "Its way is still being worked out";
+  return way->problem;
+}
+
+void moveMoment(Model& model, double by_s) {
+  const double seconds = model.trajectory_ways.of(static_cast<std::size_t>(model.survey.trajectory))->seconds;
+  model.path_moment = {chosenTrajectory(model)->name, std::clamp(shownMoment_s(model) + by_s, 0.0, seconds), false};
+}
+
+void playMoments(Model& model) {
+  const auto& name = chosenTrajectory(model)->name;
+  const bool plays = model.path_moment.plays && model.path_moment.trajectory == name;
+  const double seconds = model.trajectory_ways.of(static_cast<std::size_t>(model.survey.trajectory))->seconds;
+  const double from_s = shownMoment_s(model);
+  model.path_moment = {name, !plays && from_s >= seconds ? 0 : from_s, !plays};
+}
+
+void stepMoment(Model& model, double passed_s) {
+  PathMoment& moment = model.path_moment;
+  if (!moment.plays) return;
+  const auto* chosen = chosenTrajectory(model);
+  const auto* way =
+      chosen == nullptr ? nullptr : model.trajectory_ways.of(static_cast<std::size_t>(model.survey.trajectory));
+  moment.plays = way != nullptr && chosen->name == moment.trajectory;
+  if (!moment.plays) return;
+  moment.after_s = std::min(shownMoment_s(model) + passed_s, way->seconds);
+  moment.plays = moment.after_s < way->seconds;
+}
+
+namespace {
+
+constexpr double kInsideWalker_m = 0.4;  // of the upright axis of who carries something
+constexpr double kInOneAnother_m = 0.6;
+
+// Within what bears it, as far as that stands on the floor, or within the instrument.
+bool isInside(const Eigen::Vector3d& eye, const CarriedInstrument& instrument) {
+  const Eigen::Vector3d off = eye - instrument.pose.translation;
+  if (off.norm() < kInsideInstrument_m) return true;
+  if (instrument.limbs.empty()) return false;
+  const Eigen::Vector3d from_walker = eye - instrument.limbs.front().translation;
+  return std::hypot(from_walker.x(), from_walker.y()) < kInsideWalker_m && from_walker.z() > 0 && off.z() < 1;
+}
+
+}  // namespace
+
+std::vector<CarriedInstrument> carriedInstruments(
+    const Model& model, const std::function<bool(const Eigen::Vector3d& centre, double height_m)>& kept) {
+  std::vector<CarriedInstrument> all;
+  const auto& trajectories = model.session.document().job->trajectories;
+  const auto add = [&](std::size_t i, double after_s) {
+    const auto& trajectory = trajectories[i];
+    const auto* way = model.trajectory_ways.of(i);
+    if (way == nullptr || !way->motion.truth || all.size() >= kMostInstruments) return;
+    const double time_s = way->motion.truth->first_s() + after_s;
+    CarriedInstrument made;
+    made.body = &carriedBodyOf(trajectory.scans.empty() ? model.carried_scan.choice.instrument
+                                                        : trajectory.scans.back().instrument);
+    made.pose = way->motion.truth->pose(time_s);
+    made.carrier = trajectory.carrier;
+    made.height_m = carriedHeight_m(trajectory.carrier, trajectory.height_m);
+    for (const auto& limb : way->limbs) made.limbs.push_back(limb->pose(time_s));
+    const auto in_it = [&](const CarriedInstrument& other) {
+      return (other.pose.translation - made.pose.translation).norm() < kInOneAnother_m;
+    };
+    if (kept(made.pose.translation, made.height_m) && !isInside(model.view.camera.eye(), made) &&
+        std::none_of(all.begin(), all.end(), in_it))
+      all.push_back(std::move(made));
+  };
+  const int chosen = model.survey.trajectory;
+  const bool dragged = model.view.dragged_waypoint >= 0 && model.view.waypoint_drag_begun;
+  if (chosenTrajectory(model) != nullptr && !dragged) add(static_cast<std::size_t>(chosen), shownMoment_s(model));
+  for (std::size_t i = 0; i < trajectories.size(); ++i)
+    if (static_cast<int>(i) != chosen) add(i, 0);
+  return all;
+}
+
 }  // namespace standpoint

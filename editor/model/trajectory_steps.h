@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/survey.h"
+#include "editor/bodies/under_way.h"
 #include "project/survey/survey_verbs.h"
 #include "scanners/engine/ray_engine.h"
 
@@ -36,6 +38,16 @@ std::string whyNotTakeBack(const Model& model);
 void takeBackWaypoint(Model& model);
 std::string whyNotEndTrajectory(const Model& model);
 void endTrajectory(Model& model);  // adds it to the job
+// The moment of the chosen trajectory at which its instrument is drawn; 0 where it begins.
+double shownMoment_s(const Model& model);
+std::string whyNoMoment(const Model& model);  // why there is none to be chosen
+void moveMoment(Model& model, double by_s);
+void playMoments(Model& model);                  // from there on, at the end from the beginning, or stops
+void stepMoment(Model& model, double passed_s);  // while they are played; once a frame
+// What is carried along the trajectories as it is drawn, the nearest ones; nothing that the camera is inside of, nor
+// where another one is. `kept`: whether what is so high above its floor is in the picture there.
+std::vector<CarriedInstrument> carriedInstruments(
+    const Model& model, const std::function<bool(const Eigen::Vector3d& centre, double height_m)>& kept);
 // Keeps the way of what is laid, or of the chosen one as a waypoint of it is dragged, up to date. Once a frame.
 void followDraft(Model& model);
 // The chosen trajectory with the dragged waypoint at the pointer; nothing: none is dragged, or nothing is there.

@@ -11,6 +11,7 @@
 #include "core/environment.h"
 #include "core/result.h"
 #include "editor/bodies/standing.h"
+#include "editor/bodies/under_way.h"
 #include "editor/camera/camera.h"
 #include "editor/clouds/cloud.h"
 #include "editor/clouds/underlay_view.h"
@@ -81,6 +82,7 @@ struct ViewState {
   std::vector<ShownUnderlay> underlays;
   bool quick_points = false;  // they come while the camera moves: while it does, half as fine and in half the time
   std::shared_ptr<const InstrumentsInScene> instruments;  // on their tripods; null: none
+  std::shared_ptr<const InstrumentsUnderWay> under_way;   // carried along trajectories; null: none
   std::optional<WorkingInstrument> working;               // that of the desk, besides those
   std::shared_ptr<const PixelPicture> display;            // what its display shows; null: it is dark
   Camera camera;

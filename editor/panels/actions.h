@@ -68,6 +68,7 @@ class Actions {
   virtual void renameBegun() = 0;
   virtual void set(const ScanChoice& scan) = 0;
   virtual void set(const CarriedScan& scan) = 0;
+  virtual void set(const PathMoment& moment) = 0;
   virtual void set(const SeenLimits& limits) = 0;
   virtual void set(const Body& walker) = 0;
   virtual void set(const WallChoice& wall) = 0;

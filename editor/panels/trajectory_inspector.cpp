@@ -389,6 +389,21 @@ void drawTrajectoryButtons(const Model& model, Actions& actions, const CarriedTr
     actions.start(TrajectoryOptions{.remove = trajectory.name}, trf("Remove trajectory {}", trajectory.name));
 }
 
+// When, along the way, the instrument is drawn in the view.
+void drawMoment(const Model& model, Actions& actions, const CarriedTrajectory& trajectory, const TrajectoryWay* way) {
+  if (way == nullptr || !way->motion.truth || way->seconds <= 0) return;
+  if (ui::beginProperties("moment", 0.36F)) {
+    ui::propertyLabel("Shown after");
+    double after_s = shownMoment_s(model);
+    const NumberFormat format{.kind = {.unit = "s", .least = 0, .most = way->seconds}, .decimals = 1};
+    if (ui::numberSlider("###path-moment", after_s, 0, way->seconds, format,
+                         "When the instrument is drawn along the way. Left and Right step by half a second."))
+      actions.set(PathMoment{trajectory.name, after_s});
+    ui::endProperties();
+  }
+  actions.button("play-trajectory", model.path_moment.plays ? "Stop" : "Play", -FLT_MIN);
+}
+
 CoverageOptions coverageOf(const Model& model, const CarriedTrajectory& trajectory) {
   constexpr std::size_t kSamples = 60000;  // so that blind spots are drawn by squares of some 40 cm in a house
   const CarriedScan& scan = model.carried_scan;
@@ -506,6 +521,7 @@ void drawTrajectory(const Model& model, PanelStates& states, Actions& actions, c
   drawProblem(edit.common);
   if (way != nullptr) drawTrouble(model, actions, *way);
   drawTrajectoryButtons(model, actions, trajectory, way, why);
+  drawMoment(model, actions, trajectory, way);
   drawPathCoverage(model, actions, trajectory, way);
   drawWaypoints(model, edit, actions, trajectory, why);
   drawScans(model, actions, trajectory.scans, [&](const Scan& scan) { return ageText(scan, trajectory); });

@@ -155,6 +155,8 @@ std::string whyTrajectoryNot(const Editor& e) { return e.session.whyNot("traject
 std::string whyTargetNot(const Editor& e) { return e.session.whyNot("target"); }
 std::string whyScanNot(const Editor& e) { return e.session.whyNot("scan"); }
 
+constexpr double kMomentStep_s = 0.5;  // along a trajectory, by a key
+
 const std::array kOwn = {
     Action{"new", "New project", ICON_FILE_NEW, {'N', true}, newProject, whyOpenNot},
     Action{"open", "Open project…", ICON_FOLDER_OPEN, {'O', true}, openProject, whyOpenNot},
@@ -268,6 +270,29 @@ const std::array kOwn = {
            {kKeyBackspace},
            [](Editor& e) { takeBackWaypoint(e); },
            [](const Editor& e) { return whyNotTakeBack(e); }},
+    Action{"play-trajectory",
+           "Play the selected trajectory, or stop",
+           ICON_PLAY,
+           {},
+           [](Editor& e) { playMoments(e); },
+           [](const Editor& e) { return whyNoMoment(e); },
+           [](const Editor& e) { return e.path_moment.plays; }},
+    Action{"earlier-on-trajectory",
+           "Earlier along the selected trajectory",
+           "",
+           {kKeyLeft},
+           [](Editor& e) { moveMoment(e, -kMomentStep_s); },
+           [](const Editor& e) { return whyNoMoment(e); },
+           nullptr,
+           true},
+    Action{"later-on-trajectory",
+           "Later along the selected trajectory",
+           "",
+           {kKeyRight},
+           [](Editor& e) { moveMoment(e, kMomentStep_s); },
+           [](const Editor& e) { return whyNoMoment(e); },
+           nullptr,
+           true},
     Action{"rename",
            "Rename selected station, target, trajectory, underlay or measurement",
            ICON_PENCIL,
@@ -404,6 +429,7 @@ std::string shortcutText(const Shortcut& s) {
   if (s.key == kKeyEnter) return text + tr("Enter");
   if (s.key == kKeyBackspace) return text + tr("Backspace");
   if (s.key == kKeyLeft) return text + tr("Left");
+  if (s.key == kKeyRight) return text + tr("Right");
   if (s.key == kKeyHome) return text + tr("Home");
   if (s.key == kKeyF1) return text + "F1";
   if (s.key == kKeyF2) return text + "F2";
@@ -437,7 +463,8 @@ void runShortcuts(Editor& editor) {
     if (editor.device_has_keys && isTyped(s)) continue;
     const bool shifted = s.shift == io.KeyShift || s.key == kKeyPlus;  // some keyboards need Shift for a plus
     const bool pressed =
-        s.key != 0 && (keyboard::pressed(s.key) || (s.key == kKeyEnter && keyboard::pressed(kKeyPadEnter)));
+        s.key != 0 && (keyboard::pressed(s.key) || (action.repeats && keyboard::pressedOrRepeated(s.key)) ||
+                       (s.key == kKeyEnter && keyboard::pressed(kKeyPadEnter)));
     if (pressed && s.ctrl == io.KeyCtrl && s.alt == io.KeyAlt && shifted) return runByKey(editor, action);
   }
 }

@@ -23,6 +23,7 @@ struct Action {
   void (*run)(Editor&);
   std::string (*why_not)(const Editor&);  // null = always possible; else "" or the reason
   bool (*on)(const Editor&) = nullptr;    // of a switch, or a choice of several: it is ticked
+  bool repeats = false;                   // again and again while its key is held
 };
 
 std::span<const Action> actions();

@@ -98,6 +98,7 @@ void PanelActions::chooseTrajectory(const std::string& name) { editor_.trajector
 void PanelActions::renameBegun() { editor_.rename_wanted = false; }
 void PanelActions::set(const ScanChoice& scan) { editor_.scan_choice = scan; }
 void PanelActions::set(const CarriedScan& scan) { editor_.carried_scan = scan; }
+void PanelActions::set(const PathMoment& moment) { editor_.path_moment = moment; }
 void PanelActions::set(const SeenLimits& limits) { editor_.seen = limits; }
 void PanelActions::set(const Body& walker) { editor_.walker = walker; }
 void PanelActions::set(const WallChoice& wall) { editor_.wall_choice = wall; }

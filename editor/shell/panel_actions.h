@@ -51,6 +51,7 @@ class PanelActions final : public Actions {
   void renameBegun() override;
   void set(const ScanChoice& scan) override;
   void set(const CarriedScan& scan) override;
+  void set(const PathMoment& moment) override;
   void set(const SeenLimits& limits) override;
   void set(const Body& walker) override;
   void set(const WallChoice& wall) override;

@@ -273,6 +273,7 @@ void drawViewport(Editor& editor) {
     editor.flight.settle(view.camera);
   else
     editor.flight.step(view.camera, ImGui::GetIO().DeltaTime);
+  stepMoment(editor, ImGui::GetIO().DeltaTime);
   measureGraphics(editor, size);
   if (proves)
     drawTwoClouds(editor, origin, size);

@@ -4,7 +4,9 @@
 #include <algorithm>
 
 #include "core/motion/carriers.h"
+#include "core/motion/paced_way.h"
 #include "editor/words/sentences.h"
+#include "survey/movers/moving_world.h"
 #include "survey/scene/bodies.h"
 
 namespace standpoint {
@@ -32,11 +34,29 @@ std::vector<WayWish> wishesOf(const Job& job, const std::shared_ptr<const Georef
   return wishes;
 }
 
-double liftOf(const CarriedTrajectory& t) {
+const Carrier* carrierOfWay(const CarriedTrajectory& t) {
   const auto carrier =
       std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == t.carrier; });
-  if (!t.file.empty() || t.carrier == "uav" || carrier == kCarriers.end()) return 0;
+  return carrier == kCarriers.end() ? nullptr : &*carrier;
+}
+
+double liftOf(const CarriedTrajectory& t) {
+  const Carrier* const carrier = carrierOfWay(t);
+  if (!t.file.empty() || t.carrier == "uav" || carrier == nullptr) return 0;
   return t.height_m > 0 ? t.height_m : carrier->limits.height_m;
+}
+
+// As a scan has its operator.
+std::vector<PoseFunctionPtr> limbsOfOperator(const CarriedTrajectory& t, const CarriedMotion& motion) {
+  const Carrier* const carrier = carrierOfWay(t);
+  if (carrier == nullptr || carrier->gait <= 0) return {};
+  PoseFunctionPtr path = motion.path;
+  if (!t.file.empty()) {
+    const auto on_foot = wayOnFoot(*motion.truth);
+    if (!on_foot) return {};
+    path = *on_foot;
+  }
+  return operatorLimbs(path, t.height_m > 0 ? t.height_m : carrier->limits.height_m, t.carrier == "hand");
 }
 
 std::vector<double> expectedOf(const TrajectoryWay& way, const CarriedMotion& carried, const WayWish& wish,
@@ -77,6 +97,8 @@ TrajectoryWay wayOf(const WayWish& wish, Progress& progress) {
   way.samples = pathSamples(*carried, kMostSamples);
   way.expected_m = expectedOf(way, *carried, wish, progress);
   way.lift_m = liftOf(wish.trajectory);
+  way.motion = *carried;
+  way.limbs = limbsOfOperator(wish.trajectory, *carried);
   way.obstacles = obstaclesOf(*carried, *wish.scene);
   for (const auto& obstacle : way.obstacles)
     way.obstacle_products.push_back(productText(wish.scene->environment().products[obstacle.product]));

@@ -25,6 +25,8 @@ struct TrajectoryWay {
   std::vector<PathObstacle> obstacles;
   std::vector<std::string> obstacle_products;  // of each: "IfcWall #12 'East'"
   std::string problem;                         // why there is no such way; "" where there is
+  CarriedMotion motion;                        // with gait and shaking, too
+  std::vector<PoseFunctionPtr> limbs;          // of who walks with it (kLimbs), by its clock; none: nobody does
 };
 
 // How well a trajectory would be known with the instrument and the conditions that are chosen.

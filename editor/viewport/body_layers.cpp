@@ -55,6 +55,14 @@ Bounds boundsOf(const StandingInstrument& s) {
           s.centre_m + Vector3d(legs_m, legs_m, kReach_m)};
 }
 
+// However it tilts, with what bears it.
+Bounds boundsOf(const CarriedInstrument& instrument) {
+  constexpr double kReach_m = 2.5;  // of a car
+  const Vector3d& at = instrument.pose.translation;
+  return {at - Vector3d(kReach_m, kReach_m, kReach_m + instrument.height_m),
+          at + Vector3d(kReach_m, kReach_m, kReach_m)};
+}
+
 Eigen::Isometry3d turnedBy(double head_rad) {
   return Eigen::Isometry3d(Eigen::AngleAxisd(-head_rad, Vector3d::UnitZ()));
 }
@@ -159,6 +167,18 @@ MergedTriangles mergeStanding(const std::vector<StandingInstrument>& still, cons
   return all;
 }
 
+MergedTriangles mergeUnderWay(const std::vector<CarriedInstrument>& carried) {
+  MergedTriangles all;
+  for (const auto& instrument : carried) {
+    Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
+    place.linear() = instrument.pose.rotation.toRotationMatrix();
+    place.translation() = instrument.pose.translation;
+    append(all, instrument.body->look.head, instrument.body->look, place);
+    append(all, bearerOf(instrument), instrument.body->look, Eigen::Isometry3d::Identity());
+  }
+  return all;
+}
+
 MergedTriangles mergeHead(const InstrumentBody& body, bool mirror_turns) {
   MergedTriangles all;
   append(all, body.head, body, Eigen::Isometry3d::Identity());
@@ -203,14 +223,15 @@ BodyLayers::BodyLayers() {
   solids_.drawSurface(0);
   head_.drawSurface(0);
   display_.drawSurface(-1);
+  under_way_.drawSurface(0);
   glow_.drawSurface(0);
   glow_.light(false);
   glow_.actor->ForceTranslucentOn();
-  for (Layer* layer : {&solids_, &head_, &display_, &glow_}) layer->hide();
+  for (Layer* layer : {&solids_, &head_, &display_, &glow_, &under_way_}) layer->hide();
 }
 
 void BodyLayers::addSolids(vtkRenderer* renderer) const {
-  for (const Layer* layer : {&solids_, &head_, &display_}) renderer->AddActor(layer->actor);
+  for (const Layer* layer : {&solids_, &head_, &display_, &under_way_}) renderer->AddActor(layer->actor);
 }
 
 bool BodyLayers::moves(const vtkProp* prop) const {
@@ -228,10 +249,17 @@ void BodyLayers::update(const ViewState& state, const ViewState* last) {
     const auto& still = state.instruments ? state.instruments->still : kNone;
     solids_.hide();
     if (!still.empty() || working) solids_.show(mergeStanding(still, working ? &working->stands : nullptr));
-    bounds_ = {};
-    for (const auto& s : still) bounds_.extend(boundsOf(s));
-    if (working) bounds_.extend(boundsOf(working->stands));
+    standing_bounds_ = {};
+    for (const auto& s : still) standing_bounds_.extend(boundsOf(s));
+    if (working) standing_bounds_.extend(boundsOf(working->stands));
   }
+  if (last == nullptr || last->under_way != state.under_way) {
+    under_way_.hide();
+    if (state.under_way) under_way_.show(mergeUnderWay(state.under_way->carried));
+  }
+  bounds_ = standing_bounds_;
+  if (state.under_way)
+    for (const auto& instrument : state.under_way->carried) bounds_.extend(boundsOf(instrument));
   if (last != nullptr && last->working == working && last->display == state.display) return;
   head_.reveal(working.has_value());
   display_.hide();

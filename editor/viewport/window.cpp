@@ -170,7 +170,7 @@ class Window {
           .input = input_.pending(),
           .key_held = keyboard::anyHeld(),
           .walker_moves = editor_.walk.moves() || editor_.fly.moves() || (editor_.held.moves && editor_.device_drawn) ||
-                          editor_.flight.flies() || editor_.recording.record.active(),
+                          editor_.flight.flies() || editor_.recording.record.active() || editor_.path_moment.plays,
           .text_edited = ImGui::GetIO().WantTextInput,
           .job_runs = editor_.jobRuns(),
           .refining = refining(),

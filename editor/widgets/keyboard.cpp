@@ -24,7 +24,7 @@ constexpr struct {
   int key;
 } kEditing[] = {{ImGuiKey_Tab, 258},
                 {ImGuiKey_LeftArrow, kKeyLeft},
-                {ImGuiKey_RightArrow, 262},
+                {ImGuiKey_RightArrow, kKeyRight},
                 {ImGuiKey_UpArrow, kKeyUp},
                 {ImGuiKey_DownArrow, kKeyDown},
                 {ImGuiKey_PageUp, 266},

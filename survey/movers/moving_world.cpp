@@ -101,8 +101,8 @@ class Addition {
 class People {
  public:
   explicit People(Addition& to) : to_(to) {}
-  void add(const std::string& name, const char* ifc_class, const PoseFunctionPtr& path,
-           const std::shared_ptr<const Stride>& stride, double begins_s, bool repeats) {
+  void add(const std::string& name, const char* ifc_class, const std::vector<PoseFunctionPtr>& limbs, double begins_s,
+           bool repeats) {
     if (meshes_.empty()) {
       surface_ = to_.surface("clothes", 0.45F, matt("clothes", "Clothes", 0.45));
       for (const Limb limb : kLimbs) meshes_.push_back(to_.mesh(limbMesh(limb), surface_));
@@ -110,8 +110,7 @@ class People {
     const std::uint32_t product = to_.product(name, ifc_class);
     to_.assign(product, surface_);
     for (std::size_t k = 0; k < kLimbs.size(); ++k)
-      to_.body(product, meshes_[k],
-               std::make_shared<TimedPose>(std::make_shared<LimbPose>(path, stride, kLimbs[k]), begins_s, repeats),
+      to_.body(product, meshes_[k], std::make_shared<TimedPose>(limbs[k], begins_s, repeats),
                -std::numeric_limits<double>::infinity());
   }
 
@@ -144,6 +143,13 @@ Result<std::shared_ptr<const PoseSpline>> onFloor(const Mover& mover) {
 
 MotionKey keyOf(const std::string& name, std::uint64_t seed) {
   return {seed, static_cast<std::uint32_t>(stableHash(name.c_str())), MotionProcess::gait};
+}
+
+std::vector<PoseFunctionPtr> limbsOf(const PoseFunctionPtr& path, const MotionKey& key) {
+  const auto stride = std::make_shared<const Stride>(*path, key);
+  std::vector<PoseFunctionPtr> limbs;
+  for (const Limb limb : kLimbs) limbs.push_back(std::make_shared<LimbPose>(path, stride, limb));
+  return limbs;
 }
 
 Result<std::uint32_t> productOf(const Environment& environment, const std::string& id, const std::string& mover) {
@@ -278,8 +284,7 @@ Result<void> addMovers(const std::vector<Mover>& movers, ScanWorld& world) {
     }
     TRY_ASSIGN(const auto path, onFloor(mover));
     if (mover.kind == MoverKind::person) {
-      const auto stride = std::make_shared<const Stride>(*path, keyOf(mover.name, mover.seed));
-      people.add(mover.name, "Person", path, stride, mover.begins_s, mover.repeats);
+      people.add(mover.name, "Person", limbsOf(path, keyOf(mover.name, mover.seed)), mover.begins_s, mover.repeats);
       continue;
     }
     if (!vehicle) {
@@ -299,13 +304,17 @@ PoseFunctionPtr operatorPath(const PoseFunctionPtr& scanner_path, double height_
                                               Eigen::Vector3d(carried_in_front ? -kOperatorBehind_m : 0, 0, -height_m));
 }
 
+std::vector<PoseFunctionPtr> operatorLimbs(const PoseFunctionPtr& scanner_path, double height_m,
+                                           bool carried_in_front) {
+  return limbsOf(operatorPath(scanner_path, height_m, carried_in_front), keyOf("operator", 1));
+}
+
 void addOperator(const PoseFunctionPtr& scanner_path, double height_m, bool carried_in_front, double ahead_s,
                  ScanWorld& world) {
   Addition addition(world);
   People people(addition);
-  const auto path = operatorPath(scanner_path, height_m, carried_in_front);
-  const auto stride = std::make_shared<const Stride>(*path, keyOf("operator", 1));
-  people.add("Operator", "Operator", path, stride, path->first_s() + ahead_s, false);
+  people.add("Operator", "Operator", operatorLimbs(scanner_path, height_m, carried_in_front),
+             scanner_path->first_s() + ahead_s, false);
 }
 
 }  // namespace standpoint

@@ -16,6 +16,8 @@ Result<void> addMovers(const std::vector<Mover>& movers, ScanWorld& world);
 
 // Where who carries a scanner walks, by the trajectory's clock.
 PoseFunctionPtr operatorPath(const PoseFunctionPtr& scanner_path, double height_m, bool carried_in_front);
+// Their limbs, in the order of kLimbs.
+std::vector<PoseFunctionPtr> operatorLimbs(const PoseFunctionPtr& scanner_path, double height_m, bool carried_in_front);
 // Who carries a scanner: walks behind it, or below it, along its path without gait and shaking (class "Operator"). The
 // path's poses are of the scanner, `height_m` above the floor; `ahead_s`: the movers' clock of the trajectory's.
 void addOperator(const PoseFunctionPtr& scanner_path, double height_m, bool carried_in_front, double ahead_s,

@@ -234,6 +234,61 @@ TEST_F(Bodies, WorkInPicturesThatAreDrawnInPartsAsInWholeOnes) {
   EXPECT_LT(differing(in_parts, whole), 20U);
 }
 
+// Each carried instrument with what bears it, as somebody sees it from the side.
+TEST_F(Bodies, OfCarriedInstrumentsAreDrawnWithWhatBearsThem) {
+  state.environment = floorWith(false);
+  lookAt({-0.1, 0, 1.1}, 3.4);
+  const auto bare = drawn("nothing-carried");
+  const auto carried = [](std::string_view instrument, const char* carrier, double height_m) {
+    CarriedInstrument made;
+    made.body = &carriedBodyOf(instrument);
+    made.pose.translation = {0, 0, height_m};
+    made.pose.rotation = Eigen::AngleAxisd(-50 * kRadPerDeg, Eigen::Vector3d::UnitZ());
+    made.carrier = carrier;
+    made.height_m = height_m;
+    return made;
+  };
+  const auto showOnly = [&](CarriedInstrument&& instrument, bool somebody) {
+    if (somebody) {
+      const double behind_m = instrument.carrier == "hand" ? 0.4 : 0;
+      const Pose floor{instrument.pose.rotation, instrument.pose * Eigen::Vector3d(-behind_m, 0, -instrument.height_m)};
+      instrument.limbs.assign(7, floor);
+    }
+    state.under_way = std::make_shared<const InstrumentsUnderWay>(InstrumentsUnderWay{{std::move(instrument)}});
+  };
+  for (const auto& body : carriedBodies()) {
+    const bool held = body.grip_m.has_value();
+    showOnly(carried(body.look.id, held ? "hand" : "backpack", held ? 1.3 : 1.9), true);
+    EXPECT_GT(differing(drawn("carried-" + std::string(body.look.id)), bare), 8000U) << body.look.id;
+  }
+  for (const auto& [carrier, height_m] : {std::pair{"trolley", 1.7}, {"vehicle", 2.2}, {"uav", 1.2}}) {
+    showOnly(carried(std::string_view(carrier) == "uav" ? "riegl-vux-1uav" : "hesai-xt32", carrier, height_m), false);
+    EXPECT_GT(differing(drawn("carried-by-" + std::string(carrier)), bare), 5000U) << carrier;
+  }
+  state.under_way.reset();
+  EXPECT_EQ(differing(drawn("nothing-carried"), bare), 0U) << "it is gone again";
+}
+
+TEST_F(Bodies, OfCarriedInstrumentsAreToldApart) {
+  state.environment = floorWith(false);
+  lookAt({0, 0, 1.55}, 1.3);
+  std::vector<PixelPicture> pictures;
+  for (const auto& body : carriedBodies()) {
+    CarriedInstrument made;
+    made.body = &body;
+    made.pose.translation = {0, 0, 1.6};
+    made.pose.rotation = Eigen::AngleAxisd(-50 * kRadPerDeg, Eigen::Vector3d::UnitZ());
+    state.under_way = std::make_shared<const InstrumentsUnderWay>(InstrumentsUnderWay{{made}});
+    pictures.push_back(drawn(std::string(body.look.id) + "-alone"));
+  }
+  for (std::size_t a = 0; a < pictures.size(); ++a)
+    for (std::size_t b = a + 1; b < pictures.size(); ++b) {
+      if (carriedBodies()[a].worn && carriedBodies()[b].worn) continue;  // two ages of one frame
+      EXPECT_GT(differing(pictures[a], pictures[b]), 300U)
+          << carriedBodies()[a].look.id << ", " << carriedBodies()[b].look.id;
+    }
+}
+
 TEST(MergedBodies, AreOneMeshOfAllThatStandAndOneOfWhatTurns) {
   const auto bodies = instrumentBodies();
   const StandingInstrument first{&bodies[0], {0, 0, 1.6}, Eigen::Quaterniond::Identity(), 1.6};

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Carried instruments as bodies: what they look like, and where along a trajectory they are drawn.
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/motion/limbs.h"
+#include "core/units.h"
+#include "demo_verbs.h"
+#include "editor/bodies/under_way.h"
+#include "editor/model/trajectory_steps.h"
+#include "editor/shell/actions.h"
+#include "editor/widgets/keyboard.h"
+#include "item_probe.h"
+#include "survey/instruments.h"
+#include "tests/temporary_folder.h"
+
+namespace standpoint {
+namespace {
+
+// Edges that are not walked once each way.
+std::size_t gapsIn(const BodyMesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> walked;
+  for (const auto& t : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto a = t[i], b = t[(i + 1) % 3];
+      walked[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+    }
+  return static_cast<std::size_t>(
+      std::count_if(walked.begin(), walked.end(), [](const auto& e) { return e.second != 0; }));
+}
+
+struct Extent {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e9), high = Eigen::Vector3d::Constant(-1e9);
+  explicit Extent(const BodyMesh& mesh) {
+    for (const auto& p : mesh.positions) low = low.cwiseMin(p.cast<double>()), high = high.cwiseMax(p.cast<double>());
+  }
+};
+
+CarriedInstrument walking(const char* instrument, const char* carrier, double height_m) {
+  CarriedInstrument made;
+  made.body = &carriedBodyOf(instrument);
+  made.pose.translation = {0, 0, height_m};
+  made.carrier = carrier;
+  made.height_m = height_m;
+  Pose on_floor;
+  if (std::string_view(carrier) == "hand") on_floor.translation.x() = -0.4;
+  made.limbs.assign(kLimbs.size(), on_floor);
+  return made;
+}
+
+TEST(CarriedBodies, AreSmallClosedSolidsAroundWhereTheirBeamsBegin) {
+  for (const auto& body : carriedBodies()) {
+    const BodyMesh& mesh = body.look.head;
+    EXPECT_EQ(gapsIn(mesh), 0U) << body.look.id;
+    EXPECT_EQ(mesh.paints.size(), mesh.triangles.size()) << body.look.id;
+    EXPECT_LE(mesh.triangles.size(), 1500U) << body.look.id;
+    const Extent extent(mesh);
+    EXPECT_NEAR(extent.low.z(), -body.look.foot_m, body.worn ? 0.2 : 0.012) << body.look.id;
+    EXPECT_NEAR(extent.high.z(), body.top_m, 0.02) << body.look.id;
+    EXPECT_LT(extent.low.z(), 0) << body.look.id;
+    EXPECT_GT(extent.high.z(), 0) << body.look.id;
+    if (body.grip_m) {
+      EXPECT_LT(body.grip_m->z(), 0) << body.look.id;
+      EXPECT_GT(body.grip_m->z(), -body.look.foot_m) << body.look.id;
+    }
+  }
+}
+
+TEST(CarriedBodies, HaveTheSizesOfTheirSheets) {
+  const auto size = [](const char* id) {
+    const Extent e(carriedBodyOf(id).look.head);
+    return Eigen::Vector3d(e.high - e.low);
+  };
+  EXPECT_NEAR(size("leica-blk2go").z(), 0.279, 0.002);
+  EXPECT_NEAR(size("leica-blk2go").x(), 0.08, 0.012);
+  EXPECT_NEAR(size("velodyne-vlp-16").x(), 0.103, 0.004);
+  EXPECT_NEAR(size("velodyne-vlp-16").z(), 0.072, 0.012) << "on a plate";
+  EXPECT_NEAR(size("riegl-vux-1uav").x(), 0.227, 0.01);
+  EXPECT_NEAR(size("riegl-vux-1uav").y(), 0.18, 0.002);
+}
+
+TEST(CarriedBodies, EachCarriedInstrumentHasItsOwnAndOthersABox) {
+  const auto known = knownInstruments();
+  ASSERT_TRUE(known);
+  std::set<std::string_view> used;
+  for (const auto& instrument : *known)
+    if (instrument.moving) used.insert(carriedBodyOf(instrument.id).look.id);
+  EXPECT_GE(used.size(), 9U);
+  EXPECT_EQ(carriedBodyOf("").look.id, "generic");
+  EXPECT_EQ(carriedBodyOf("leica-rtc360").look.id, "generic");
+}
+
+TEST(Bearers, StandOnTheFloorBelowTheirInstrument) {
+  for (const char* carrier : {"hand", "backpack"}) {
+    const Extent extent(bearerOf(walking("leica-blk2go", carrier, carrier[0] == 'h' ? 1.3 : 1.9)));
+    EXPECT_NEAR(extent.low.z(), 0, 0.01) << carrier;
+    EXPECT_NEAR(extent.high.z(), 1.75, 0.05) << carrier;
+  }
+  for (const char* carrier : {"trolley", "vehicle"}) {
+    auto instrument = walking("ouster-os1-128", carrier, 2.1);
+    instrument.limbs.clear();
+    const BodyMesh mesh = bearerOf(instrument);
+    const Extent extent(mesh);
+    EXPECT_NEAR(extent.low.z(), 0, 0.01) << carrier;
+    EXPECT_NEAR(extent.high.z(), 2.1 - instrument.body->look.foot_m, 0.02) << carrier << ": the mast reaches it";
+    EXPECT_EQ(gapsIn(mesh), 0U) << carrier;
+  }
+  auto flown = walking("riegl-vux-1uav", "uav", 20);
+  flown.limbs.clear();
+  EXPECT_GT(Extent(bearerOf(flown)).low.z(), 19) << "in the air";
+  flown.carrier = "";
+  EXPECT_TRUE(bearerOf(flown).triangles.empty()) << "nobody knows";
+}
+
+TEST(Bearers, TheRightHandReachesTheHandle) {
+  const auto instrument = walking("leica-blk2go", "hand", 1.3);
+  const Eigen::Vector3d grip = instrument.pose * *instrument.body->grip_m;
+  double nearest_m = 1e9;
+  for (const auto& p : bearerOf(instrument).positions)
+    nearest_m = std::min(nearest_m, (p.cast<double>() - grip).norm());
+  EXPECT_LT(nearest_m, 0.05);
+}
+
+// The demo house, its ground floor cut open, and a walk through it.
+class UnderWay : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(editor.session.start("demo", nlohmann::json::object()));
+    gui.settle();
+    editor.picker.wait();
+    editor.workspace = Workspace::survey;
+    look(editor.view.camera, StandardView::top);
+    editor.view.frame_wanted = true;
+    gui.frames(4);
+  }
+  void add(const char* name, std::vector<std::array<double, 2>> places, const char* carrier = "hand") {
+    CarriedTrajectory trajectory;
+    trajectory.name = name;
+    trajectory.carrier = carrier;
+    for (const auto& p : places) trajectory.waypoints.push_back({{p[0], p[1], 0}, 0, {}});
+    auto options = changeTo(trajectory, *editor.session.document().georeference);
+    options.add = std::exchange(options.change, std::nullopt);
+    ASSERT_TRUE(editor.session.start(options, "Add"));
+    settle();
+    ASSERT_TRUE(editor.session.errors().empty()) << describe(editor.session.errors().front().error);
+  }
+  void settle() {
+    gui.settle();
+    editor.trajectory_ways.wait();
+    gui.frames(3);
+  }
+  void choose(int trajectory) {
+    editor.choose(SurveyChoice{.trajectory = trajectory});
+    gui.frames(3);
+  }
+  std::vector<CarriedInstrument> shown() const {
+    const auto state = editor.viewState();
+    return state.under_way ? state.under_way->carried : std::vector<CarriedInstrument>();
+  }
+  Pose trueAt(double after_s) const {
+    const auto& truth = editor.trajectory_ways.of(0)->motion.truth;
+    return truth->pose(truth->first_s() + after_s);
+  }
+  Editor editor{verbsWithDemo(), [] {}};
+  GuiDriver gui{editor, {1400, 1300}};
+};
+
+TEST_F(UnderWay, NothingIsDrawnWithoutATrajectory) {
+  EXPECT_EQ(editor.viewState().under_way, nullptr);
+  EXPECT_THAT(whyNot(*findAction("play-trajectory"), editor), testing::HasSubstr("Select a trajectory"));
+}
+
+TEST_F(UnderWay, TheInstrumentIsAtTheTruePoseOfTheMomentThatIsShown) {
+  add("W1", {{1, 1}, {4.2, 1}, {4.2, 5}});
+  ASSERT_EQ(shown().size(), 1U);
+  EXPECT_EQ(shown()[0].body->look.id, "leica-blk2go") << "which would scan there";
+  EXPECT_LT((shown()[0].pose.translation - trueAt(0).translation).norm(), 1e-12) << "at the beginning";
+  choose(0);
+  editor.path_moment = {"W1", 3.5, false};
+  const auto there = shown();
+  ASSERT_EQ(there.size(), 1U);
+  const Pose truth = trueAt(3.5);
+  EXPECT_LT((there[0].pose.translation - truth.translation).norm(), 1e-12);
+  EXPECT_LT(there[0].pose.rotation.angularDistance(truth.rotation), 1e-12) << "with gait and shaking";
+  EXPECT_GT((truth.translation - trueAt(0).translation).norm(), 1);
+  ASSERT_EQ(there[0].limbs.size(), kLimbs.size());
+  const Eigen::Vector3d walker = there[0].limbs[0].translation;
+  EXPECT_NEAR(std::hypot(walker.x() - truth.translation.x(), walker.y() - truth.translation.y()), 0.4, 0.1);
+  EXPECT_EQ(editor.viewState().under_way, editor.viewState().under_way) << "the same as long as nothing changes";
+}
+
+TEST_F(UnderWay, ASlideOfTheInspectorAndTheKeysMoveIt) {
+  add("W1", {{1, 1}, {4.2, 1}, {4.2, 5}});
+  choose(0);
+  ASSERT_NE(gui.find("###path-moment"), nullptr);
+  ASSERT_TRUE(gui.click("###path-moment"));
+  gui.frames(2);
+  gui.type("4");
+  gui.key(kKeyEnter);
+  gui.frames(3);
+  EXPECT_NEAR(shownMoment_s(editor), 4, 1e-9);
+  gui.key(kKeyRight);
+  gui.frames(2);
+  EXPECT_NEAR(shownMoment_s(editor), 4.5, 1e-9);
+  gui.key(kKeyLeft);
+  gui.frames(2);
+  gui.key(kKeyLeft);
+  gui.frames(2);
+  EXPECT_NEAR(shownMoment_s(editor), 3.5, 1e-9);
+  EXPECT_LT((shown().at(0).pose.translation - trueAt(3.5).translation).norm(), 1e-9);
+  for (int i = 0; i < 20; ++i) {
+    gui.key(kKeyLeft);
+    gui.frames(2);
+  }
+  EXPECT_EQ(shownMoment_s(editor), 0) << "not before it begins";
+}
+
+TEST_F(UnderWay, IsPlayedToTheEndAndThenFromTheBeginning) {
+  add("W1", {{1, 1}, {2.2, 1}});
+  choose(0);
+  const double seconds = editor.trajectory_ways.of(0)->seconds;
+  ASSERT_TRUE(gui.click("###play-trajectory"));
+  EXPECT_TRUE(editor.path_moment.plays);
+  gui.frames(3);
+  const double early_s = shownMoment_s(editor);
+  EXPECT_GT(early_s, 0);
+  EXPECT_LT(early_s, seconds);
+  stepMoment(editor, 1000);
+  EXPECT_FALSE(editor.path_moment.plays);
+  EXPECT_NEAR(shownMoment_s(editor), seconds, 1e-9);
+  playMoments(editor);
+  EXPECT_EQ(shownMoment_s(editor), 0);
+  EXPECT_TRUE(editor.path_moment.plays);
+  playMoments(editor);
+  EXPECT_FALSE(editor.path_moment.plays);
+}
+
+TEST_F(UnderWay, WhatIsCutAwayOrLookedOutOfIsNotDrawnNorTwoInOnePlace) {
+  add("W1", {{1, 1}, {4.2, 1}});
+  add("W2", {{1, 1}, {4.2, 5}}, "trolley");
+  ASSERT_EQ(shown().size(), 1U) << "they begin at one place";
+  choose(1);
+  ASSERT_EQ(shown().size(), 1U);
+  EXPECT_EQ(shown()[0].carrier, "trolley") << "the chosen one is drawn";
+  EXPECT_TRUE(shown()[0].limbs.empty());
+  editor.path_moment = {"W2", 3, false};
+  EXPECT_EQ(shown().size(), 2U) << "now they are apart";
+  editor.visibility.cut_height_m = -0.5;
+  EXPECT_TRUE(shown().empty());
+  editor.visibility.cut_height_m.reset();
+  editor.view.camera.target = trueAt(0).translation;
+  editor.view.camera.distance_m = 0.01;
+  editor.view.camera.orthographic = false;
+  EXPECT_EQ(shown().size(), 1U) << "one looks out of the first";
+}
+
+}  // namespace
+}  // namespace standpoint
