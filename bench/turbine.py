@@ -5,12 +5,11 @@ Needs Debian's python3-numpy and python3-matplotlib.
 
 usage: turbine.py STANDPOINT OUTDIR
 
-The turbine, the meters (files of an instrument whose beam does not turn) and their places are written here; Standpoint
-imports, turns the rotor and scans. 1D: each meter stands still and waits for the blade at its own radius; chord by
-chord, a straight line through depth over chord is the torsion. 2D: a mirror of 100 Hz in the upright plane. Blades
-truly twist by 4 degrees to their tips. The figures of the meters are stand-ins: 50 kHz (the mirror 500), 2 mm, 0.2 mrad.
+The turbine and the places of the meters are written here; Standpoint imports, turns the rotor and scans. 1D: each meter
+(instrument range-meter, 50 kHz) stands still and waits for the blade at its own radius; chord by chord, a straight line
+through depth over chord is the torsion. 2D: a mirror of 100 Hz in the upright plane (profile-scanner, 500 kHz). Blades
+truly twist by 4 degrees to their tips. The figures of both instruments are stand-ins: 2 mm, 0.2 mrad.
 """
-import json
 import math
 import os
 import shutil
@@ -20,8 +19,6 @@ import numpy as np
 
 from own_points import read_ply, run
 
-HERE = os.path.dirname(os.path.realpath(__file__))
-MODEL = os.path.join(HERE, "..", "scanners", "instruments", "leica-blk2go.json")
 RATE, HUB, TIP, CHORD, THICK, TWIST = 1.2, np.array([0, 0, 120.0]), 60.0, 2.0, 0.08, math.radians(4)
 METERS, RADII, SECONDS = np.array([-180.0, 0, 2]), (20, 30, 40, 50), 20.0
 
@@ -69,26 +66,6 @@ def turbine():
     return "mtllib turbine.mtl\n" + "\n".join(lines) + "\n"
 
 
-def meter(name, rotation_hz, khz):
-    """An instrument's file: one beam, which stands or turns in the upright plane."""
-    with open(MODEL) as file:
-        data = json.load(file)
-    stand_in = lambda value: {"value": value, "source": "unsourced"}
-    data.update(id=name, maker="Generic", model="Range meter")
-    data["beam"].update(divergence_mrad=stand_in(0.2), exit_diameter_mm=stand_in(3))
-    data["range"].update(min_m=stand_in(1), max_m=stand_in(400), reference_reflectivity=stand_in(0.2))
-    data["range_noise"] = [{"range_m": 400, "reflectivity": 0.2, "sigma_mm": 2, "source": "unsourced"}]
-    data["angles"] = {"accuracy_arcsec": stand_in(0), "jitter_arcsec": stand_in(0)}
-    moving = data["moving"]
-    moving.update(mount=stand_in("any"), points_per_s=stand_in(khz * 1000), firing_us=stand_in(1000 / khz),
-                  least_rotation_hz=stand_in(rotation_hz), most_rotation_hz=stand_in(rotation_hz),
-                  second_rotation_hz=stand_in(0), turn_deg=stand_in(360), turn_middle_deg=stand_in(0))
-    moving["tilts_deg"] = stand_in([0])
-    data["settings"][0]["choices"] = [{"value": "100", "label": "-", "rotation_hz": float(rotation_hz)}]
-    with open(name + ".json", "w") as file:
-        json.dump(data, file, indent=1)
-
-
 def scan(standpoint, name, instrument, axis, angle, seconds, *more):
     """From where the meters stand, turned about x or y, for the time of a measurement."""
     x, y = (math.sin(angle / 2) if axis == which else 0.0 for which in "xy")
@@ -111,7 +88,7 @@ def passes(points):
         back[:, 0], back[:, 1], back[:, 2] = place[:, 0], c * place[:, 1] + s * place[:, 2], c * place[:, 2] - s * place[:, 1]
         middle = np.median(np.arctan2(-back[:, 1], back[:, 2]))
         back = turned(back, -2 * math.pi / 3 * round(middle / (2 * math.pi / 3)))
-        if len(part) > 100:
+        if np.ptp(back[:, 1]) > CHORD - 0.1:  # not half over when it began, nor when it ended
             yield back
 
 
@@ -133,7 +110,6 @@ def main():
         file.write(turbine())
     with open("turbine.mtl", "w") as file:
         file.write("newmtl Blade\nKd 0.85 0.85 0.85\n")
-    meter("fixed", 0, 50), meter("mirror", 100, 500)
     run(standpoint, "import", "turbine.obj", "-o", "p", "--up", "z", "--allow-loss")
     run(standpoint, "materials", "p")
     parts = ("Blade1", "Blade2", "Blade3", "Hub")
@@ -146,19 +122,19 @@ def main():
     for radius in RADII:
         aim = HUB + np.array([0, 0, radius]) - METERS
         pitch = -math.atan2(aim[2], aim[0])
-        ideal = [torsion(b) for b in passes(scan(standpoint, f"ideal{radius}", "fixed.json", "y", pitch, SECONDS, "--ideal"))]
-        clouds = list(passes(scan(standpoint, f"noisy{radius}", "fixed.json", "y", pitch, SECONDS)))
+        ideal = [torsion(b) for b in passes(scan(standpoint, f"ideal{radius}", "range-meter", "y", pitch, SECONDS, "--ideal"))]
+        clouds = list(passes(scan(standpoint, f"noisy{radius}", "range-meter", "y", pitch, SECONDS)))
         noisy = [torsion(b) for b in clouds]
         angles = np.array([a for a, _, _ in noisy])
         count = np.mean([n for _, _, n in noisy])
         truth = math.degrees(TWIST) * np.mean([r for _, r, _ in ideal]) / TIP
         expected = math.degrees(0.002 * math.cos(pitch) * math.sqrt(12) / ((CHORD - 0.1) * math.sqrt(count)))
-        found.append((radius, truth, angles, clouds[1]))  # the first was half over
+        found.append((radius, truth, angles, clouds[0]))
         print(f"{radius:8} {truth:7.3f} {np.mean([a for a, _, _ in ideal]):7.3f} {angles.mean():7.3f}"
               f"   {angles.std(ddof=1):19.4f} {expected:9.4f} {count:9.0f}")
 
     print("2D: profiles of a mirror of 100 Hz")
-    profiles = scan(standpoint, "mirror", "mirror.json", "x", math.pi / 2, 6.0, "--ideal")
+    profiles = scan(standpoint, "mirror", "profile-scanner", "x", math.pi / 2, 6.0, "--ideal")
     turn = np.floor(profiles["Time"] * 100)
     for radius in RADII:
         at = (np.abs(profiles["z"] - HUB[2] - radius) < 0.3) & (np.abs(profiles["x"]) < 1) & (profiles["Time"] > 0.5)

@@ -45,7 +45,7 @@ class OwnInstruments : public ::testing::Test {
 TEST_F(OwnInstruments, NeedNotBeThere) {
   const auto listed = answer(nlohmann::json::object());
   EXPECT_EQ(listed["own_folder"], own().string());
-  EXPECT_EQ(listed["instruments"].size(), 25U);
+  EXPECT_EQ(listed["instruments"].size(), 27U);
   EXPECT_FALSE(fs::exists(own()));
 }
 
@@ -53,7 +53,7 @@ TEST_F(OwnInstruments, AreCopiedEditedAndReadBesideTheShippedOnes) {
   const auto copied = answer({{"copy", "leica-rtc360"}, {"as", "my-rtc360"}});
   const fs::path file = copied["copied"]["file"].get<std::string>();
   EXPECT_EQ(file, own() / "my-rtc360.json");
-  EXPECT_EQ(copied["instruments"].size(), 26U);
+  EXPECT_EQ(copied["instruments"].size(), 28U);
   EXPECT_EQ(copied["instruments"].back()["own"], true);
   auto text = contentOf(file);
   const auto shipped = contentOf(shippedInstrumentsFolder() / "leica-rtc360.json");

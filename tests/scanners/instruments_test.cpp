@@ -249,7 +249,7 @@ TEST(Settings, AreCompletedInTheOrderOfTheInstrument) {
 
 TEST(Instruments, EachHaveASourceForEveryFigure) {
   const auto all = testing::everyInstrument();
-  ASSERT_EQ(all.size(), 25U);
+  ASSERT_EQ(all.size(), 27U);
   for (const auto& instrument : all) {
     EXPECT_GT(instrument.evidence.size(), 25U) << instrument.id;
     for (const auto& [pointer, evidence] : instrument.evidence) {
@@ -301,6 +301,8 @@ TEST(MovingInstruments, HaveTheFiguresOfTheirSheets) {
   EXPECT_NEAR(moving("leica-blk2go").most_turn_radps, 69 * kRadPerDeg, 1e-12);
   EXPECT_EQ(moving("navvis-vlx3").most_speed_mps, 1.2);
   EXPECT_EQ(vlp.most_speed_mps, 0) << "nobody carries it";
+  EXPECT_EQ(moving("range-meter").max_rotation_hz, 0) << "1D";
+  EXPECT_EQ(moving("profile-scanner").second_rotation_hz, 0) << "2D";
 }
 
 TEST(MovingInstruments, ThatAreAskedToScanFromAStationSayWhatTheyNeed) {
@@ -314,7 +316,7 @@ TEST(MovingInstruments, ThatAreAskedToScanFromAStationSayWhatTheyNeed) {
     EXPECT_THAT(settings.error().message, HasSubstr("requires a trajectory"));
     EXPECT_EQ(settings.error().source, instrument.id);
   }
-  EXPECT_EQ(refused_ones, 9);
+  EXPECT_EQ(refused_ones, 11);
 }
 
 // physics.md §0, finding 3; the accuracy of its sheet is 4 mm at 10 m and 7 mm at 20 m.
