@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "editor/labels/label_layout.h"
 #include "editor/model/dialog_states.h"
 #include "editor/model/model.h"
 #include "editor/panels/panel.h"
@@ -42,6 +43,7 @@ struct Editor : Model {
   bool costs_wanted = false;  // of the levels of graphics: somebody reads them
   bool quit = false;          // confirmed
 
+  LabelLayout label_layout;               // of the view
   Eigen::Vector2f overlay_size = {0, 0};  // of the controls over the viewport, as drawn last
   // Where they must end on the right, on the screen; and the lower left corner of the navigation cube, beside which all
   // rows from `beside_cube` on are.

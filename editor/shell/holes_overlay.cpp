@@ -160,8 +160,11 @@ void drawHoles(Editor& editor, const ViewState& view, ImVec2 origin) {
 
 void nameHoles(Editor& editor, const ViewState& view, ImVec2 origin, LabelBoard& labels) {
   const ViewPen pen(editor, origin);
-  for (const auto& hole : holesOf(editor, view))
-    if (const auto p = pen.at(hole.middle)) labels.over(*p, {areaText(hole.patch->area_m2)}, tone::kText);
+  std::size_t index = 0;
+  for (const auto& hole : holesOf(editor, view)) {
+    const LabelOf of{LabelKind::hole, index++};
+    if (const auto p = pen.at(hole.middle)) labels.over(of, *p, {areaText(hole.patch->area_m2)}, tone::kText);
+  }
 }
 
 namespace {

@@ -75,8 +75,9 @@ void drawKept(Editor& editor, const ViewPen& pen, LabelBoard& labels) {
     const bool chosen = editor.survey.measurement == static_cast<int>(i);
     drawShape(pen, editor, m, toneOf(chosen));
     if (const auto at = pen.at(labelPlace(m)); at && editor.view.labels)
-      labels.over(*at, {m.name + "   " + figureText(figuresOf(m)[0]), figureText(figuresOf(m)[0])},
-                  chosen ? tone::kAccent : tone::kText);
+      labels.over({LabelKind::measurement, i}, *at,
+                  {m.name + "   " + figureText(figuresOf(m)[0]), figureText(figuresOf(m)[0])},
+                  chosen ? tone::kAccent : tone::kText, chosen);
   }
 }
 
@@ -95,7 +96,7 @@ void drawUnfinished(const Editor& editor, const ViewPen& pen, LabelBoard& labels
   std::string text;
   for (const auto& figure : figuresOf(*so_far))
     text += (text.empty() ? "" : "\n") + std::string(figure.label) + "  " + figureText(figure);
-  if (const auto at = pen.at(so_far->points.back())) labels.over(*at, {text}, tone::kText);
+  if (const auto at = pen.at(so_far->points.back())) labels.over({LabelKind::measuring, 0}, *at, {text}, tone::kText);
 }
 
 void drawWall(Editor& editor, const ViewPen& pen) {
@@ -121,8 +122,8 @@ void drawMissed(const Editor& editor, ImVec2 origin, LabelBoard& labels) {
                             editor.px(kRim_px) + ImGui::GetTextLineHeight());
   const Eigen::Vector2d inner(editor.view.size.x() - rim.x(), editor.view.size.y());
   const Eigen::Vector2d at = px->cwiseMin(inner).cwiseMax(rim);
-  labels.over({origin.x + static_cast<float>(at.x()), origin.y + static_cast<float>(at.y())}, {std::move(words)},
-              tone::kWarning);
+  labels.over({LabelKind::measuring, 1}, {origin.x + static_cast<float>(at.x()), origin.y + static_cast<float>(at.y())},
+              {std::move(words)}, tone::kWarning);
 }
 
 }  // namespace
@@ -177,17 +178,15 @@ void clickWall(Editor& editor) {
   editor.wanted_tab[1] = "wall";
 }
 
-void drawInspectMarks(Editor& editor, ImVec2 origin) {
+void drawInspectMarks(Editor& editor, ImVec2 origin, LabelBoard& labels) {
   const ViewPen pen(editor, origin);
   const ImVec2 size(static_cast<float>(editor.view.size.x()), static_cast<float>(editor.view.size.y()));
   auto& list = *ImGui::GetWindowDrawList();
   list.PushClipRect(origin, {origin.x + size.x, origin.y + size.y}, true);
-  LabelBoard labels(origin, size, editor.scale);
   drawWall(editor, pen);
   drawMissed(editor, origin, labels);
   drawUnfinished(editor, pen, labels);
   drawKept(editor, pen, labels);
-  labels.draw(list);
   list.PopClipRect();
 }
 

@@ -6,6 +6,7 @@
 namespace standpoint {
 
 struct Editor;
+class LabelBoard;
 
 // The tools that measure in the model and in clouds.
 bool measures(const Editor& editor);  // one of them is taken
@@ -13,6 +14,7 @@ bool measures(const Editor& editor);  // one of them is taken
 void followInspectTools(Editor& editor, ImVec2 origin, bool hovered);
 void clickMeasure(Editor& editor);
 void clickWall(Editor& editor);
-void drawInspectMarks(Editor& editor, ImVec2 origin);  // measurements, and the wall that was measured
+// Measurements, and the wall that was measured.
+void drawInspectMarks(Editor& editor, ImVec2 origin, LabelBoard& labels);
 
 }  // namespace standpoint

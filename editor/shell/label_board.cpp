@@ -7,7 +7,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr float kLabelMargin = 4, kAboveMarker = 10;
+constexpr float kLabelMargin = 4, kBesideMark = 10, kMark = 4, kSlack = 5;
 
 // Each line in the middle.
 void drawLines(ImDrawList& list, const std::string& text, ImVec2 at, float width, ImU32 tone) {
@@ -20,10 +20,22 @@ void drawLines(ImDrawList& list, const std::string& text, ImVec2 at, float width
   }
 }
 
+// Where something is drawn that the label names.
+bool hasMark(LabelKind kind) {
+  return kind == LabelKind::station || kind == LabelKind::target || kind == LabelKind::waypoint ||
+         kind == LabelKind::worst_place;
+}
+
 }  // namespace
 
-void LabelBoard::add(ImVec2 p, std::vector<std::string> texts, ImU32 tone, bool centred) {
-  WantedLabel label{{p.x - origin_.x, p.y - origin_.y - (centred ? 0 : kAboveMarker * scale_)}, centred, {}};
+void LabelBoard::add(LabelOf of, ImVec2 p, std::vector<std::string> texts, ImU32 tone, bool chosen, bool centred) {
+  WantedLabel label;
+  label.of = of;
+  label.at_px = {p.x - origin_.x, p.y - origin_.y};
+  label.centred = centred;
+  label.chosen = chosen;
+  label.gap_px = kBesideMark * scale_;
+  if (hasMark(of.kind)) label.mark_px = kMark * scale_;
   for (auto& words : texts) {
     const ImVec2 size = ImGui::CalcTextSize(words.c_str());
     label.texts.push_back({std::move(words), {size.x + 2 * kLabelMargin * scale_, size.y + kLabelMargin * scale_}});
@@ -32,8 +44,8 @@ void LabelBoard::add(ImVec2 p, std::vector<std::string> texts, ImU32 tone, bool 
   tones_.push_back(tone);
 }
 
-void LabelBoard::draw(ImDrawList& list) const {
-  const auto places = layOut(wanted_, {size_.x, size_.y});
+void LabelBoard::draw(ImDrawList& list, LabelLayout& layout) const {
+  const auto places = layout.layOut(wanted_, {size_.x, size_.y}, kSlack * scale_);
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
     if (!places[i]) continue;
     const auto& text = wanted_[i].texts[places[i]->text];

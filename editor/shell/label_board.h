@@ -10,19 +10,23 @@
 
 namespace standpoint {
 
-// Collects what shall be written over the view, and writes it so that nothing covers anything: who was asked for first
-// has the right of way.
+// Collects what shall be written over the view, all of it, and writes it so that nothing covers anything.
 class LabelBoard {
  public:
   LabelBoard(ImVec2 origin, ImVec2 size, float scale) : origin_(origin), size_(size), scale_(scale) {}
 
-  // `texts` from the fullest to the shortest, lines apart by '\n'. Over `p`, or around it.
-  void over(ImVec2 p, std::vector<std::string> texts, ImU32 tone) { add(p, std::move(texts), tone, false); }
-  void around(ImVec2 p, std::vector<std::string> texts, ImU32 tone) { add(p, std::move(texts), tone, true); }
-  void draw(ImDrawList& list) const;
+  // `texts` from the fullest to the shortest, lines apart by '\n'. Beside `p`, over it first of all; or around it.
+  void over(LabelOf of, ImVec2 p, std::vector<std::string> texts, ImU32 tone, bool chosen = false) {
+    add(of, p, std::move(texts), tone, chosen, false);
+  }
+  void around(LabelOf of, ImVec2 p, std::vector<std::string> texts, ImU32 tone) {
+    add(of, p, std::move(texts), tone, false, true);
+  }
+  // `layout` is that of the frame before.
+  void draw(ImDrawList& list, LabelLayout& layout) const;
 
  private:
-  void add(ImVec2 p, std::vector<std::string> texts, ImU32 tone, bool centred);
+  void add(LabelOf of, ImVec2 p, std::vector<std::string> texts, ImU32 tone, bool chosen, bool centred);
 
   ImVec2 origin_, size_;
   float scale_;

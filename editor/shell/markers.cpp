@@ -29,12 +29,8 @@ ImU32 faded(ImU32 packed, float alpha) {
 
 class Pen {
  public:
-  Pen(const Editor& editor, ImVec2 origin)
-      : labels(origin, {static_cast<float>(editor.view.size.x()), static_cast<float>(editor.view.size.y())},
-               editor.scale),
-        editor_(editor),
-        origin_(origin),
-        list_(*ImGui::GetWindowDrawList()) {}
+  Pen(const Editor& editor, ImVec2 origin, LabelBoard& board)
+      : labels(board), editor_(editor), origin_(origin), list_(*ImGui::GetWindowDrawList()) {}
 
   std::optional<ImVec2> at(const Eigen::Vector3d& p) const {
     const auto pixel = project(editor_.view.camera, p, editor_.view.size);
@@ -45,13 +41,12 @@ class Pen {
     const auto from = at(a), to = at(b);
     if (from && to) list_.AddLine(*from, *to, tone, width * editor_.scale);
   }
-  void label(ImVec2 p, const std::string& text, ImU32 tone) { labels.over(p, {text}, tone); }
   void circle(ImVec2 p, float radius, ImU32 fill, ImU32 rim) const {
     list_.AddCircleFilled(p, radius * editor_.scale, fill);
     list_.AddCircle(p, radius * editor_.scale, rim, 0, 1.5F * editor_.scale);
   }
 
-  LabelBoard labels;
+  LabelBoard& labels;
 
  private:
   const Editor& editor_;
@@ -104,7 +99,7 @@ void drawStations(Editor& editor, Pen& pen, const ViewState& state) {
       if (!station.scans.empty()) pen.circle(*place, 2, tone, tone);
     }
     if (editor.view.labels && (seen || chosen || editor.view.labels_through_walls))
-      pen.label(*place, station.name, faded(tone::kText, strength));
+      pen.labels.over({LabelKind::station, i}, *place, {station.name}, faded(tone::kText, strength), chosen);
   }
 }
 
@@ -120,7 +115,7 @@ void drawTargets(Editor& editor, Pen& pen, const ViewState& state) {
     const ImU32 tone = faded(chosen ? tone::kAccent : tone::kGood, seen ? 1.0F : 0.45F);
     pen.circle(*place, 5, faded(IM_COL32(245, 245, 245, 255), seen ? 0.9F : 0.35F), tone);
     if (editor.view.labels && (seen || chosen || editor.view.labels_through_walls))
-      pen.label(*place, target.name, faded(tone::kText, seen ? 1.0F : 0.45F));
+      pen.labels.over({LabelKind::target, i}, *place, {target.name}, faded(tone::kText, seen ? 1.0F : 0.45F), chosen);
   }
 }
 
@@ -145,7 +140,7 @@ void drawRoomNames(Editor& editor, Pen& pen, const ViewState& state) {
       if (!text.empty() && ImGui::CalcTextSize(text.c_str()).x < kLargestShare * width_px) texts.push_back(text);
     if (texts.empty()) continue;
     if (editor.view.labels_through_walls || editor.picker.sees(camera.eyeOf(room.anchor), room.anchor, state))
-      pen.labels.around(*place, std::move(texts), tone::kText);
+      pen.labels.around({LabelKind::room, room.product}, *place, std::move(texts), tone::kText);
   }
 }
 
@@ -201,7 +196,7 @@ void drawWorstPlace(const Editor& editor, Pen& pen) {
   if (!place) return;
   pen.circle(*place, 12, IM_COL32(20, 22, 26, 60), tone::kWarning);
   pen.circle(*place, 2, tone::kWarning, IM_COL32(20, 22, 26, 255));
-  pen.label(*place, tr("Worst place"), tone::kText);
+  pen.labels.over({LabelKind::worst_place, 0}, *place, {tr("Worst place")}, tone::kText);
 }
 
 }  // namespace
@@ -220,8 +215,8 @@ void targetChip(Editor& editor) {
   ImGui::EndCombo();
 }
 
-void drawMarkers(Editor& editor, ImVec2 origin) {
-  Pen pen(editor, origin);
+void drawMarkers(Editor& editor, ImVec2 origin, LabelBoard& labels) {
+  Pen pen(editor, origin, labels);
   const ViewState state = editor.viewState();
   auto& list = *ImGui::GetWindowDrawList();
   list.PushClipRect(
@@ -229,15 +224,14 @@ void drawMarkers(Editor& editor, ImVec2 origin) {
       {origin.x + static_cast<float>(editor.view.size.x()), origin.y + static_cast<float>(editor.view.size.y())}, true);
   drawHoles(editor, state, origin);
   drawWay(editor, pen);
-  drawTrajectories(editor, state, origin, pen.labels);
+  drawTrajectories(editor, state, origin, labels);
   drawWalkedRibbon(editor, state, origin);
   drawPreview(editor, pen);
   drawStations(editor, pen, state);
   drawTargets(editor, pen, state);
   drawRoomNames(editor, pen, state);
   drawWorstPlace(editor, pen);
-  if (editor.view.labels) nameHoles(editor, state, origin, pen.labels);
-  pen.labels.draw(list);
+  if (editor.view.labels) nameHoles(editor, state, origin, labels);
   list.PopClipRect();
 }
 

@@ -10,9 +10,11 @@
 namespace standpoint {
 
 struct Editor;
+class LabelBoard;
 
 // Drawn over the picture of the scene with Dear ImGui's draw list: crisp at any scale, and no redraw of the scene.
-void drawMarkers(Editor& editor, ImVec2 origin);  // stations, targets, the measured distance, the tool's preview
+// Stations, targets, what else has a name, and the tool's preview.
+void drawMarkers(Editor& editor, ImVec2 origin, LabelBoard& labels);
 void targetChip(Editor& editor);  // the kind of target that the next click puts up, while its tool is chosen
 // Of a list's chip: as its label needs it, so that none is cut off, but not less, so that few changes of it move
 // others.

@@ -150,7 +150,7 @@ void drawObstacles(const ViewPen& pen, LabelBoard& labels, const TrajectoryWay& 
     const ImVec2 size = ImGui::CalcTextSize(ICON_WARNING);
     list.AddText({at->x - size.x / 2, at->y - size.y / 2}, tone, ICON_WARNING);
     if (named)
-      labels.over(*at,
+      labels.over({LabelKind::obstacle, i}, *at,
                   {trf("{} after {:.1f} s", way.obstacle_products[i], way.obstacles[i].after_s),
                    fmt::format("{:.1f} s", way.obstacles[i].after_s)},
                   tone);
@@ -175,12 +175,13 @@ void drawWaypointsOf(const Editor& editor, const ViewPen& pen, LabelBoard& label
     if (!editor.view.labels) continue;
     std::string text = std::to_string(i + 1);
     if (waypoint.stop_s > 0) text += "   " + trf("stops {:.3g} s", waypoint.stop_s);
-    labels.over(*at, {text, std::to_string(i + 1)}, tone::kText);
+    labels.over({LabelKind::waypoint, i}, *at, {text, std::to_string(i + 1)}, tone::kText, this_one);
   }
 }
 
 void drawOf(const Editor& editor, const ViewState& state, const ViewPen& pen, LabelBoard& labels,
-            const CarriedTrajectory& trajectory, const TrajectoryWay* way, bool chosen, RibbonColour colours) {
+            const CarriedTrajectory& trajectory, std::size_t index, const TrajectoryWay* way, bool chosen,
+            RibbonColour colours) {
   if (way != nullptr && way->problem.empty()) {
     const RibbonColour by = chosen ? colours : RibbonColour::plain;
     drawRibbon(editor, state, pen, *way, scaleOf(*way, by, chosen ? tone::kAccent : tone::kStation), chosen);
@@ -196,7 +197,8 @@ void drawOf(const Editor& editor, const ViewState& state, const ViewPen& pen, La
   const auto begin = !trajectory.waypoints.empty()             ? std::optional(trajectory.waypoints.front().floor_m)
                      : way != nullptr && !way->samples.empty() ? std::optional(way->samples.front().position_m)
                                                                : std::nullopt;
-  if (const auto at = begin ? pen.at(*begin) : std::nullopt) labels.over(*at, {trajectory.name}, tone::kText);
+  if (const auto at = begin ? pen.at(*begin) : std::nullopt)
+    labels.over({LabelKind::trajectory, index}, *at, {trajectory.name}, tone::kText, chosen);
 }
 
 // The way whose colours are shown: of what is laid, or chosen; null where there is none.
@@ -269,10 +271,10 @@ void drawTrajectories(Editor& editor, const ViewState& state, ImVec2 origin, Lab
   for (std::size_t i = 0; i < job->trajectories.size(); ++i) {
     const bool chosen = editor.survey.trajectory == static_cast<int>(i);
     if (chosen && dragged) {
-      drawOf(editor, state, pen, labels, *dragged, editor.trajectory_ways.draft(), true, colours);
+      drawOf(editor, state, pen, labels, *dragged, i, editor.trajectory_ways.draft(), true, colours);
       continue;
     }
-    drawOf(editor, state, pen, labels, job->trajectories[i], editor.trajectory_ways.of(i), chosen, colours);
+    drawOf(editor, state, pen, labels, job->trajectories[i], i, editor.trajectory_ways.of(i), chosen, colours);
   }
   drawRibbonScale(editor, colours, origin);
   const auto& draft = editor.view.draft;

@@ -16,6 +16,7 @@
 #include "editor/shell/expected_overlay.h"
 #include "editor/shell/holes_overlay.h"
 #include "editor/shell/inspect_tools.h"
+#include "editor/shell/label_board.h"
 #include "editor/shell/material_brush.h"
 #include "editor/shell/moving.h"
 #include "editor/shell/overlay.h"
@@ -323,10 +324,12 @@ void drawViewport(Editor& editor) {
   drawExpectedLegend(editor, origin, size);
   drawCoverageLegend(editor, origin, size);
   drawPointsLegend(editor, origin, size);
-  drawMarkers(editor, both ? right : origin);
+  LabelBoard labels(both ? right : origin, size, editor.scale);
+  drawMarkers(editor, both ? right : origin, labels);
   drawHolesLegend(editor, both ? right : origin, size, hovered);
   drawClip(editor, both ? right : origin);
-  drawInspectMarks(editor, both ? right : origin);
+  drawInspectMarks(editor, both ? right : origin, labels);
+  labels.draw(*ImGui::GetWindowDrawList(), editor.label_layout);
   drawOverlay(editor, origin, whole);
   drawStationHandles(editor, both ? right : origin);
   drawRow(editor, both ? right : origin);

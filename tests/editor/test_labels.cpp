@@ -14,6 +14,7 @@
 #include "editor/labels/room_labels.h"
 #include "editor/model/floor_plan.h"
 #include "item_probe.h"
+#include "project/survey/measure_verb.h"
 
 namespace standpoint {
 namespace {
@@ -42,31 +43,99 @@ TEST(Alphabetical, TakesBrokenTextAndLongNames) {
   EXPECT_LT(alphabeticalKey(""), alphabeticalKey("0"));
 }
 
-WantedLabel wanted(double x, double y, std::vector<Eigen::Vector2d> sizes) {
-  WantedLabel label{{x, y}, true, {}};
+WantedLabel wanted(LabelOf of, double x, double y, std::vector<Eigen::Vector2d> sizes) {
+  WantedLabel label;
+  label.of = of;
+  label.at_px = {x, y};
+  label.centred = of.kind == LabelKind::room;
+  label.gap_px = 10;
   for (const auto& size : sizes) label.texts.push_back({"", size});
   return label;
 }
 
+WantedLabel wantedRoom(std::size_t index, double x, double y, std::vector<Eigen::Vector2d> sizes) {
+  return wanted({LabelKind::room, index}, x, y, std::move(sizes));
+}
+
+std::vector<std::optional<PlacedLabel>> laidOut(const std::vector<WantedLabel>& labels, double slack_px = 0) {
+  return LabelLayout().layOut(labels, {200, 200}, slack_px);
+}
+
 TEST(LabelLayout, GivesTheRightOfWayToWhoComesFirst) {
-  const auto placed =
-      layOut({wanted(50, 50, {{40, 20}}), wanted(60, 55, {{40, 20}}), wanted(50, 80, {{40, 20}})}, {200, 200});
+  const auto placed = laidOut(
+      {wantedRoom(0, 50, 50, {{40, 20}}), wantedRoom(1, 60, 55, {{40, 20}}), wantedRoom(2, 50, 80, {{40, 20}})});
   ASSERT_TRUE(placed[0]);
   EXPECT_EQ(placed[0]->corner_px, Eigen::Vector2d(30, 40));
   EXPECT_FALSE(placed[1]);
   EXPECT_TRUE(placed[2]);
 }
 
+TEST(LabelLayout, PutsMeasurementsBeforeStationsAndThoseBeforeRoomsAndWhatIsChosenBeforeAll) {
+  const Eigen::Vector2d size(40, 20);
+  const auto station = wanted({LabelKind::station, 0}, 100, 110, {size});
+  const auto measurement = wanted({LabelKind::measurement, 0}, 100, 112, {size});
+  auto placed = laidOut({wantedRoom(0, 100, 90, {size}), station, measurement});
+  EXPECT_FALSE(placed[0]);
+  ASSERT_TRUE(placed[1] && placed[2]);
+  EXPECT_EQ(placed[2]->side, LabelSide::above);
+  EXPECT_EQ(placed[1]->side, LabelSide::below);
+  auto chosen = station;
+  chosen.chosen = true;
+  placed = laidOut({chosen, measurement});
+  ASSERT_TRUE(placed[0] && placed[1]);
+  EXPECT_EQ(placed[0]->side, LabelSide::above);
+  EXPECT_EQ(placed[1]->side, LabelSide::below);
+}
+
 TEST(LabelLayout, TakesAShorterTextWhereTheFullOneDoesNotFit) {
-  const auto placed = layOut({wanted(50, 50, {{40, 20}}), wanted(90, 50, {{60, 20}, {30, 20}})}, {200, 200});
+  const auto placed = laidOut({wantedRoom(0, 50, 50, {{40, 20}}), wantedRoom(1, 90, 50, {{60, 20}, {30, 20}})});
   ASSERT_TRUE(placed[1]);
   EXPECT_EQ(placed[1]->text, 1U);
 }
 
 TEST(LabelLayout, LeavesThePictureToNobody) {
   const auto placed =
-      layOut({wanted(5, 50, {{40, 20}}), wanted(195, 199, {{4, 20}}), wanted(-500, 0, {{1, 1}})}, {200, 200});
+      laidOut({wantedRoom(0, 5, 50, {{40, 20}}), wantedRoom(1, 195, 199, {{4, 20}}), wantedRoom(2, -500, 0, {{1, 1}})});
   EXPECT_FALSE(placed[0] || placed[1] || placed[2]);
+}
+
+TEST(LabelLayout, CoversNoMark) {
+  auto station = wanted({LabelKind::station, 0}, 100, 100, {{40, 20}});
+  station.mark_px = 4;
+  const auto placed = laidOut({station, wantedRoom(0, 100, 108, {{40, 20}}), wantedRoom(1, 100, 120, {{40, 20}})});
+  EXPECT_TRUE(placed[0]);
+  EXPECT_FALSE(placed[1]) << "over the station itself";
+  EXPECT_TRUE(placed[2]);
+}
+
+TEST(LabelLayout, DoesNotFlickerWhereTwoLabelsMeet) {
+  LabelLayout layout;
+  const auto at = [&](double x) {
+    return layout.layOut({wantedRoom(0, 50, 50, {{40, 20}}), wantedRoom(1, x, 50, {{40, 20}})}, {200, 200}, 5)[1]
+        .has_value();
+  };
+  EXPECT_TRUE(at(96));
+  EXPECT_TRUE(at(91)) << "it stays as long as nothing is covered";
+  EXPECT_FALSE(at(89));
+  EXPECT_FALSE(at(91)) << "and comes back where there is room enough";
+  EXPECT_FALSE(at(94));
+  EXPECT_TRUE(at(96));
+  EXPECT_TRUE(at(91));
+}
+
+TEST(LabelLayout, ChangesTheSideSeldom) {
+  LabelLayout layout;
+  const auto sideAt = [&](double x) {
+    const auto placed = layout.layOut(
+        {wanted({LabelKind::measurement, 0}, 50, 60, {{40, 20}}), wanted({LabelKind::station, 0}, x, 60, {{40, 20}})},
+        {200, 200}, 5);
+    return placed[1] ? placed[1]->side : LabelSide::left;
+  };
+  EXPECT_EQ(sideAt(100), LabelSide::above);
+  EXPECT_EQ(sideAt(89), LabelSide::below);
+  EXPECT_EQ(sideAt(91), LabelSide::below);
+  EXPECT_EQ(sideAt(96), LabelSide::above);
+  EXPECT_EQ(sideAt(91), LabelSide::above);
 }
 
 Product space(const std::string& name, const std::string& long_name) {
@@ -168,6 +237,35 @@ TEST_F(Plan, LooksStraightDownAtTheGroundFloorAndThenAtTheNextStorey) {
   EXPECT_GT(*editor.visibility.cut_height_m, ground + 2);
   gui.key('9');
   EXPECT_EQ(*editor.visibility.cut_height_m, ground) << "after the top storey the lowest";
+}
+
+TEST_F(Plan, WritesAMeasurementRatherThanTheNameOfTheRoomThatItLiesIn) {
+  gui.key('9');
+  gui.frames(2);
+  const auto times = [&](const std::string& name) {  // other panels may have it, too
+    const auto texts = gui.texts();
+    return std::count(texts.begin(), texts.end(), name);
+  };
+  const auto inView = [&](const std::string& name) {
+    const auto with = times(name);
+    editor.view.room_names = false;
+    const auto without = times(name);
+    editor.view.room_names = true;
+    return with > without;
+  };
+  const auto& rooms = editor.room_labels.of(editor.session.document().imported);
+  const auto shown = std::find_if(rooms.begin(), rooms.end(), [&](const auto& r) { return inView(r.name); });
+  ASSERT_NE(shown, rooms.end());
+  const auto label = *shown;
+  MeasureOptions options{.add = "M1"};
+  options.kind = MeasurementKind::distance;
+  for (const double x : {-0.5, 0.5})
+    options.points.push_back(label.anchor + Eigen::Vector3d(x, 0.02, 0) + editor.shift_m());
+  ASSERT_TRUE(editor.session.start(options));
+  gui.settle();
+  gui.frames(2);
+  EXPECT_TRUE(gui.says("1.0000 m"));
+  EXPECT_FALSE(inView(label.name)) << "it would cover the figure";
 }
 
 TEST(Camera, OfAParallelViewLooksAtEachPointFromStraightBeforeIt) {
