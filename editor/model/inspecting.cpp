@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What of the model looks into clouds.
 #include <algorithm>
+#include <any>
 #include <cmath>
 #include <numbers>
 
@@ -126,6 +127,19 @@ void Model::clipAroundSelection() {
 
 void Model::clipSection(const Eigen::Vector3d& place, const Eigen::Vector3d& normal) {
   view.clip.box = slabThrough(place, normal, view.clip.thickness_m, visibleBounds());
+}
+
+void Model::followClip(bool settled) {
+  const auto* in_step = std::any_cast<std::optional<ClipBox>>(&session.history().shown());
+  const auto noted = in_step != nullptr ? *in_step : std::nullopt;
+  if (noted != noted_clip_) {  // undone or redone, or another project
+    view.clip.box = noted_clip_ = noted;
+    return;
+  }
+  if (!settled || view.clip.box == noted_clip_) return;
+  const char* const step = !view.clip.box ? "Clip box removed" : noted_clip_ ? "Clip box changed" : "Clip box set";
+  noted_clip_ = view.clip.box;
+  session.note(noted_clip_, step);
 }
 
 void Model::lookAlongClip() {

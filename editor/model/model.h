@@ -339,6 +339,8 @@ struct Model : Style {
   // A section of the thickness that is set; local frame.
   void clipSection(const Eigen::Vector3d& place, const Eigen::Vector3d& normal);
   void lookAlongClip();
+  // Makes another clip box a step of the history once it is `settled`, and follows the history's steps.
+  void followClip(bool settled);
   // Starts to measure the wall at this place of the local frame.
   void measureWall(const Eigen::Vector3d& place, const std::optional<Eigen::Vector3d>& normal);
   Bounds visibleBounds() const;
@@ -391,6 +393,7 @@ struct Model : Style {
   std::filesystem::path live_file_;              // that the scan is written to
   std::shared_ptr<LiveCloud> live_;              // null: none, or it is no longer looked at
   const VerbTask* live_task_ = nullptr;          // that it belongs to, while that runs
+  std::optional<ClipBox> noted_clip_;            // of the current step
   std::shared_ptr<const Environment> imported_;  // whose products selection and visibility speak of
   std::uint64_t seen_revision_ = ~0ULL;
   mutable Catalogue catalogue_;

@@ -299,15 +299,17 @@ void Session::clear() {
 void Session::undo() {
   if (!whyNotUndo().empty()) return;
   say(LogLevel::note, "", trf("Undone: {}", trSentence(history_.undoDescription())));
+  const Document before = document();
   history_.undo();
-  ++revision_;
+  countStep(before);
 }
 
 void Session::redo() {
   if (!whyNotRedo().empty()) return;
   say(LogLevel::note, "", trf("Redone: {}", trSentence(history_.redoDescription())));
+  const Document before = document();
   history_.redo();
-  ++revision_;
+  countStep(before);
 }
 
 std::string Session::whyNotGoTo(std::size_t step) const {
@@ -318,9 +320,18 @@ std::string Session::whyNotGoTo(std::size_t step) const {
 void Session::goTo(std::size_t step) {
   if (!whyNotGoTo(step).empty()) return;
   say(LogLevel::note, "", trf("Went to step: {}", history_.description(step)));
+  const Document before = document();
   history_.goTo(step);
-  ++revision_;
+  countStep(before);
 }
+
+void Session::note(std::any shown, std::string description) {
+  say(LogLevel::done, "", description);
+  history_.pushShown(std::move(shown), std::move(description));
+  ++noted_;
+}
+
+void Session::countStep(const Document& before) { ++(document() == before ? noted_ : revision_); }
 
 bool Session::poll() {
   bool any = false;

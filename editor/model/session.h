@@ -121,6 +121,8 @@ class Session {
   void redo();
   std::string whyNotGoTo(std::size_t step) const;
   void goTo(std::size_t step);  // of history()
+  // A step that changes how the document is shown, and nothing of it (History::pushShown).
+  void note(std::any shown, std::string description);
 
   // Takes the results of what has finished; true when there were any. Call once a frame.
   bool poll();
@@ -169,6 +171,7 @@ class Session {
   bool modified() const { return history_.modified(); }
   // Rises with every change of the document, for what is derived from it.
   std::uint64_t revision() const { return revision_; }
+  std::uint64_t steps() const { return revision_ + noted_; }  // rises with every step, back ones too
 
  private:
   std::string whyHeld() const;  // by a task; "" when it is free
@@ -181,6 +184,7 @@ class Session {
   void forgetRecovered();
   void stayIn(const std::filesystem::path& folder, std::string on_disk);
   void leaveFolder();
+  void countStep(const Document& before);
 
   std::vector<Verb> verbs_;
   std::function<void()> wake_;
@@ -197,7 +201,7 @@ class Session {
   std::vector<LogEntry> log_;
   std::deque<ShownError> errors_;
   std::deque<ShownAnswer> answers_;
-  std::uint64_t revision_ = 0;
+  std::uint64_t revision_ = 0, noted_ = 0;
   struct Kept {
     std::filesystem::path folder;
     Document document;

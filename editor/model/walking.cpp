@@ -45,7 +45,7 @@ Error nowhere(std::string message) { return {ErrorKind::unusable, std::move(mess
 
 bool begin(Model& model, const std::shared_ptr<const WalkedGround>& ground, const StartPlace& place) {
   auto before = viewNow(model);
-  if (model.wanted_jump) before.jumped_at = model.session.revision();
+  if (model.wanted_jump) before.jumped_at = model.session.steps();
   stopFlying(model);
   if (!model.walk.start(ground, model.walker, place, model.view.camera)) return false;
   model.views.push(before);
@@ -235,7 +235,7 @@ void goBackInViews(Model& model) {
   model.visibility.cut_height_m = view->cut_height_m;
 }
 
-bool canUndoJump(const Model& model) { return model.walk.active() && model.views.endsInJump(model.session.revision()); }
+bool canUndoJump(const Model& model) { return model.walk.active() && model.views.endsInJump(model.session.steps()); }
 
 bool awaitsWalk(const Model& model) {
   return model.wanted_walk || model.view.teleport.active() || model.walk_ground.preparing();

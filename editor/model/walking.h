@@ -26,13 +26,13 @@ class ViewHistory {
     Camera camera;
     std::optional<Eigen::Vector3d> feet;  // of whoever walked there
     std::optional<double> cut_height_m;
-    std::optional<std::uint64_t> jumped_at;  // revision of the session when a teleport or a jump left this view
+    std::optional<std::uint64_t> jumped_at;  // steps of the session when a teleport or a jump left this view
   };
   void push(const View& view);
   std::optional<View> back();
   bool empty() const { return views_.empty(); }
   // Whether the last thing that happened is a jump: nothing in the session has changed since.
-  bool endsInJump(std::uint64_t revision) const { return !views_.empty() && views_.back().jumped_at == revision; }
+  bool endsInJump(std::uint64_t steps) const { return !views_.empty() && views_.back().jumped_at == steps; }
 
  private:
   std::vector<View> views_;

@@ -457,6 +457,7 @@ void openPanel(Editor& editor, Workspace workspace, std::string_view panel) {
 
 void drawShell(Editor& editor) {
   editor.update();
+  editor.followClip(editor.view.clip.face < 0 && !ImGui::IsAnyItemActive());
   closeTopmost(editor);  // which may close the preview, and then there is nothing of it to draw
   if (editor.preview.isOpen()) runPreviewKeys(editor);
   if (editor.preview.isOpen()) {

@@ -156,6 +156,56 @@ TEST_F(Inspect, AFaceOfTheClipBoxIsPulledAndEscPutsItBack) {
   gui.frames(2);
 }
 
+TEST_F(Inspect, TheClipBoxIsUndoneByStepsOfWhichADragIsOne) {
+  const auto& history = editor.session.history();
+  const auto steps = history.size();
+  const bool modified = editor.session.modified();
+  const auto revision = editor.session.revision();
+  Bounds room;
+  room.extend(Eigen::Vector3d(1, 4, 0));
+  room.extend(Eigen::Vector3d(4, 7, 2));
+  editor.view.clip.box = clipAround(room, 0);
+  gui.frames(3);
+  ASSERT_EQ(history.size(), steps + 1);
+  EXPECT_EQ(history.undoDescription(), "Clip box set");
+  gui.moveTo(screenOf({4, 5.5, 1}));
+  ImGui::GetIO().MouseDown[0] = true;
+  gui.frames(2);
+  for (const double x : {3.6, 3.3, 3.0}) {
+    gui.moveTo(screenOf({x, 5.5, 1}));
+    gui.frames(2);
+  }
+  EXPECT_EQ(history.size(), steps + 1) << "while it is dragged";
+  ImGui::GetIO().MouseDown[0] = false;
+  gui.frames(3);
+  ASSERT_EQ(history.size(), steps + 2);
+  EXPECT_EQ(history.undoDescription(), "Clip box changed");
+  ASSERT_TRUE(invoke(editor, "clip-none"));
+  gui.frames(3);
+  EXPECT_EQ(history.undoDescription(), "Clip box removed");
+  EXPECT_EQ(editor.session.modified(), modified) << "it is in no file";
+  EXPECT_EQ(editor.session.revision(), revision) << "nothing is out of date";
+  gui.key('Z', true);
+  gui.frames(2);
+  ASSERT_TRUE(editor.view.clip.box);
+  EXPECT_NEAR(editor.view.clip.box->half.x(), 1, 0.05);
+  gui.key('Z', true);
+  gui.frames(2);
+  ASSERT_TRUE(editor.view.clip.box);
+  EXPECT_NEAR(editor.view.clip.box->half.x(), 1.5, 1e-9);
+  gui.key('Z', true);
+  gui.frames(2);
+  EXPECT_FALSE(editor.view.clip.box);
+  gui.key('Y', true);
+  gui.frames(2);
+  ASSERT_TRUE(editor.view.clip.box);
+  EXPECT_NEAR(editor.view.clip.box->half.x(), 1.5, 1e-9);
+  EXPECT_EQ(history.size(), steps + 3) << "going back makes no steps";
+  editor.session.goTo(steps + 2);
+  gui.frames(2);
+  EXPECT_FALSE(editor.view.clip.box);
+}
+
 TEST_F(Inspect, ASectionIsLookedAtAlongItsThinSide) {
   editor.clipSection({2, 5, 1}, Eigen::Vector3d::UnitX());
   editor.lookAlongClip();

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "project/history.h"
 
+#include <any>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "tests/project/support.h"
@@ -59,6 +62,25 @@ TEST(History, KnowsWhetherTheCurrentValueIsTheSavedOne) {
   h.undo();
   h.push(named("c"), "c");
   EXPECT_TRUE(h.modified()) << "the saved value is gone from the history";
+}
+
+TEST(History, HasStepsOfWhatIsShownThatChangeNoDocument) {
+  History h(named("a"));
+  h.markSaved();
+  h.pushShown(std::string("box"), "box set");
+  EXPECT_EQ(h.undoDescription(), "box set");
+  EXPECT_FALSE(h.modified()) << "no file keeps it";
+  EXPECT_EQ(h.unsavedChanges(), 0U);
+  h.push(named("b"), "became b");
+  EXPECT_EQ(std::any_cast<std::string>(h.shown()), "box") << "it is still shown so";
+  EXPECT_TRUE(h.modified());
+  EXPECT_EQ(h.unsavedChanges(), 1U);
+  h.undo();
+  EXPECT_FALSE(h.modified());
+  h.undo();
+  EXPECT_FALSE(h.shown().has_value());
+  h.redo();
+  EXPECT_EQ(std::any_cast<std::string>(h.shown()), "box");
 }
 
 }  // namespace
