@@ -18,6 +18,16 @@ namespace {
 
 using nlohmann::json;
 constexpr std::size_t kRecent = 12;
+constexpr float kDevice_pt = 620;  // what a device's panel needs
+
+// What was kept of each workspace, dragged or not, when each had sizes of its own.
+constexpr std::array<AreaSizes, kWorkspaces> kFormerSizes = {{{280, 340, 190},
+                                                              {280, 340, 190},
+                                                              {350, 320, 170},
+                                                              {280, 340, 190},
+                                                              {330, 340, 170},
+                                                              {260, 620, 130},
+                                                              {330, 360, 170}}};
 
 // Reads what is there, and notes the keys of what makes no sense.
 class Reader {
@@ -35,8 +45,19 @@ class Reader {
   void number(const char* key, T& value, T low, T high) const {
     const auto found = object_.find(key);
     if (found == object_.end()) return;
-    if (!found->is_number() || found->get<T>() < low || found->get<T>() > high) wrong_.emplace_back(key);
-    if (found->is_number()) value = std::clamp(found->get<T>(), low, high);
+    if (!found->is_number()) {
+      wrong_.emplace_back(key);
+      return;
+    }
+    const auto stored = found->get<double>();
+    const double kept = std::clamp(stored, static_cast<double>(low), static_cast<double>(high));
+    if (kept != stored) wrong_.emplace_back(key);
+    value = static_cast<T>(kept);
+  }
+  void dragged(const char* key, std::optional<float>& size, float former, float low, float high) const {
+    float value = former;
+    number(key, value, low, high);
+    if (value != former) size = value;
   }
   template <class T>
   void choice(const char* key, T& value, std::optional<T> (*parse)(std::string_view)) const {
@@ -81,11 +102,22 @@ void Settings::remember(const std::filesystem::path& path) {
   if (recent.size() > kRecent) recent.resize(kRecent);
 }
 
+AreaSizes Settings::sizesIn(Workspace workspace) const {
+  AreaSizes usual;
+  if (workspace == Workspace::instrument) usual.right = kDevice_pt;
+  const auto& dragged = areas[static_cast<std::size_t>(workspace)];
+  return {dragged.left.value_or(usual.left), dragged.right.value_or(usual.right),
+          dragged.bottom.value_or(usual.bottom)};
+}
+
 json toJson(const Settings& settings) {
   json areas = json::object();
   for (std::size_t i = 0; i < settings.areas.size(); ++i) {
     const auto& a = settings.areas[i];
-    areas[nameOf(static_cast<Workspace>(i))] = {{"left", a.left}, {"right", a.right}, {"bottom", a.bottom}};
+    json dragged = json::object();
+    for (const auto& [key, size] : {std::pair("left", a.left), {"right", a.right}, {"bottom", a.bottom}})
+      if (size) dragged[key] = *size;
+    if (!dragged.empty()) areas[nameOf(static_cast<Workspace>(i))] = std::move(dragged);
   }
   return {{"recent", settings.recent},
           {"areas", std::move(areas)},
@@ -116,9 +148,9 @@ Settings settingsFrom(const json& object, std::vector<std::string>& wrong) {
       const auto found = areas->find(nameOf(static_cast<Workspace>(i)));
       if (found == areas->end() || !found->is_object()) continue;
       const Reader area(*found, wrong);
-      area.number("left", result.areas[i].left, 160.0F, 900.0F);
-      area.number("right", result.areas[i].right, 200.0F, 1200.0F);
-      area.number("bottom", result.areas[i].bottom, 80.0F, 700.0F);
+      area.dragged("left", result.areas[i].left, kFormerSizes[i].left, 160, 900);
+      area.dragged("right", result.areas[i].right, kFormerSizes[i].right, 200, 1200);
+      area.dragged("bottom", result.areas[i].bottom, kFormerSizes[i].bottom, 80, 700);
     }
   if (const auto* folder = reader.find("last_folder", json::value_t::string))
     result.last_folder = folder->get<std::string>();

@@ -23,8 +23,13 @@ const char* nameOf(Workspace workspace);  // "environment"
 
 // Widths and heights of the areas in points (pixels at scale 1).
 struct AreaSizes {
-  float left = 280, right = 340, bottom = 190;
-  bool operator==(const AreaSizes&) const = default;
+  float left = 330, right = 340, bottom = 180;
+};
+
+// What of them the user has dragged.
+struct DraggedSizes {
+  std::optional<float> left, right, bottom;
+  bool operator==(const DraggedSizes&) const = default;
 };
 
 // What the editor remembers from one start to the next.
@@ -47,6 +52,9 @@ struct Settings {
   bool operator==(const Settings&) const = default;
 
   void remember(const std::filesystem::path& path);
+  // The same in all workspaces, so that the view stays where it is; but a device has the room that it needs.
+  AreaSizes sizesIn(Workspace workspace) const;
+  DraggedSizes& draggedIn(Workspace workspace) { return areas[static_cast<std::size_t>(workspace)]; }
 };
 
 nlohmann::json toJson(const Settings& settings);

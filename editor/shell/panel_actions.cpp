@@ -154,8 +154,8 @@ void PanelActions::selectInPreview(std::uint32_t product) { editor_.preview_sele
 void PanelActions::open(Workspace workspace, const char* panel) { openPanel(editor_, workspace, panel); }
 bool PanelActions::offers(const char* panel) const { return areaOf(panel, editor_.workspace) != Area::none; }
 void PanelActions::growBottom(float points) {
-  auto& height = editor_.settings.areas[static_cast<std::size_t>(editor_.workspace)].bottom;
-  height = std::max(height, points);
+  if (points > editor_.settings.sizesIn(editor_.workspace).bottom)
+    editor_.settings.draggedIn(editor_.workspace).bottom = points;
 }
 void PanelActions::run(const char* command) { invoke(editor_, command); }
 void PanelActions::menuItem(const char* command) { actionMenuItem(editor_, command); }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -328,12 +329,13 @@ bool anyPanel(const Editor& editor, Area area) {
                      [&](const Panel& p) { return p.area[static_cast<std::size_t>(editor.workspace)] == area; });
 }
 
-void splitter(Editor& editor, const char* id, const Box& box, ImGuiAxis axis, float sign, float& size, float smallest,
-              float largest) {
+void splitter(Editor& editor, const char* id, const Box& box, ImGuiAxis axis, float sign, float size,
+              std::optional<float>& dragged, float smallest, float largest) {
   ImGui::SetCursorScreenPos({box.x, box.y});
   ImGui::InvisibleButton(id, {std::max(box.w, 1.0F), std::max(box.h, 1.0F)});
   const bool active = ImGui::IsItemActive();
-  if (active) size = std::clamp(size + sign * ImGui::GetIO().MouseDelta[axis] / editor.scale, smallest, largest);
+  if (const float moved = ImGui::GetIO().MouseDelta[axis]; active && moved != 0)
+    dragged = std::clamp(size + sign * moved / editor.scale, smallest, largest);
   if (!active && !ImGui::IsItemHovered()) return;
   ImGui::SetMouseCursor(axis == ImGuiAxis_X ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
   ImGui::GetWindowDrawList()->AddRectFilled({box.x, box.y}, {box.x + box.w, box.y + box.h}, tone::kAccent);
@@ -344,17 +346,18 @@ struct Layout {
 };
 
 // What the areas get: the viewport keeps two fifths of the width, three tenths where the device is what is looked at.
+// Where that leaves too little, the left one keeps its width for longest, so that the view begins where it does
+// elsewhere.
 Layout layOut(const Editor& editor, const Box& all) {
-  const auto& sizes = editor.settings.areas[static_cast<std::size_t>(editor.workspace)];
+  const AreaSizes sizes = editor.settings.sizesIn(editor.workspace);
   Layout l;
   l.all = all;
   const float gap = editor.px(3);
   float left = anyPanel(editor, Area::left) ? editor.px(sizes.left) : 0;
   float right = anyPanel(editor, Area::right) ? editor.px(sizes.right) : 0;
   if (const float most = all.w * (editor.workspace == Workspace::instrument ? 0.7F : 0.6F); left + right > most) {
-    const float fraction = most / (left + right);
-    left *= fraction;
-    right *= fraction;
+    right = std::min(right, std::max(most - left, most / 2));
+    left = std::min(left, most - right);
   }
   const float bottom = anyPanel(editor, Area::bottom) ? std::min(editor.px(sizes.bottom), all.h * 0.6F) : 0;
   l.left = {all.x, all.y, left, all.h};
@@ -367,19 +370,20 @@ Layout layOut(const Editor& editor, const Box& all) {
 }
 
 void drawSplitters(Editor& editor, const Layout& l) {
-  auto& sizes = editor.settings.areas[static_cast<std::size_t>(editor.workspace)];
+  const AreaSizes sizes = editor.settings.sizesIn(editor.workspace);
+  auto& dragged = editor.settings.draggedIn(editor.workspace);
   const float gap = editor.px(3);
   // Never as one that wants the focus: under a dialog that would put it over the areas that have just appeared.
   beginFixed("###splitters", l.all, {0, 0}, tone::kBehind, ImGuiWindowFlags_NoFocusOnAppearing);
   if (l.left.w > 0)
-    splitter(editor, "###split-left", {l.left.x + l.left.w, l.all.y, gap, l.all.h}, ImGuiAxis_X, 1, sizes.left, 160,
-             900);
+    splitter(editor, "###split-left", {l.left.x + l.left.w, l.all.y, gap, l.all.h}, ImGuiAxis_X, 1, sizes.left,
+             dragged.left, 160, 900);
   if (l.right.w > 0)
-    splitter(editor, "###split-right", {l.right.x - gap, l.all.y, gap, l.all.h}, ImGuiAxis_X, -1, sizes.right, 200,
-             1200);
+    splitter(editor, "###split-right", {l.right.x - gap, l.all.y, gap, l.all.h}, ImGuiAxis_X, -1, sizes.right,
+             dragged.right, 200, 1200);
   if (l.bottom.h > 0)
     splitter(editor, "###split-bottom", {l.middle.x, l.bottom.y - gap, l.middle.w, gap}, ImGuiAxis_Y, -1, sizes.bottom,
-             80, 700);
+             dragged.bottom, 80, 700);
   ImGui::End();
 }
 
