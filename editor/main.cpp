@@ -47,6 +47,7 @@ struct Arguments {
   std::string pictures, devices, language = "en";
   Theme theme = Theme::dark;
   int width = 1280, height = 800;
+  bool sized = false;  // on the command line
   float scale = 1;
   std::optional<ShotOptions> shot;
   bool help = false;
@@ -58,6 +59,7 @@ Result<void> takeWindowSize(Arguments& arguments, const std::string& value) {
   if (!read || arguments.width < 640 || arguments.height < 400 || arguments.width > 8192 || arguments.height > 8192)
     return failure(ErrorKind::usage,
                    fmt::format("invalid size '{}': use WIDTHxHEIGHT from 640x400 to 8192x8192", value), "--size");
+  arguments.sized = true;
   return {};
 }
 
@@ -232,6 +234,7 @@ int openWindow(const Arguments& arguments) {
   const auto prepare = [&] {
     auto stored = readSettings(settingsFile());
     editor.settings = std::move(stored.settings);
+    if (arguments.sized) editor.settings.window.reset();
     speak(editor.settings.language);
     if (!stored.problem.empty()) editor.say(std::move(stored.problem));
     editor.dialogs.recovery = findLeftWork(recoveryRoot());

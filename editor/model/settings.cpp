@@ -80,6 +80,18 @@ std::optional<std::string> languageChoice(std::string_view code) {
   return valid ? std::optional<std::string>(code) : std::nullopt;
 }
 
+WindowPlace placeFrom(const Reader& window) {
+  constexpr int kFar_px = 100000;  // from any monitor
+  WindowPlace place;
+  window.number("x", place.x, -kFar_px, kFar_px);
+  window.number("y", place.y, -kFar_px, kFar_px);
+  window.number("width", place.width, 800, kFar_px);
+  window.number("height", place.height, 500, kFar_px);
+  if (const auto* maximised = window.find("maximised", json::value_t::boolean))
+    place.maximised = maximised->get<bool>();
+  return place;
+}
+
 }  // namespace
 
 const char* nameOf(Workspace workspace) {

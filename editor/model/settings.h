@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/result.h"
+#include "editor/desktop/window_place.h"
 #include "editor/model/graphics.h"
 
 namespace standpoint {
@@ -35,16 +36,11 @@ struct DraggedSizes {
 // What the editor remembers from one start to the next.
 struct Settings {
   std::vector<std::string> recent;  // projects and models, newest first
-  std::array<AreaSizes, kWorkspaces> areas = {AreaSizes{},
-                                              AreaSizes{},
-                                              AreaSizes{350, 320, 170},
-                                              AreaSizes{},
-                                              AreaSizes{330, 340, 170},
-                                              AreaSizes{260, 620, 130},
-                                              AreaSizes{330, 360, 170}};
-  std::string last_folder;  // of the file dialog
-  double user_scale = 1;    // on top of the monitor's
-  bool recovery = true;     // keep a copy of unsaved work after every change
+  std::array<DraggedSizes, kWorkspaces> areas;
+  std::optional<WindowPlace> window;  // as it was last; none: never opened
+  std::string last_folder;            // of the file dialog
+  double user_scale = 1;              // on top of the monitor's
+  bool recovery = true;               // keep a copy of unsaved work after every change
   GraphicsChoice graphics = GraphicsChoice::automatic;
   Theme theme = Theme::dark;
   bool sounds = false;   // of instruments

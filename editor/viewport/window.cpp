@@ -102,12 +102,25 @@ class Window {
  private:
   void keepWork() {
     keeper_.keep(editor_.session, editor_.settings.recovery);
+    rememberPlace();
     if (!editor_.dialogs.start_as_usual) settings_keeper_.keep(editor_.settings);
     const auto& copying = editor_.session.keepingProblem();
     const auto& problem = keeper_.problem().empty() ? copying : keeper_.problem();
     if (problem == editor_.keeping_problem) return;
     editor_.keeping_problem = problem;
     pacer_.drawSome();
+  }
+
+  // Where there is no window manager, nothing is ever maximised or minimised.
+  void rememberPlace() {
+    if (glfwGetWindowAttrib(handle_, GLFW_ICONIFIED) != 0) return;
+    WindowPlace place = editor_.settings.window.value_or(WindowPlace());
+    place.maximised = glfwGetWindowAttrib(handle_, GLFW_MAXIMIZED) != 0;
+    if (!place.maximised) {
+      glfwGetWindowPos(handle_, &place.x, &place.y);
+      glfwGetWindowSize(handle_, &place.width, &place.height);
+    }
+    editor_.settings.window = place;
   }
 
   static Window& of(GLFWwindow* handle) { return *static_cast<Window*>(glfwGetWindowUserPointer(handle)); }
@@ -315,6 +328,23 @@ class Window {
   std::string title_;
 };
 
+std::vector<MonitorArea> monitorAreas() {
+  int count = 0;
+  GLFWmonitor** monitors = glfwGetMonitors(&count);
+  std::vector<MonitorArea> areas(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < areas.size(); ++i)
+    glfwGetMonitorWorkarea(monitors[i], &areas[i].x, &areas[i].y, &areas[i].width, &areas[i].height);
+  return areas;
+}
+
+// Before it is shown: it does not move in front of somebody.
+void putWhereItWas(GLFWwindow* handle, const WindowPlace& was) {
+  const auto place = onMonitors(was, monitorAreas());
+  glfwSetWindowSize(handle, place.width, place.height);
+  glfwSetWindowPos(handle, place.x, place.y);
+  if (place.maximised) glfwMaximizeWindow(handle);
+}
+
 }  // namespace
 
 void wakeWindow() {
@@ -335,12 +365,15 @@ Result<void> runWindow(Editor& editor, int width, int height, bool after_crash, 
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
   GLFWwindow* handle = glfwCreateWindow(width, height, "Standpoint", nullptr, nullptr);
   if (handle == nullptr) {
     glfwTerminate();
     return failure(ErrorKind::unusable, last_glfw_error + "; the editor requires OpenGL 3.2", kNoOpenGl);
   }
   glfwSetWindowSizeLimits(handle, 800, 500, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  if (editor.settings.window) putWhereItWas(handle, *editor.settings.window);
+  glfwShowWindow(handle);
   glfwMakeContextCurrent(handle);
   glfwSwapInterval(1);
   FramePacer pacer;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
 #include <chrono>
 #include <fstream>
 #include <thread>
@@ -8,6 +9,7 @@
 
 #include "editor/desktop/file_list.h"
 #include "editor/desktop/interface_scale.h"
+#include "editor/desktop/window_place.h"
 #include "editor/model/settings.h"
 
 namespace standpoint {
@@ -107,6 +109,53 @@ TEST_F(Folder, ReadsSettingsOfTheTimeWhenWorkspacesHadNoNames) {
   const auto stored = readSettings(root / "editor.json");
   EXPECT_EQ(stored.problem, "");
   EXPECT_EQ(stored.settings.areas, Settings().areas);
+}
+
+TEST(Areas, AreAsWideInEachWorkspaceUnlessTheyWereDragged) {
+  Settings settings;
+  const AreaSizes usual = settings.sizesIn(Workspace::environment);
+  for (int w = 0; w < kWorkspaces; ++w) {
+    const AreaSizes sizes = settings.sizesIn(static_cast<Workspace>(w));
+    EXPECT_EQ(sizes.left, usual.left) << w;
+    EXPECT_EQ(sizes.bottom, usual.bottom) << w;
+    if (static_cast<Workspace>(w) != Workspace::instrument) {
+      EXPECT_EQ(sizes.right, usual.right) << w;
+    }
+  }
+  settings.draggedIn(Workspace::survey).left = 500;
+  EXPECT_EQ(settings.sizesIn(Workspace::survey).left, 500);
+  EXPECT_EQ(settings.sizesIn(Workspace::inspect).left, usual.left);
+}
+
+TEST_F(Folder, KeepsWhatWasDraggedWhenEachWorkspaceHadSizesOfItsOwn) {
+  write("editor.json", R"({"areas": {"materials": {"left": 350, "right": 320, "bottom": 170},
+                                     "survey": {"left": 410, "right": 340, "bottom": 170}}})");
+  const auto stored = readSettings(root / "editor.json");
+  EXPECT_EQ(stored.problem, "");
+  Settings wanted;
+  wanted.draggedIn(Workspace::survey).left = 410;
+  EXPECT_EQ(stored.settings, wanted);
+}
+
+TEST_F(Folder, BearsAWindowOfGarbage) {
+  for (const char* window : {"7", "null", R"({"x": "left"})", R"({"width": 1e300, "height": -4})"}) {
+    write("editor.json", std::string(R"({"window": )") + window + "}");
+    const auto stored = readSettings(root / "editor.json");
+    EXPECT_TRUE(stored.problem.starts_with("Preferences")) << window;
+    const auto place = stored.settings.window.value_or(WindowPlace());
+    EXPECT_GE(place.width, 800) << window;
+    EXPECT_GE(place.height, 500) << window;
+  }
+}
+
+TEST(WindowPlace, IsWhollyOnAMonitorThatExists) {
+  const std::array monitors = {MonitorArea{0, 30, 1920, 1050}, MonitorArea{1920, 0, 1280, 800}};
+  const WindowPlace kept{2000, 50, 1000, 700, true};
+  EXPECT_EQ(onMonitors(kept, monitors), kept);
+  EXPECT_EQ(onMonitors({-300, 0, 1000, 700}, monitors), (WindowPlace{0, 30, 1000, 700}));
+  EXPECT_EQ(onMonitors({1800, 100, 1200, 700}, monitors), (WindowPlace{1920, 100, 1200, 700})) << "most of it is there";
+  EXPECT_EQ(onMonitors({5000, 5000, 3000, 2000}, monitors), (WindowPlace{0, 30, 1920, 1050})) << "its monitor is gone";
+  EXPECT_EQ(onMonitors(kept, {}), kept);
 }
 
 TEST_F(Folder, StartsWithDefaultsWhenTheSettingsAreBroken) {
