@@ -131,15 +131,16 @@ json toJson(const Settings& settings) {
       if (size) dragged[key] = *size;
     if (!dragged.empty()) areas[nameOf(static_cast<Workspace>(i))] = std::move(dragged);
   }
-  return {{"recent", settings.recent},
-          {"areas", std::move(areas)},
-          {"last_folder", settings.last_folder},
-          {"user_scale", settings.user_scale},
-          {"recovery", settings.recovery},
-          {"graphics", graphicsKey(settings.graphics)},
-          {"theme", themeKey(settings.theme)},
-          {"language", settings.language},
-          {"sounds", settings.sounds}};
+  json window;
+  if (const auto& w = settings.window)
+    window = {{"x", w->x}, {"y", w->y}, {"width", w->width}, {"height", w->height}, {"maximised", w->maximised}};
+  json stored = {{"recent", settings.recent},           {"areas", std::move(areas)},
+                 {"last_folder", settings.last_folder}, {"user_scale", settings.user_scale},
+                 {"recovery", settings.recovery},       {"graphics", graphicsKey(settings.graphics)},
+                 {"theme", themeKey(settings.theme)},   {"language", settings.language},
+                 {"sounds", settings.sounds},           {"drag_turns_head", settings.drag_turns_head}};
+  if (!window.is_null()) stored["window"] = std::move(window);
+  return stored;
 }
 
 Settings settingsFrom(const json& object, std::vector<std::string>& wrong) {
@@ -171,6 +172,9 @@ Settings settingsFrom(const json& object, std::vector<std::string>& wrong) {
   if (object.value("recovery_minutes", json()) == 0) result.recovery = false;
   if (const auto* recovery = reader.find("recovery", json::value_t::boolean)) result.recovery = recovery->get<bool>();
   if (const auto* sounds = reader.find("sounds", json::value_t::boolean)) result.sounds = sounds->get<bool>();
+  if (const auto* turns = reader.find("drag_turns_head", json::value_t::boolean))
+    result.drag_turns_head = turns->get<bool>();
+  if (const auto* window = reader.find("window", json::value_t::object)) result.window = placeFrom({*window, wrong});
   reader.choice("graphics", result.graphics, graphicsChoice);
   reader.choice("theme", result.theme, themeOf);
   reader.choice("language", result.language, languageChoice);

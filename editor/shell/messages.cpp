@@ -267,6 +267,13 @@ void drawPreferences(Editor& editor) {
     }
     ui::propertyLabel("Language");
     drawLanguages(editor);
+    ui::propertyLabel("Dragging to look around");
+    for (const auto& [turns, name] : {std::pair{false, "Moves the scene"}, {true, "Turns the head"}}) {
+      if (ui::radioButton(fmt::format("{}###drag-{}", tr(name), turns ? "head" : "scene").c_str(),
+                          editor.settings.drag_turns_head == turns))
+        editor.settings.drag_turns_head = turns;
+      ImGui::SameLine(0, editor.px(16));
+    }
     ui::propertyLabel("Recovery copy after every change");
     ui::checkbox("###recovery", &editor.settings.recovery);
     ui::propertyLabel("Instrument sounds");

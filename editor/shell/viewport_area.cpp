@@ -79,7 +79,7 @@ void continueDrag(Editor& editor) {
   if (!view.dragged || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) return;
   const Eigen::Vector2d drag(io.MouseDelta.x, io.MouseDelta.y);
   if (view.tool == Tool::walk || view.tool == Tool::fly || looksFromStation(editor))
-    return orbit(view.camera, -drag / editor.scale, view.camera.eye());
+    return orbit(view.camera, (editor.settings.drag_turns_head ? drag : -drag) / editor.scale, view.camera.eye());
   if (io.MouseDown[0] && !io.KeyShift && !io.KeyAlt)  // Alt: for whoever has no middle button
     orbit(view.camera, drag / editor.scale, view.pivot);
   else

@@ -60,6 +60,8 @@ TEST_F(Folder, KeepsSettingsFromOneStartToTheNext) {
   settings.remember("/models/school.ifc");
   settings.remember("/models/house.ifc");
   settings.areas[1].left = 444;
+  settings.window = WindowPlace{-1920, 40, 1700, 950, true};
+  settings.drag_turns_head = true;
   settings.user_scale = 1.25;
   settings.graphics = GraphicsChoice::medium;
   settings.theme = Theme::light;

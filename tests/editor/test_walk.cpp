@@ -60,6 +60,32 @@ TEST_F(Walking, BeginsOnTheFloorAtEyeHeightAndEndsWithEscape) {
   EXPECT_NEAR((editor.view.camera.eye() - eye).norm(), 0, 1e-6) << "it stays where one walked to";
 }
 
+TEST_F(Walking, ADragMovesTheSceneOrTurnsTheHeadAsChosenInThePreferences) {
+  walk();
+  const auto turnOfDrag = [&] {  // to the left, as a turn to the left
+    const auto before = editor.view.camera.forward();
+    gui.moveTo(pixelOf(editor.view.camera.target));
+    gui.frame();
+    ImGui::GetIO().MouseDown[0] = true;
+    gui.frame();
+    for (int i = 0; i < 5; ++i) {
+      ImGui::GetIO().MousePos.x -= 12;
+      gui.frame();
+    }
+    ImGui::GetIO().MouseDown[0] = false;
+    gui.frames(2);
+    return before.cross(editor.view.camera.forward()).z();
+  };
+  EXPECT_LT(turnOfDrag(), -0.01) << "what is seen follows the pointer";
+  editor.dialogs.preferences = true;
+  gui.frames(3);
+  ASSERT_TRUE(gui.click("###drag-head"));
+  editor.dialogs.preferences = false;
+  gui.frames(3);
+  EXPECT_TRUE(editor.settings.drag_turns_head);
+  EXPECT_GT(turnOfDrag(), 0.01);
+}
+
 TEST_F(Walking, TakesTheCutAwayAndThePreviousViewBringsItBack) {
   editor.visibility.cut_height_m = 1.2;
   walk();
