@@ -11,6 +11,12 @@ namespace standpoint {
 
 struct Editor;
 
+// Of a part of the interface that has this size.
+struct ScreenPixels {
+  int width = 0, height = 0;
+};
+ScreenPixels screenPixels(ImVec2 size);
+
 // The picture of a scene in a part of the view; nothing where there is nothing that draws.
 void drawScene(SceneView* scene, const ViewState& state, ImVec2 origin, ImVec2 size, bool fine);
 // What stands at the lower edge of that part.

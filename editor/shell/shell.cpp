@@ -20,6 +20,7 @@
 #include "editor/shell/graphics_choice.h"
 #include "editor/shell/import_preview.h"
 #include "editor/shell/panel_actions.h"
+#include "editor/shell/scene_picture.h"
 #include "editor/shell/start_page.h"
 #include "editor/shell/status_bar.h"
 #include "editor/widgets/icons.h"
@@ -446,9 +447,8 @@ void drawWorkspace(Editor& editor, const Box& all) {
 void prepareViewport(Editor& editor, const Box& all) {
   if (editor.scene == nullptr || (!editor.jobRuns() && editor.session.running().empty())) return;
   const Layout l = layOut(editor, all);
-  const float pixels = ImGui::GetIO().DisplayFramebufferScale.x > 0 ? ImGui::GetIO().DisplayFramebufferScale.x : 1;
-  editor.scene->prepare(editor.viewState(), static_cast<int>(l.middle.w * pixels),
-                        static_cast<int>(l.middle.h * pixels));
+  const auto [width, height] = screenPixels({l.middle.w, l.middle.h});
+  editor.scene->prepare(editor.viewState(), width, height);
 }
 
 }  // namespace

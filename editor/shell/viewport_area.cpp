@@ -219,7 +219,8 @@ void measureGraphics(Editor& editor, ImVec2 size) {
   ViewState state = editor.viewState();
   state.graphics.level = *level;
   state.graphics.motion_size = 1;
-  editor.graphics.measured(*level, editor.scene->cost_s(state, static_cast<int>(size.x), static_cast<int>(size.y)));
+  const ScreenPixels pixels = screenPixels(size);
+  editor.graphics.measured(*level, editor.scene->cost_s(state, pixels.width, pixels.height));
 }
 
 // The original on the left, what was made of it on the right, through one camera. The half under the pointer is turned.
@@ -237,11 +238,14 @@ void drawBothModels(Editor& editor, ImVec2 origin, ImVec2 half) {
 
 }  // namespace
 
+ScreenPixels screenPixels(ImVec2 size) {
+  const float each = ImGui::GetIO().DisplayFramebufferScale.x > 0 ? ImGui::GetIO().DisplayFramebufferScale.x : 1;
+  return {static_cast<int>(size.x * each), static_cast<int>(size.y * each)};
+}
+
 void drawScene(SceneView* scene, const ViewState& state, ImVec2 origin, ImVec2 size, bool fine) {
-  const float pixels = ImGui::GetIO().DisplayFramebufferScale.x > 0 ? ImGui::GetIO().DisplayFramebufferScale.x : 1;
-  const std::uint64_t texture = scene == nullptr ? 0
-                                                 : scene->texture(state, static_cast<int>(size.x * pixels),
-                                                                  static_cast<int>(size.y * pixels), fine);
+  const ScreenPixels pixels = screenPixels(size);
+  const std::uint64_t texture = scene == nullptr ? 0 : scene->texture(state, pixels.width, pixels.height, fine);
   if (texture == 0) return;
   ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)), origin,
                                        {origin.x + size.x, origin.y + size.y}, {0, 1}, {1, 0});
