@@ -119,7 +119,8 @@ Result<void> Shoot::drawPicture(SceneView& scene) {
     view.camera =
         turntableAt(view.camera, request_.around, static_cast<double>(request_.width) / request_.height, share);
   if (walk_) view.camera = walk_->at(share);
-  TRY_ASSIGN(const auto picture, scene.pixels(view, request_.width, request_.height));
+  TRY_ASSIGN(auto picture, scene.pixels(view, request_.width, request_.height));
+  if (request_.over) request_.over(picture);
   if (!film_) return writePicture(picture, request_.file);
   TRY(film_->append(picture));
   return done_ + 1 < all_ ? Result<void>() : film_->finish();

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -35,12 +36,13 @@ const ShotKindRow& rowOf(ShotKind kind);
 struct ShotRequest {
   ShotKind kind = ShotKind::picture;
   std::filesystem::path file;
-  int width = 1920, height = 1080;   // pixels; of a panorama the height is half the width
-  double rate = 30;                  // pictures per second of a film
-  double seconds = 0;                // of a film; 0: what suits it
-  ViewState view;                    // what is seen, and with which camera
-  Bounds around;                     // what a turntable turns around
-  std::vector<Eigen::Vector3d> way;  // of the feet, for a walk-through
+  int width = 1920, height = 1080;          // pixels; of a panorama the height is half the width
+  double rate = 30;                         // pictures per second of a film
+  double seconds = 0;                       // of a film; 0: what suits it
+  ViewState view;                           // what is seen, and with which camera
+  Bounds around;                            // what a turntable turns around
+  std::vector<Eigen::Vector3d> way;         // of the feet, for a walk-through
+  std::function<void(PixelPicture&)> over;  // draws over a picture before it is written; empty: nothing does
 };
 
 // "" when it can be made, else what is wrong with it, to be said beside the field.

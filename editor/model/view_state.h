@@ -22,6 +22,8 @@
 #include "optimizer/optimizer.h"
 #include "project/document.h"
 
+struct ImDrawData;
+
 namespace standpoint {
 
 constexpr int kMostPointSize_px = 8;
@@ -109,6 +111,8 @@ class SceneView {
   virtual bool prepare(const ViewState& /*state*/, int /*width_px*/, int /*height_px*/) { return false; }
   // The finest picture of `state`, as pixels. An error where there is nothing that draws, or no memory for it.
   virtual Result<PixelPicture> pixels(const ViewState& state, int width_px, int height_px);
+  // Puts what Dear ImGui has laid out for its size over such a picture.
+  virtual void drawOver(PixelPicture& /*picture*/, ImDrawData& /*drawing*/) {}
   // The picture gets better when it is asked for again, though nothing has changed.
   virtual bool refining() const { return false; }
   virtual std::string trouble() const { return {}; }  // why not all of it can be drawn; "" mostly

@@ -11,6 +11,7 @@
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
+#include "editor/shell/marks_picture.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keyboard.h"
 #include "editor/widgets/modal.h"
@@ -89,6 +90,10 @@ void begin(Editor& editor, const std::filesystem::path& file) {
   if (!request) return fail(dialog, request.error());
   dialog.request = *std::move(request);
   dialog.request.file = file;
+  if (dialog.kind == ShotKind::picture && dialog.labels)
+    dialog.request.over = [&editor, camera = dialog.request.view.camera](PixelPicture& picture) {
+      drawMarksOver(editor, camera, picture);
+    };
   dialog.problem.clear();
   dialog.copy_problem.clear();
   dialog.notes.clear();
@@ -173,6 +178,11 @@ void drawFields(const Editor& editor, ShotDialog& dialog) {
   if (!ui::beginProperties("shot", 0.34F)) return;
   drawSize(dialog);
   if (dialog.kind == ShotKind::picture || dialog.kind == ShotKind::panorama) drawFrom(editor, dialog);
+  if (dialog.kind == ShotKind::picture) {
+    ui::propertyLabel("Labels and measurements");
+    ui::checkbox("###shot-labels", &dialog.labels);
+    ui::tooltip("As the view shows them");
+  }
   if (dialog.kind == ShotKind::walk_through) {
     ui::propertyLabel("Through");
     if (ui::radioButton(ui::Label("Stations###through-stations"), !dialog.stops.rooms)) dialog.stops.rooms = false;

@@ -20,6 +20,7 @@ struct ShotDialog {
   double width = 1920, height = 1080, rate = 30, seconds = 0;
   ShotPlace place;
   WalkStops stops;
+  bool labels = true;              // and measurements, over a picture of the view
   std::string problem;             // why the last one was not made
   std::filesystem::path made;      // the last one
   std::vector<std::string> notes;  // what was left out of it

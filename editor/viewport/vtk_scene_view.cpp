@@ -28,6 +28,7 @@
 
 #include "core/units.h"
 #include "editor/viewport/backdrop.h"
+#include "editor/viewport/drawn_over.h"
 #include "editor/viewport/finish.h"
 #include "editor/viewport/picture_window.h"
 #include "editor/viewport/point_composer.h"
@@ -244,6 +245,8 @@ class VtkSceneView : public PaintedScene {
                ? failure(ErrorKind::unusable, fmt::format("cannot draw {}x{} pixels: choose fewer", width, height))
                : readBack(shown_, width, height);
   }
+
+  void drawOver(PixelPicture& picture, ImDrawData& drawing) override { putOver(picture, drawing); }
 
   std::uint64_t texture(const std::shared_ptr<const PixelPicture>& picture) override {
     if (picture == nullptr || picture->rgba.empty()) return 0;

@@ -700,6 +700,51 @@ TEST_F(Gui, AShortResultHasASmallDialogAndEnterSavesAPicture) {
   editor.scene = nullptr;
 }
 
+TEST_F(Gui, APictureOfTheViewHasItsLabelsUnlessTheyAreLeftOut) {
+  open();
+  struct Picture : SceneView {
+    std::uint64_t texture(const ViewState&, int, int, bool) override { return 0; }
+    std::uint64_t texture(const std::shared_ptr<const PixelPicture>&) override { return 0; }
+    Result<PixelPicture> pixels(const ViewState&, int width, int height) override {
+      return PixelPicture{width, height, std::vector<std::array<std::uint8_t, 4>>(std::size_t(width) * height)};
+    }
+    void drawOver(PixelPicture& picture, ImDrawData& drawing) override {
+      ++drawn;
+      EXPECT_EQ(static_cast<int>(drawing.DisplaySize.x * drawing.FramebufferScale.x), picture.width);
+      EXPECT_EQ(static_cast<int>(drawing.DisplaySize.y * drawing.FramebufferScale.y), picture.height);
+      vertices = drawing.TotalVtxCount;
+    }
+    int drawn = 0, vertices = 0;
+  };
+  Picture picture;
+  TemporaryFolder folder;
+  editor.scene = &picture;
+  ASSERT_TRUE(invoke(editor, "picture"));
+  gui.frames(3);
+  const auto save = [&] {
+    ASSERT_TRUE(gui.click("###shot-make"));
+    gui.frames(2);
+    ASSERT_TRUE(editor.dialogs.file.open);
+    editor.dialogs.file.open = false;
+    editor.dialogs.file.done(folder.path() / "view.png");
+    gui.frames(4);
+    EXPECT_FALSE(editor.shots.made.empty()) << editor.shots.problem;
+  };
+  const auto camera = editor.view.camera;
+  const auto size = editor.view.size;
+  ASSERT_NO_FATAL_FAILURE(save());
+  EXPECT_EQ(picture.drawn, 1);
+  EXPECT_GT(picture.vertices, 0);
+  EXPECT_EQ(editor.view.camera, camera);
+  EXPECT_EQ(editor.view.size, size);
+  const auto* unnamed = ImGui::FindWindowByName("Debug##Default");
+  EXPECT_TRUE(unnamed == nullptr || !unnamed->Active);
+  ASSERT_TRUE(gui.click("###shot-labels"));
+  ASSERT_NO_FATAL_FAILURE(save());
+  EXPECT_EQ(picture.drawn, 1);
+  editor.scene = nullptr;
+}
+
 TEST_F(Gui, NamesTheTaskOfAnExportShortly) {
   open();
   const TemporaryFolder folder;
