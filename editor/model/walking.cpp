@@ -177,8 +177,21 @@ void walkFromEye(Model& model, const Eigen::Vector3d& eye, const Camera& camera)
   });
 }
 
+namespace {
+
+// How far around a place is looked at, to know it again: half of the room that it is in or before.
+double surroundings_m(const Model& model, const Eigen::Vector3d& place) {
+  constexpr double kLeast_m = 1.5, kMost_m = 5, kUsual_m = 2.5;  // of a hall, a part; where there are no rooms
+  const auto& rooms = model.room_labels.of(model.session.document().imported);
+  const auto nearest = std::min_element(rooms.begin(), rooms.end(), [&](const RoomLabel& a, const RoomLabel& b) {
+    return (a.anchor - place).squaredNorm() < (b.anchor - place).squaredNorm();
+  });
+  return nearest == rooms.end() ? kUsual_m : std::clamp(std::sqrt(nearest->floor_area_m2) / 2, kLeast_m, kMost_m);
+}
+
+}  // namespace
+
 void showWorstPlace(Model& model, const Eigen::Vector3d& place) {
-  constexpr double kAround_m = 1.5;
   rememberView(model);
   model.view.worst_place = place;
   auto& cut = model.visibility.cut_height_m;
@@ -188,7 +201,7 @@ void showWorstPlace(Model& model, const Eigen::Vector3d& place) {
     look(camera, StandardView::corner);
     camera.orthographic = false;
   }
-  const Eigen::Vector3d half = Eigen::Vector3d::Constant(kAround_m);
+  const Eigen::Vector3d half = Eigen::Vector3d::Constant(surroundings_m(model, place));
   Bounds around;
   around.extend(place - half);
   around.extend(place + half);

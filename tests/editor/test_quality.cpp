@@ -90,6 +90,20 @@ TEST_F(QualityPanel, MarksTheWorstPlaceAndShowsItInSpaceEvenFromAPlan) {
   EXPECT_FALSE(gui.says("Worst place")) << "Esc takes the mark away";
 }
 
+TEST_F(QualityPanel, ShowsTheWorstPlaceWithTheRoomAroundIt) {
+  const auto& rooms = editor.room_labels.of(editor.session.document().imported);
+  ASSERT_FALSE(rooms.empty());
+  const double half = std::sqrt(rooms.front().floor_area_m2) / 2;
+  ASSERT_GT(half, 1.6);
+  showWorstPlace(editor, rooms.front().anchor);
+  gui.frames(2);
+  const auto& camera = editor.view.camera;
+  EXPECT_LT((camera.target - rooms.front().anchor).norm(), 0.01);
+  EXPECT_TRUE(editor.picker.sees(camera.eye(), rooms.front().anchor, editor.viewState()));
+  if (!(camera.view_angle_rad < 1)) return;  // from within, as far as its walls allow
+  EXPECT_GT(camera.heightAtTarget_m(), 2 * half);
+}
+
 TEST_F(QualityPanel, IsOpenedByTheGuideAtItsWorstRowAndFliesThere) {
   ASSERT_NO_FATAL_FAILURE(scan());
   ASSERT_TRUE(gui.click("###assess"));
