@@ -214,7 +214,7 @@ bool roomForTitles(const Editor& editor, float width) {
 // How far the work of a workspace is done, at the corner of its button: a tick or an exclamation mark, so that colour
 // is not all.
 void markStep(const Editor& editor, const GuideStep& step) {
-  ui::tooltip(step.status.empty() ? tr(step.title) : fmt::format("{}: {}", tr(step.title), tr(step.status)));
+  ui::tooltipAbove(step.status.empty() ? tr(step.title) : fmt::format("{}: {}", tr(step.title), tr(step.status)));
   const bool attention = step.state == GuideStep::State::attention;
   if (!editor.environment() || (!attention && step.state != GuideStep::State::done)) return;
   const ImVec2 corner = ImGui::GetItemRectMin();

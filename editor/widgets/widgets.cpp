@@ -128,13 +128,15 @@ bool hasRested(ImVec2 place) {
 
 // Where the tooltip covers no other control: beside the panel or dialog that the item is in, where that is narrow; else
 // below the item, or above it.
-void placeTooltip(ImVec2 size) {
+void placeTooltip(ImVec2 size, bool above) {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax(), screen = ImGui::GetIO().DisplaySize;
   const auto* panel = ImGui::GetCurrentWindow()->RootWindow;
   const float gap = ImGui::GetFontSize() * 0.4F, left = panel->Pos.x, right = panel->Pos.x + panel->Size.x;
   ImVec2 at{low.x, high.y + gap};
   const bool modal = (panel->Flags & ImGuiWindowFlags_Modal) != 0;
-  if (panel->Size.x < screen.x * (modal ? 0.48F : 0.36F) && panel->Size.y > 4 * (high.y - low.y))
+  if (above && size.y <= (low.y + high.y) / 2)  // of the item itself a part may be covered
+    at.y = low.y - gap - size.y;
+  else if (panel->Size.x < screen.x * (modal ? 0.48F : 0.36F) && panel->Size.y > 4 * (high.y - low.y))
     at = {screen.x - right >= size.x + gap ? right + gap : left - gap - size.x, low.y};
   else if (at.y + size.y > screen.y)
     at.y = low.y - gap - size.y;
@@ -200,7 +202,9 @@ std::string wholeNumbers(const std::string& text, float width) {
   return whole;
 }
 
-void tooltip(const Text& text) {
+namespace {
+
+void showTooltip(const Text& text, bool above) {
   if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   const bool another = ImGui::GetFrameCount() == rested.frame;  // of a row and of a text in it: one below the other
   if (another ? !rested.shown : !hasRested(ImGui::GetItemRectMin())) return;
@@ -208,7 +212,7 @@ void tooltip(const Text& text) {
   const ImVec2 padding = ImGui::GetStyle().WindowPadding;
   const std::string said = wholeNumbers(text, wrap);
   const ImVec2 words = ImGui::CalcTextSize(said.c_str(), nullptr, false, wrap);
-  if (!another) placeTooltip({words.x + 2 * padding.x, words.y + 2 * padding.y});
+  if (!another) placeTooltip({words.x + 2 * padding.x, words.y + 2 * padding.y}, above);
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1.0F);  // also inside a disabled block
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(wrap + padding.x);
@@ -217,6 +221,11 @@ void tooltip(const Text& text) {
   ImGui::EndTooltip();
   ImGui::PopStyleVar();
 }
+
+}  // namespace
+
+void tooltip(const Text& text) { showTooltip(text, false); }
+void tooltipAbove(const Text& text) { showTooltip(text, true); }
 
 bool button(const char* label, const std::string& why, ImVec2 size, const char* tip) {
   ImGui::BeginDisabled(!why.empty());

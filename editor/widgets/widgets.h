@@ -67,7 +67,8 @@ void listEach(const char* list, bool& each);
 // Of the last item, also when it is disabled, once the pointer has rested on it. It covers no other control of its
 // panel.
 void tooltip(const Text& text);
-double tooltipDue_s();  // until one is to be shown; less than 0: none waits
+void tooltipAbove(const Text& text);  // where there is room, for what has other controls below
+double tooltipDue_s();                // until one is to be shown; less than 0: none waits
 
 // The text with a line break wherever Dear ImGui, wrapping it to this width, would part a number in itself ("0." and
 // "08") or from its unit.

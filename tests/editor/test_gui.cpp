@@ -799,6 +799,40 @@ TEST_F(Gui, ShowsATooltipBesideThePanelOnceThePointerHasRested) {
   EXPECT_LE(tooltip->Pos.x + tooltip->Size.x, ImGui::FindWindowByName("###right")->Pos.x) << "over no control of it";
 }
 
+TEST_F(Gui, ShowsTheTooltipOfAWorkspaceOverNoButtonOfTheView) {
+  open();
+  gui.frames(3);
+  const auto* item = gui.find("###workspace-survey");
+  ASSERT_NE(item, nullptr);
+  const ImRect tab = item->rect;
+  gui.moveTo(tab.GetCenter());
+  const auto* tooltip = ImGui::FindWindowByName("##Tooltip_00");
+  for (int i = 0; i < 60 && (tooltip == nullptr || !tooltip->Active); ++i) {
+    gui.frame();
+    tooltip = ImGui::FindWindowByName("##Tooltip_00");
+  }
+  gui.frames(2);
+  ASSERT_TRUE(tooltip != nullptr && tooltip->Active);
+  EXPECT_LT(tooltip->Pos.y + tooltip->Size.y, tab.GetCenter().y);
+  EXPECT_GE(tooltip->Pos.y, 0);
+}
+
+TEST_F(Gui, KeepsTheViewWhereItIsWhenTheWorkspaceChanges) {
+  open();
+  std::optional<ImRect> view;
+  for (const auto workspace : {Workspace::environment, Workspace::optimise, Workspace::materials,
+                               Workspace::georeference, Workspace::survey, Workspace::instrument, Workspace::inspect}) {
+    editor.workspace = workspace;
+    gui.frames(3);
+    const auto* window = ImGui::FindWindowByName("###viewport");
+    if (!view) view = window->Rect();
+    EXPECT_EQ(window->Pos.x, view->Min.x) << nameOf(workspace);
+    if (workspace == Workspace::instrument) continue;  // its device has the room that it needs
+    EXPECT_EQ(window->Size.x, view->GetWidth()) << nameOf(workspace);
+    EXPECT_EQ(window->Size.y, view->GetHeight()) << nameOf(workspace);
+  }
+}
+
 // Whatever is drawn in these windows ends before their right edge.
 void expectNothingCut(const char* window_name) {
   const auto* window = ImGui::FindWindowByName(window_name);
