@@ -28,27 +28,34 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr ImU32 kReadoutGround = IM_COL32(24, 26, 30, 220), kTooFastGround = IM_COL32(176, 42, 36, 240);
-constexpr float kLineGap_pt = 12;
+constexpr float kLineGap_pt = 12, kBannerRims_pt = 32;
 
 std::string paceText(const WalkPace& pace) {
   return fmt::format("{:.1f} m/s   {:.0f}°/s", pace.speed_mps(), pace.turn_radps() / kRadPerDeg);
 }
 
-std::string scanningText(const Editor& editor) {
+// As much of it as one line has room for.
+std::string scanningText(const Editor& editor, float room) {
   const auto& recording = editor.recording;
   const LiveFigures& figures = recording.live.figures();
   if (!figures.problem.empty()) return trf("No live points: {}. The walk is recorded.", figures.problem);
-  std::string text = trf("Live preview   {}   {} points   {} per second", durationText(recording.record.seconds()),
-                         groupedDigits(figures.points),
-                         groupedDigits(1000 * static_cast<std::uint64_t>(figures.points_per_s / 1000 + 0.5)));
-  if (figures.one_pulse_in > 1) text += "   " + trf("1 pulse in {}", figures.one_pulse_in);
-  return text + "   " + paceText(recording.pace);
+  const std::string gap = "   ";
+  const std::string walked =
+      durationText(recording.record.seconds()) + gap + fmt::format("{:.1f} m", recording.record.length_m());
+  const std::string points = trf("{} points", groupedDigits(figures.points));
+  const std::string rate =
+      trf("{} per second", groupedDigits(1000 * static_cast<std::uint64_t>(figures.points_per_s / 1000 + 0.5)));
+  const std::string thinned = figures.one_pulse_in > 1 ? gap + trf("1 pulse in {}", figures.one_pulse_in) : "";
+  const std::string pace = gap + paceText(recording.pace), begin = tr("Live preview") + gap + walked + gap + points;
+  for (const auto& text : {begin + gap + rate + thinned + pace, begin + thinned + pace})
+    if (ImGui::CalcTextSize(text.c_str()).x <= room) return text;
+  return walked + gap + points + pace;
 }
 
-std::string readoutText(const Editor& editor) {
+std::string readoutText(const Editor& editor, float room) {
   const auto& recording = editor.recording;
   if (recording.scan_wanted) return tr("Preparing the scan …");
-  if (recording.live.active()) return scanningText(editor);
+  if (recording.live.active()) return scanningText(editor, room);
   if (recording.record.active()) return paceText(recording.pace);
   if (recording.live.empty()) return {};
   return trf("Live preview, {} points: no noise and no trajectory error in it",
@@ -127,7 +134,7 @@ void drawWalkedRibbon(const Editor& editor, const ViewState& state, ImVec2 origi
 }
 
 void drawLiveReadout(const Editor& editor, ImVec2 origin, ImVec2 size, float above_pt) {
-  if (const auto text = readoutText(editor); !text.empty())
+  if (const auto text = readoutText(editor, size.x - editor.px(kBannerRims_pt)); !text.empty())
     above_pt += drawBanner(editor, origin, size, text, above_pt, kReadoutGround) / editor.px(1) + kLineGap_pt;
   if (const auto text = warningText(editor); !text.empty())
     drawBanner(editor, origin, size, ICON_WARNING "  " + text, above_pt, kTooFastGround);

@@ -28,6 +28,7 @@ constexpr double kTurn_px = 14;       // of a drag, that a tick to the side turn
 constexpr double kPan_px = 28;        // of a drag
 constexpr double kTurnWalking = 0.1;  // rad for each tick
 constexpr int kTightRingCorners = 32;
+constexpr double kHint_s = 8;  // of a scan, for which its keys are said
 
 double axis(int less, int more) { return (keyboard::held(more) ? 1.0 : 0.0) - (keyboard::held(less) ? 1.0 : 0.0); }
 
@@ -48,6 +49,7 @@ std::string placeText(const Editor& editor, const Eigen::Vector3d& local) {
 
 std::string walkLine(const Editor& editor) {
   const auto& walk = editor.walk;
+  if (editor.recording.live.active()) return walk.note();  // the scan's own line has what counts then
   std::string line = placeText(editor, walk.feet());
   if (const auto name = walkPlaceName(editor); !name.empty()) line += "   " + name;
   line += trf("   eye {:.2f} m   {:.1f} m/s", walk.eyeHeight_m(), walk.speed_mps(false));
@@ -183,7 +185,9 @@ const char* movingHint(const Editor& editor) {
     return "W A S D to fly, E up, Q down, Shift faster, U to walk, drag to look around   Esc to leave";
   if (editor.fieldwork.at_screen) return "F to look up   Esc to leave";
   if (editor.view.tool != Tool::walk) return nullptr;
-  if (editor.recording.live.active()) return "W A S D to walk, drag to look   Ctrl+Shift+L to end the scan";
+  // Who scans looks at what is scanned; the button over the view ends it, too.
+  if (const auto& recording = editor.recording; recording.live.active())
+    return recording.record.seconds() < kHint_s ? "W A S D to walk, drag to look   Ctrl+Shift+L to end the scan" : "";
   if (editor.held.carried) return "G to put the instrument down here   W A S D to walk, Shift to run   Esc to leave";
   if (instrumentInReach(editor))
     return "F to look at the instrument's screen, G to carry it, H to step out of its sight, B to put up a sphere   "

@@ -278,7 +278,7 @@ ui::Text toolHint(const Editor& editor) {
 // Of who moves, above it what it says of the place.
 void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
   const auto hint = toolHint(editor);
-  float height = ImGui::GetTextLineHeight();
+  float height = 0;
   if (!hint.empty()) height = drawBanner(editor, origin, size, hint, kBannerAbove_pt, IM_COL32(38, 84, 148, 235));
   if (editor.walk_ground.preparing()) return;
   const auto above = [&](float height_px) {
