@@ -90,6 +90,7 @@ void drawRecovery(Editor& editor) {
   for (const auto& sentence : sentencesOf(left)) ui::wrapped(sentence);
   if (!left.mark.saved_in.empty()) ui::dimWrapped(trf("Saved in {}", left.mark.saved_in));
   const bool copy = !left.project.empty();
+  if (copy) ui::dimWrapped("The steps of undo and redo are not part of a copy: the history begins anew.");
   drawComparison(editor, left);
   ui::gap(editor, 6);
   const auto why = whyNotOpen(editor, left);

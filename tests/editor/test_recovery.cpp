@@ -293,6 +293,7 @@ TEST_F(Recovery, OpensWhatWasLeftAtTheButton) {
   editor.dialogs.recovery = findLeftWork(root);
   GuiDriver gui(editor);
   gui.frames(3);
+  EXPECT_TRUE(gui.says("the history begins anew"));
   ASSERT_TRUE(gui.click("###open"));
   gui.settle();
   EXPECT_EQ(editor.session.document().name, "demo house");
