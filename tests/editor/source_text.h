@@ -16,7 +16,7 @@ namespace standpoint {
 // What C++ sources say, read as text.
 
 inline std::string allOf(const std::filesystem::path& file) {
-  std::ifstream in(file);
+  std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 

@@ -13,6 +13,7 @@
 #include "editor/film/picture_file.h"
 #include "editor/film/shot_setup.h"
 #include "editor/shell/editor.h"
+#include "source_text.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
@@ -38,11 +39,6 @@ class CountingScene : public SceneView {
   }
   std::vector<Camera> cameras;
 };
-
-std::string bytes(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::uint32_t bigEndian(const std::string& text, std::size_t at) {
   std::uint32_t value = 0;
@@ -102,11 +98,11 @@ TEST(Panorama, SaysInItsFileThatItIsSpherical) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "around.jpg";
   ASSERT_TRUE(writePicture(plain(128, 64, {200, 100, 50, 255}), file, PictureShape::spherical));
-  EXPECT_THAT(bytes(file), HasSubstr("GPano:ProjectionType=\"equirectangular\""));
-  EXPECT_THAT(bytes(file), HasSubstr("GPano:FullPanoWidthPixels=\"128\""));
-  EXPECT_TRUE(bytes(file).starts_with("\xff\xd8\xff\xe1"));
+  EXPECT_THAT(allOf(file), HasSubstr("GPano:ProjectionType=\"equirectangular\""));
+  EXPECT_THAT(allOf(file), HasSubstr("GPano:FullPanoWidthPixels=\"128\""));
+  EXPECT_TRUE(allOf(file).starts_with("\xff\xd8\xff\xe1"));
   ASSERT_TRUE(writePicture(plain(128, 64, {200, 100, 50, 255}), file));
-  EXPECT_THAT(bytes(file), testing::Not(HasSubstr("GPano")));
+  EXPECT_THAT(allOf(file), testing::Not(HasSubstr("GPano")));
   const auto refused = writePicture(plain(8, 8, {}), folder.path() / "x.bmp");
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, ErrorKind::usage);
@@ -228,7 +224,7 @@ TEST(Film, HasAsManyPicturesAsItsTimeAsksFor) {
   CountingScene scene;
   shoot(film(file), scene);
   EXPECT_EQ(scene.cameras.size(), 50U);
-  const auto mp4 = bytes(file);
+  const auto mp4 = allOf(file);
   EXPECT_EQ(mp4.substr(4, 4), "ftyp");
   const auto sizes = mp4.find("stsz");
   ASSERT_NE(sizes, std::string::npos);
@@ -249,7 +245,7 @@ TEST(Film, HasTheSameBytesEachTime) {
     CountingScene scene;
     shoot(film(folder.path() / name), scene);
   }
-  EXPECT_TRUE(bytes(folder.path() / "a.mp4") == bytes(folder.path() / "b.mp4"));
+  EXPECT_TRUE(allOf(folder.path() / "a.mp4") == allOf(folder.path() / "b.mp4"));
 }
 
 TEST(Film, ThatIsGivenUpLeavesNothingBehind) {

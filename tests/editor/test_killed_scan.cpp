@@ -10,6 +10,7 @@
 #include "emulated-ui/verbs/rehearse_verb.h"
 #include "item_probe.h"
 #include "project/survey/survey_verbs.h"
+#include "source_text.h"
 #include "tests/project/killed_process.h"
 #include "tests/project/support.h"
 
@@ -63,11 +64,6 @@ TEST(KilledScan, DISABLED_Script) {
   scanIn(editor, folder / "scans.e57", [&] { keeper.keep(editor.session); });
 }
 
-std::string bytes(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 TEST(KilledScan, IsResumedAtTheNextStartToTheBytesOfARunWithoutABreak) {
   const TemporaryFolder folder;
   const auto root = folder.path();
@@ -106,7 +102,7 @@ TEST(KilledScan, IsResumedAtTheNextStartToTheBytesOfARunWithoutABreak) {
   Editor whole(everyVerb(), [] {});
   scanIn(whole, root / "whole.e57", [] {});
   EXPECT_GT(fs::file_size(root / "whole.e57"), 100000U);
-  EXPECT_TRUE(bytes(root / "scans.e57") == bytes(root / "whole.e57"));
+  EXPECT_TRUE(allOf(root / "scans.e57") == allOf(root / "whole.e57"));
 }
 
 }  // namespace

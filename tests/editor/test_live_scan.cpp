@@ -78,11 +78,11 @@ Camera eyesAt(const Vector3d& feet, double heading_rad, double tilt_down_rad) {
   return camera;
 }
 
-using Look = std::function<double(double time_s)>;
+using TurnedBy = std::function<double(double time_s)>;
 double level(double) { return 0; }
 
 // At that speed along y for so long, turning and tilting.
-std::vector<WalkMoment> walkOf(double seconds, double speed_mps, const Look& heading, const Look& tilt,
+std::vector<WalkMoment> walkOf(double seconds, double speed_mps, const TurnedBy& heading, const TurnedBy& tilt,
                                const std::string& mount = "hand") {
   std::vector<WalkMoment> moments;
   for (int k = 0; k * kFrame_s <= seconds + 1e-9; ++k) {
