@@ -20,7 +20,7 @@ constexpr std::size_t kFewestFrames = 8;
 constexpr double kCalm_s = 5;
 
 constexpr std::array kMotionSizes = {1.0, 0.75, 0.5};
-constexpr double kFluid_s = 1.0 / 30;
+constexpr double kFluid_s = 1.0 / 30, kFluidAtLow_s = 1.0 / 60;
 constexpr double kSmallerAfter_s = 0.4, kLargerAfter_s = 1;
 
 std::size_t index(GraphicsLevel level) { return static_cast<std::size_t>(level); }
@@ -122,16 +122,16 @@ void GraphicsPace::resize(double frame_s) {
   if (!means_->by_processor) return;
   at_size_.add(frame_s, kLargerAfter_s);
   if (!at_size_.has(kSmallerAfter_s)) return;
-  const double usual_s = at_size_.median_s();
+  const double usual_s = at_size_.median_s(), fluid_s = choice_ == GraphicsChoice::low ? kFluidAtLow_s : kFluid_s;
   const auto become = [&](std::size_t size) {
     size_ = size;
     at_size_.clear();
     at_level_.clear();  // they were other pictures
   };
-  if (usual_s > kFluid_s && size_ + 1 < kMotionSizes.size()) return become(size_ + 1);
+  if (usual_s > fluid_s && size_ + 1 < kMotionSizes.size()) return become(size_ + 1);
   if (size_ == 0 || !at_size_.has(kLargerAfter_s)) return;
   const double larger = kMotionSizes[size_ - 1] / kMotionSizes[size_];
-  if (usual_s * larger * larger < kFluid_s) become(size_ - 1);
+  if (usual_s * larger * larger < fluid_s) become(size_ - 1);
 }
 
 std::string GraphicsPace::moved(double frame_s) { return take(frame_s, true); }
@@ -199,7 +199,10 @@ std::string GraphicsPace::about(GraphicsChoice choice) const {
   list({}, level == GraphicsLevel::low || !means.no_smoothing.empty()
                ? "Anti-aliasing 4× at rest"
                : "Anti-aliasing 4× at rest, by contrast in motion");
-  if (level == GraphicsLevel::low && means.by_processor) list({}, "edges and grid at rest");
+  if (level == GraphicsLevel::low && means.by_processor) {
+    list({}, "edges and grid at rest");
+    list({}, "fewer pixels in motion below 60 frames per second");
+  }
   if (level >= GraphicsLevel::medium && !means.no_smoothing.empty())
     list(means.no_smoothing, "anti-aliasing in motion");
   if (level >= GraphicsLevel::medium) list(means.no_sky, "sky and horizon");

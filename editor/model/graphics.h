@@ -44,9 +44,9 @@ struct GraphicsMeans {
 // The level that is drawn, and how large while the camera moves. Automatic begins with what suits the machine and
 // lowers it where moving pictures stay below 25 frames a second. It takes a level back only after a long time far above
 // that, and no level more than once, so it never goes to and fro between two.
-// Before a level is lowered, and at a level that was chosen, a processor that stays below 30 frames a second draws
-// moving pictures smaller, as far as half each way; larger again once that many pixels would keep 30 frames if the
-// whole frame were pixels. That is more than they take, so sizes do not go to and fro, either.
+// Before a level is lowered, and at a level that was chosen, a processor that stays below 30 frames a second (60 where
+// somebody chose Low) draws moving pictures smaller, as far as half each way; larger again once that many pixels would
+// keep that rate if the whole frame were pixels. That is more than they take, so sizes do not go to and fro, either.
 class GraphicsPace {
  public:
   void begin(GraphicsMeans means);  // until then, Low is drawn
