@@ -4,15 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <iterator>
 #include <sstream>
-#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 #include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
+#include "core/number_breaks.h"
 #include "editor/model/style.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
@@ -150,39 +149,6 @@ double tooltipDue_s() {
   if (ImGui::GetFrameCount() != rested.frame || rested.shown_for > 1) return -1;
   return std::max(0.0, rested.since_s + kTooltipWaits_s - ImGui::GetTime());
 }
-
-namespace {
-
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-bool isSpace(char c) { return c == ' ' || c == '\n'; }
-
-// What follows a number as its unit: "m", "m²", "°", "%", "GB".
-bool isUnit(std::string_view word) {
-  static constexpr std::string_view kUnits[] = {"m",  "mm",  "cm", "km", "m²", "m³",  "mm²",  "nm", "px",  "%",
-                                                "°",  "gon", "s",  "ms", "h",  "min", "mrad", "Hz", "kHz", "kB",
-                                                "MB", "GB",  "TB", "м",  "мм", "см",  "с",    "хв", "МБ",  "ГБ"};
-  const auto end = word.find_last_not_of(".,;:!?)");
-  return std::find(std::begin(kUnits), std::end(kUnits), word.substr(0, end + 1)) != std::end(kUnits);
-}
-
-std::size_t beginOfWord(std::string_view text, std::size_t at) {
-  while (at > 0 && !isSpace(text[at - 1])) --at;
-  return at;
-}
-
-// Where the number with its unit begins that a break at `at` would part; `at` where it parts none.
-std::size_t beginOfNumber(std::string_view text, std::size_t at) {
-  const auto begin = beginOfWord(text, at);
-  if (begin < at) {
-    const auto before = text.substr(begin, at - begin);
-    return isDigit(text[at]) && std::any_of(before.begin(), before.end(), isDigit) ? begin : at;
-  }
-  const auto unit = text.substr(at, std::min(text.find_first_of(" \n", at), text.size()) - at);
-  if (at < 2 || text[at - 1] != ' ' || !isDigit(text[at - 2]) || !isUnit(unit)) return at;
-  return beginOfWord(text, at - 1);
-}
-
-}  // namespace
 
 std::string wholeNumbers(const std::string& text, float width) {
   const ImFont& font = *ImGui::GetFont();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/number_breaks.h"
 #include "emulated-ui/draw/pen.h"
 #include "emulated-ui/layout/icons.h"
 
@@ -24,6 +25,10 @@ std::vector<Line> linesOf(const ImFont* font, const std::string& text, float siz
   while (at < end) {
     const char* stop = font->CalcWordWrapPositionA(size / font->FontSize, at, end, width);
     if (stop == at) ++stop;  // a letter that is wider than the box
+    const auto next = text.find_first_not_of(' ', static_cast<std::size_t>(stop - text.c_str()));
+    if (const auto number = beginOfNumber(text, next);
+        number < next && text.c_str() + number > at && text[number - 1] == ' ')
+      stop = text.c_str() + number - 1;
     const char* newline = std::find(at, stop, '\n');
     lines.push_back({at, newline, font->CalcTextSizeA(size, FLT_MAX, 0, at, newline).x});
     at = newline < stop ? newline + 1 : stop;

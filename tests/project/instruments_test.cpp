@@ -77,7 +77,7 @@ TEST_F(OwnInstruments, OfWhichOneIsWrongAreListedAsBrokenAndTheOthersGoOn) {
 
   EXPECT_EQ(instrumentById("leica-rtc360")->id, "leica-rtc360");
   EXPECT_EQ(instrumentById("other")->id, "other");
-  EXPECT_EQ(knownInstruments()->size(), 26U);
+  EXPECT_EQ(knownInstruments()->size(), 28U);
   const auto wrong = instrumentById("mine");
   ASSERT_FALSE(wrong);
   EXPECT_EQ(wrong.error().source, "mine.json /moving/heads");
@@ -87,7 +87,7 @@ TEST_F(OwnInstruments, OfWhichOneIsWrongAreListedAsBrokenAndTheOthersGoOn) {
   EXPECT_THAT(refused({{"copy", "leica-rtc360"}, {"as", "cut"}}).message, HasSubstr("already used by"));
 
   const auto listed = answer(nlohmann::json::object());
-  EXPECT_EQ(listed["instruments"].size(), 26U);
+  EXPECT_EQ(listed["instruments"].size(), 28U);
   ASSERT_EQ(listed["broken"].size(), 3U);
   EXPECT_EQ(listed["broken"][0]["id"], "cut");
   EXPECT_EQ(listed["broken"][2]["file"], (own() / "mine.json").string());
