@@ -3,6 +3,8 @@
 
 #include <memory>
 #include <unicode/coll.h>
+#include <unicode/normalizer2.h>
+#include <unicode/uchar.h>
 #include <unicode/unistr.h>
 #include <vector>
 
@@ -42,9 +44,18 @@ std::string alphabeticalKey(std::string_view name) {
   return key + std::string(name);
 }
 
-std::string withoutCase(std::string_view text) {
-  std::string folded;
-  return unicode(text).foldCase().toUTF8String(folded);
+std::string forSearch(std::string_view text) {
+  UErrorCode status = U_ZERO_ERROR;
+  icu::UnicodeString folded = unicode(text).foldCase();
+  if (const auto* decomposer = icu::Normalizer2::getNFDInstance(status); U_SUCCESS(status)) {
+    const icu::UnicodeString whole = decomposer->normalize(folded, status);
+    icu::UnicodeString plain;
+    for (std::int32_t i = 0; i < whole.length(); i = whole.moveIndex32(i, 1))
+      if (const UChar32 c = whole.char32At(i); u_charType(c) != U_NON_SPACING_MARK) plain.append(c);
+    if (U_SUCCESS(status)) folded = plain;
+  }
+  std::string result;
+  return folded.toUTF8String(result);
 }
 
 }  // namespace standpoint

@@ -11,7 +11,8 @@ namespace standpoint {
 // order by their own bytes.
 std::string alphabeticalKey(std::string_view name);
 
-// The text (UTF-8) without the difference of capitals and small letters, in any script: for a search.
-std::string withoutCase(std::string_view text);
+// The text (UTF-8) as a search compares it: without the difference of capitals and small letters, in any script, and
+// without marks above and below letters, "kuche" for "Küche".
+std::string forSearch(std::string_view text);
 
 }  // namespace standpoint

@@ -361,6 +361,7 @@ void Model::adoptDocument() {
   if (before && imported_ && followModel(*before, *imported_)) return;
   forgetRecord(*this);
   selection.clear();
+  if (before) view.colour = ColourMode::model;  // another model has its own materials, or none
   proof.reset();
   views = {};
   visibility.reset(imported_ ? imported_->products.size() : 0);

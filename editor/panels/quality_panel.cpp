@@ -190,6 +190,7 @@ void goToRow(const Model& model, QualityState& state, Actions& actions, std::siz
   const auto* answer = model.session.lastAnswer<AssessAnswer>("assess");
   if (answer == nullptr || row >= answer->rows.size() || !answer->rows[row].worst) return;
   state.shown_row = row;
+  if (answer->rows[row].id == "coverage") actions.showScans({});  // where no point is, the model is what can be seen
   goTo(model, actions, *answer->rows[row].worst);
 }
 

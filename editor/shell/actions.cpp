@@ -440,6 +440,9 @@ std::string shortcutText(const Shortcut& s) {
 namespace {
 
 // A key that can do nothing now says why.
+// Keys that mean something else to whatever else has them.
+bool isForDraft(const Shortcut& s) { return s.key == kKeyEnter || s.key == kKeyBackspace; }
+
 void runByKey(Editor& editor, const Action& action) {
   if (const auto why = whyNot(action, editor); !why.empty())
     return editor.say(fmt::format("{}: {}", tr(action.title), tr(why)));
@@ -461,6 +464,7 @@ void runShortcuts(Editor& editor) {
     if (!s.ctrl && !s.alt && movesByKey(editor, s.key)) continue;
     if (io.WantTextInput && !leavesText(s)) continue;
     if (editor.device_has_keys && isTyped(s)) continue;
+    if (isForDraft(s) && editor.view.tool != Tool::layTrajectory) continue;
     const bool shifted = s.shift == io.KeyShift || s.key == kKeyPlus;  // some keyboards need Shift for a plus
     const bool pressed =
         s.key != 0 && (keyboard::pressed(s.key) || (action.repeats && keyboard::pressedOrRepeated(s.key)) ||

@@ -272,7 +272,6 @@ void drawPreferences(Editor& editor) {
       if (ui::radioButton(fmt::format("{}###drag-{}", tr(name), turns ? "head" : "scene").c_str(),
                           editor.settings.drag_turns_head == turns))
         editor.settings.drag_turns_head = turns;
-      ImGui::SameLine(0, editor.px(16));
     }
     ui::propertyLabel("Recovery copy after every change");
     ui::checkbox("###recovery", &editor.settings.recovery);

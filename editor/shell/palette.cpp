@@ -60,8 +60,8 @@ std::string otherWords(std::string_view action) {
 }
 
 bool matches(const std::string& text, const std::string& query) {
-  const std::string all = withoutCase(text);
-  std::istringstream words(withoutCase(query));
+  const std::string all = forSearch(text);
+  std::istringstream words(forSearch(query));
   for (std::string word; words >> word;)
     if (all.find(word) == std::string::npos) return false;
   return true;
@@ -242,6 +242,10 @@ void drawPalette(Editor& editor) {
     state.chosen = 0;
   const bool enter = keyboard::pressed(kKeyEnter);
   const auto shown = matching(editor, state.query);
+  if (enter && shown.empty()) {  // Enter ends the field, but there is more to be typed
+    ImGui::SetKeyboardFocusHere(-1);
+    state.at_end = true;
+  }
   const int last = std::max(0, static_cast<int>(shown.size()) - 1);
   const int step = (keyboard::pressedOrRepeated(kKeyDown) ? 1 : 0) - (keyboard::pressedOrRepeated(kKeyUp) ? 1 : 0);
   const bool moved = step != 0;

@@ -240,6 +240,36 @@ TEST_F(Gui, FindsAnActionInThePaletteByWords) {
   EXPECT_TRUE(editor.view.camera.forward().isApprox(-Eigen::Vector3d::UnitZ(), 1e-9));
 }
 
+TEST_F(Gui, TakesMoreWordsInThePaletteAfterEnterOnNothing) {
+  open();
+  gui.key('P', true);
+  gui.frames(2);
+  gui.type("view topp");
+  gui.key(kEnter);
+  gui.frames(3);
+  ASSERT_TRUE(editor.dialogs.palette.open) << "nothing matches";
+  gui.key(kKeyBackspace);
+  gui.key(kEnter);
+  EXPECT_FALSE(editor.dialogs.palette.open);
+  EXPECT_TRUE(editor.view.camera.forward().isApprox(-Eigen::Vector3d::UnitZ(), 1e-9));
+}
+
+TEST_F(Gui, SaysNothingOfATrajectoryAtEnterWhereNoneIsAdded) {
+  open();
+  const auto said = editor.notice.text;
+  gui.key(kEnter);
+  gui.key(kKeyBackspace);
+  EXPECT_EQ(editor.notice.text, said);
+}
+
+TEST_F(Gui, ShowsAnotherModelInItsOwnColours) {
+  open();
+  editor.view.colour = ColourMode::material;
+  editor.session.clear();
+  gui.settle();
+  EXPECT_EQ(editor.view.colour, ColourMode::model);
+}
+
 TEST_F(Gui, SavesWhereATypedPathSaysWithoutAClick) {
   open();
   const TemporaryFolder folder;

@@ -32,9 +32,12 @@ TEST(Alphabetical, CountsNumbersAndPutsUmlautsAndCapitalsBesideTheirLetters) {
               ElementsAre("1.9", "1.10", "Ärztezimmer", "Bad", "Room 1", "room 2", "Room 10", "Zimmer"));
 }
 
-TEST(Alphabetical, FindsCapitalsInAnyScript) {
-  EXPECT_EQ(withoutCase("Сканувати ÜBER Scan"), withoutCase("сканувати über scan"));
-  EXPECT_NE(withoutCase("Scan"), withoutCase("Span"));
+TEST(Alphabetical, FindsCapitalsInAnyScriptAndLettersWithoutTheirMarks) {
+  EXPECT_EQ(forSearch("Сканувати ÜBER Scan"), forSearch("сканувати über scan"));
+  EXPECT_EQ(forSearch("6 Küche"), "6 kuche");
+  EXPECT_EQ(forSearch("Salle à manger"), "salle a manger");
+  EXPECT_NE(forSearch("Scan"), forSearch("Span"));
+  EXPECT_FALSE(forSearch("\xff\xfe").empty());
 }
 
 TEST(Alphabetical, TakesBrokenTextAndLongNames) {
