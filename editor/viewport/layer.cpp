@@ -8,7 +8,6 @@
 #include <cstring>
 #include <string>
 
-#include <fmt/format.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkFloatArray.h>
@@ -18,6 +17,7 @@
 #include <vtkPoints.h>
 #include <vtkProperty.h>
 #include <vtkShaderProperty.h>
+#include <vtkUniforms.h>
 #include <vtkUnsignedCharArray.h>
 
 namespace standpoint {
@@ -66,13 +66,13 @@ std::string diffuseLight() {
 
 // What coincides is told apart by depths that differ by so many units of 1/65000. VTK itself would add them to each
 // pixel's: a processor then has to shade what is hidden before it knows that. Here they are added to the corners.
+// As a uniform, so that one program draws them all.
 void shiftDepths(vtkShaderProperty& shader, double units) {
   constexpr double kUnits = 65000, kDepthsInClipSpace = 2;  // of the whole range
   shader.ClearAllVertexShaderReplacements();
   shader.AddVertexShaderReplacement("//VTK::PositionVC::Impl", true,
-                                    fmt::format("//VTK::PositionVC::Impl\n  gl_Position.z += {:.9e} * gl_Position.w;\n",
-                                                kDepthsInClipSpace * units / kUnits),
-                                    false);
+                                    "//VTK::PositionVC::Impl\n  gl_Position.z += depthShift * gl_Position.w;\n", false);
+  shader.GetVertexCustomUniforms()->SetUniformf("depthShift", static_cast<float>(kDepthsInClipSpace * units / kUnits));
 }
 
 }  // namespace
