@@ -13,7 +13,7 @@ namespace standpoint {
 // VTK's window in a context of OpenGL that is somebody else's, for pictures that are taken from its textures.
 //
 // Pictures of a few sizes alternate: while the view moves, at rest, made fine. To make framebuffers takes a processor
-// that draws longer than many a picture does (0.1 s for 4 million pixels), so each of the last three sizes keeps its
+// that draws longer than many a picture does (0.1 s for 4 million pixels), so each of the last four sizes keeps its
 // own: 12 bytes a pixel, as what is shown needs no depths.
 class PictureWindow : public vtkGenericOpenGLRenderWindow {
  public:
@@ -34,7 +34,7 @@ class PictureWindow : public vtkGenericOpenGLRenderWindow {
     int width = 0, height = 0;
     vtkSmartPointer<vtkOpenGLFramebufferObject> drawn, shown;
   };
-  static constexpr std::size_t kMostSizes = 3;
+  static constexpr std::size_t kMostSizes = 4;
   void use(const Buffers& buffers);
   void makeShown();
 

@@ -42,6 +42,7 @@ namespace {
 
 // A fine picture is drawn twice as large and shrunk, up to this many pixels.
 constexpr int kFineFactor = 2;
+constexpr double kArrivingSize = 0.5;  // of a picture in which a model arrives, each way
 constexpr std::int64_t kMostFinePixels = 12000000;
 
 // Those things of a picture that are to be drawn now.
@@ -159,7 +160,7 @@ class VtkSceneView : public PaintedScene {
     if (!changed && !resized && fine && !fine_ && !window_->hasPixels(w * factorOf(true), h * factorOf(true))) {
       // That takes as long as to draw it: one after the other.
       window_->makeReady(w * factorOf(true), h * factorOf(true));
-    } else if (changed || resized || (fine && !fine_) || layers_.building()) {
+    } else if (changed || resized || (fine && !fine_) || layers_.building() || arriving_) {
       const bool after_measuring = std::exchange(measured_, false);
       const bool counts = changed && !fine && !resized && !after_measuring && drawn_;
       if (counts && onlyCameraDiffers(*drawn_, state)) ++moved_pictures_;
@@ -203,7 +204,7 @@ class VtkSceneView : public PaintedScene {
   }
 
   bool refining() const override {
-    return layers_.building() || (fine_wanted_ && !fine_) ||
+    return layers_.building() || arriving_ || (fine_wanted_ && !fine_) ||
            (fine_ && ((shading_ && !finish_->shaded()) || points_.pending()));
   }
   std::string trouble() const override { return points_.trouble(); }
@@ -321,12 +322,14 @@ class VtkSceneView : public PaintedScene {
 
   void draw(const ViewState& state, bool fine, bool resized) {
     const bool parts = !fine && !resized && !layers_.building() && drawn_ && onlyPartsMove(*drawn_, state);
-    const bool moves = drawn_ && (small_ || !(drawn_->camera == state.camera));
-    small_ = moves && !fine && !resized && state.graphics.motion_size < 1;
+    const bool moves = drawn_ && ((small_ && !arriving_) || !(drawn_->camera == state.camera));
+    arriving_ = !fine && arrives(state);
+    small_ = arriving_ || (moves && !fine && !resized && state.graphics.motion_size < 1);
     fine_ = fine;
     factor_ = factorOf(fine);
-    drawn_width_ = small_ ? atSize(width_, state) : width_;
-    drawn_height_ = small_ ? atSize(height_, state) : height_;
+    const double size = arriving_ ? kArrivingSize : small_ ? state.graphics.motion_size : 1;
+    drawn_width_ = atSize(width_, size);
+    drawn_height_ = atSize(height_, size);
     window_->setPixels(drawn_width_ * factor_, drawn_height_ * factor_);
     layers_.setPixels(factor_);
     const ViewState* last = drawn_ ? &*drawn_ : nullptr;
@@ -371,8 +374,13 @@ class VtkSceneView : public PaintedScene {
     return fine && pixels <= kMostFinePixels ? kFineFactor : 1;
   }
 
-  static int atSize(int pixels, const ViewState& state) {
-    return std::max(8, static_cast<int>(std::lround(pixels * state.graphics.motion_size)));
+  static int atSize(int pixels, double size) { return std::max(8, static_cast<int>(std::lround(pixels * size))); }
+
+  // A picture in which parts of a model come has enough to make: a processor draws it with fewer pixels, and whole at
+  // once when they are there.
+  bool arrives(const ViewState& state) const {
+    const bool new_model = drawn_ && state.environment && drawn_->environment != state.environment;
+    return (new_model || layers_.building()) && drawnByProcessor();
   }
 
   // A processor takes longer over thousands of lines than over the surfaces between them.
@@ -622,7 +630,8 @@ class VtkSceneView : public PaintedScene {
   };
   std::vector<PixelTexture> pixels_;
   bool fine_ = false, fine_wanted_ = false;
-  bool small_ = false;                      // drawn with fewer pixels, since the camera moves
+  bool small_ = false;                      // drawn with fewer pixels, since the camera moves or a model comes
+  bool arriving_ = false;                   // since a model comes: to be drawn again
   int width_ = 0, height_ = 0;              // of the picture as it is shown
   int drawn_width_ = 0, drawn_height_ = 0;  // as it is drawn, without its factor
 };
