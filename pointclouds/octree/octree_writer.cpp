@@ -50,7 +50,8 @@ Result<void> OctreeWriter::write(std::size_t node, FullNode& full) {
     CloudPoint p = ranked.point;
     for (int k = 0; k < 3; ++k) {
       auto& x = p.position_m[static_cast<std::size_t>(k)];
-      x = static_cast<float>(static_cast<double>(x) - full.cube.min_m[k]);
+      // What lies next to nothing before a border is placed beyond it.
+      x = static_cast<float>(std::clamp(static_cast<double>(x) - full.cube.min_m[k], 0.0, full.cube.size_m));
     }
     points.push_back(p);
   }

@@ -115,6 +115,16 @@ TEST_F(OctreeTest, HoldsEveryPointOnce) {
   EXPECT_NEAR((*octree)->bounds().max.x(), 9, 0.01);
 }
 
+// Less from a border between nodes than the difference of two places can say.
+TEST_F(OctreeTest, ReadsBackPointsNextToNothingBesideABorder) {
+  auto places = room(100000);
+  places.push_back({-4, -4, 0});  // then borders are at 4 and at 0
+  for (int i = 0; i < 500; ++i) places.push_back({-2e-17F, 0.01F * static_cast<float>(i) - 4, -3e-17F});
+  ASSERT_TRUE(build(places, 0, 1000000));
+  const auto read = readAll();
+  EXPECT_TRUE(read) << describe(read.error());
+}
+
 TEST_F(OctreeTest, HasTheSameBytesOnAnyNumberOfThreadsAndInAnyOrderOfThePoints) {
   const auto places = room(60000);
   ASSERT_TRUE(build(places, 1));
