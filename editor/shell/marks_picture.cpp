@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -11,6 +12,7 @@
 #include "editor/shell/inspect_tools.h"
 #include "editor/shell/label_board.h"
 #include "editor/shell/overlay.h"
+#include "editor/widgets/draw_lists.h"
 
 namespace standpoint {
 
@@ -64,20 +66,14 @@ void drawMarksOver(Editor& editor, const Camera& camera, PixelPicture& picture) 
     drawInspectMarks(editor, origin, labels);
     labels.draw(list, layout);
   }
-  ImDrawList* lists[] = {&list};
+  std::vector<ImDrawList*> lists = {&list};
   ImDrawData drawing;
   drawing.Valid = true;
-  drawing.CmdListsCount = 1;
-#if IMGUI_VERSION_NUM >= 18980  // a vector since then, a pointer before
-  drawing.CmdLists.push_back(lists[0]);
-#else
-  drawing.CmdLists = lists;
-#endif
   drawing.TotalVtxCount = list.VtxBuffer.Size;
   drawing.TotalIdxCount = list.IdxBuffer.Size;
   drawing.DisplaySize = {(wide + 0.01F) / pixels, (high + 0.01F) / pixels};  // they are cut to whole pixels
   drawing.FramebufferScale = {pixels, pixels};
-  editor.scene->drawOver(picture, drawing);
+  editor.scene->drawOver(picture, DrawListsOf(drawing, lists).data());
 }
 
 }  // namespace standpoint

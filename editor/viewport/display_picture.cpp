@@ -9,7 +9,7 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
-#include "editor/viewport/draw_lists.h"
+#include "editor/widgets/draw_lists.h"
 
 namespace standpoint {
 

@@ -22,11 +22,6 @@ PixelRect around(const PixelRect& a, const PixelRect& b) {
   return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right), std::max(a.bottom, b.bottom)};
 }
 
-PixelRect windowOf(const ImDrawData& laid_out) {
-  return {0, 0, static_cast<int>(laid_out.DisplaySize.x * laid_out.FramebufferScale.x),
-          static_cast<int>(laid_out.DisplaySize.y * laid_out.FramebufferScale.y)};
-}
-
 std::string_view ownerOf(const ImDrawList& list) {
   return list._OwnerName != nullptr ? std::string_view(list._OwnerName) : std::string_view();
 }
@@ -89,6 +84,11 @@ bool empty(const PixelRect& r) { return r.left >= r.right || r.top >= r.bottom; 
 
 PixelRect intersection(const PixelRect& a, const PixelRect& b) {
   return {std::max(a.left, b.left), std::max(a.top, b.top), std::min(a.right, b.right), std::min(a.bottom, b.bottom)};
+}
+
+PixelRect windowOf(const ImDrawData& laid_out) {
+  return {0, 0, static_cast<int>(laid_out.DisplaySize.x * laid_out.FramebufferScale.x),
+          static_cast<int>(laid_out.DisplaySize.y * laid_out.FramebufferScale.y)};
 }
 
 // The renderer cuts fractions off the left, of the height from below, and of the sizes.

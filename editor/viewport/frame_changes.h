@@ -19,6 +19,7 @@ struct PixelRect {
 bool empty(const PixelRect& r);
 PixelRect intersection(const PixelRect& a, const PixelRect& b);
 
+PixelRect windowOf(const ImDrawData& laid_out);
 // The pixels that the renderer of Dear ImGui lets a command draw to.
 PixelRect drawnBy(const ImDrawCmd& command, const ImDrawData& laid_out);
 // A command that may draw to just these.

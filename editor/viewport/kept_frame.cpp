@@ -5,7 +5,7 @@
 
 #include <backends/imgui_impl_opengl3.h>
 
-#include "editor/viewport/draw_lists.h"
+#include "editor/widgets/draw_lists.h"
 
 namespace standpoint {
 
@@ -58,8 +58,8 @@ void clear(const PixelRect& pixels, int height) {
 }  // namespace
 
 void KeptFrame::draw(const ImDrawData& laid_out, const std::vector<std::uint64_t>& repainted) {
-  const int width = static_cast<int>(laid_out.DisplaySize.x * laid_out.FramebufferScale.x);
-  const int height = static_cast<int>(laid_out.DisplaySize.y * laid_out.FramebufferScale.y);
+  const PixelRect window = windowOf(laid_out);
+  const int width = window.right, height = window.bottom;
   const PlainDrawing plain;
   GLint shown = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &shown);
