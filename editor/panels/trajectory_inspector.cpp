@@ -226,13 +226,14 @@ void figureRows(Actions& actions, TrajectoryEdit& edit, const CarriedTrajectory&
   startEdit(actions, edit.common, changeTo(other, georeference), trf("Change pace of trajectory {}", trajectory.name));
 }
 
+// As many rows while the way is still worked out as when it is known: nothing moves under the pointer.
 void drawFacts(const TrajectoryWay* way, const CarriedTrajectory& trajectory) {
-  if (way != nullptr && way->problem.empty()) {
-    ui::property("Length", fmt::format("{:.1f} m", way->length_m));
-    ui::property("Duration", durationText(way->seconds));
-    if (way->seconds > 0) ui::property("Mean speed", fmt::format("{:.2f} m/s", way->length_m / way->seconds));
-  } else if (way == nullptr) {
-    ui::property("Length", "…");
+  if (way == nullptr || isKnown(way)) {
+    ui::property("Length", lengthOf(way));
+    ui::property("Duration", durationOf(way));
+    const bool stands = isKnown(way) && way->seconds <= 0;
+    if (!stands)
+      ui::property("Mean speed", isKnown(way) ? fmt::format("{:.2f} m/s", way->length_m / way->seconds) : "…");
   }
   if (!trajectory.file.empty()) ui::property("File", trajectory.file);
 }
@@ -391,14 +392,17 @@ void drawTrajectoryButtons(const Model& model, Actions& actions, const CarriedTr
 
 // When, along the way, the instrument is drawn in the view.
 void drawMoment(const Model& model, Actions& actions, const CarriedTrajectory& trajectory, const TrajectoryWay* way) {
-  if (way == nullptr || !way->motion.truth || way->seconds <= 0) return;
+  if (way != nullptr && (!way->motion.truth || way->seconds <= 0)) return;
   if (ui::beginProperties("moment", 0.36F)) {
     ui::propertyLabel("Shown after");
     double after_s = shownMoment_s(model);
-    const NumberFormat format{.kind = {.unit = "s", .least = 0, .most = way->seconds}, .decimals = 1};
-    if (ui::numberSlider("###path-moment", after_s, 0, way->seconds, format,
+    const double seconds = way == nullptr ? 1 : way->seconds;
+    const NumberFormat format{.kind = {.unit = "s", .least = 0, .most = seconds}, .decimals = 1};
+    ImGui::BeginDisabled(way == nullptr);
+    if (ui::numberSlider("###path-moment", after_s, 0, seconds, format,
                          "When the instrument is drawn along the way. Left and Right step by half a second."))
       actions.set(PathMoment{trajectory.name, after_s});
+    ImGui::EndDisabled();
     ui::endProperties();
   }
   actions.button("play-trajectory", model.path_moment.plays ? "Stop" : "Play", -FLT_MIN);

@@ -313,8 +313,10 @@ void drawNextWaypoint(Editor& editor, ImVec2 origin) {
 }
 
 void trajectoryChips(Editor& editor) {
-  if (colouredWay(editor) != nullptr) ribbonChip(editor);
-  if (editor.view.tool != Tool::layTrajectory) return;
+  // While its way is still worked out, too: what is below must not move when it is known.
+  const bool lays = editor.view.tool == Tool::layTrajectory;
+  if (lays || chosenTrajectory(editor) != nullptr) ribbonChip(editor);
+  if (!lays) return;
   auto& draft = editor.view.draft;
   const auto own =
       std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == draft.carrier; });

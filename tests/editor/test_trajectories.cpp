@@ -263,6 +263,35 @@ TEST_F(Trajectories, EachWayIsWorkedOutOnce) {
   EXPECT_EQ(editor.trajectory_ways.of(0), first) << "nor is a station";
 }
 
+TEST_F(Trajectories, NothingMovesUnderThePointerWhenItsWayIsKnown) {
+  lay();
+  const auto places = [&] {
+    std::vector<float> y;
+    for (const char* item : {"###ribbon-colour", "###path-moment", "###play-trajectory", "###coverage-along"}) {
+      const auto* drawn = gui.find(item);
+      EXPECT_NE(drawn, nullptr) << item;
+      y.push_back(drawn == nullptr ? -1 : drawn->rect.Min.y);
+    }
+    return y;
+  };
+  ASSERT_NE(editor.trajectory_ways.of(0), nullptr);
+  const auto known = places();
+  // A step after which the way is another one and is worked out anew.
+  ASSERT_TRUE(editor.session.start("trajectory", {{"change", "W1"}, {"speed", 0.7}}));
+  editor.session.wait();
+  ASSERT_EQ(only().speed_mps, 0.7);
+  std::size_t unknown = 0;
+  for (gui.frame(); editor.trajectory_ways.of(0) == nullptr; gui.frame()) {
+    ++unknown;
+    EXPECT_EQ(places(), known);
+    EXPECT_TRUE(gui.find("###path-moment")->disabled);
+    EXPECT_TRUE(gui.find("###play-trajectory")->disabled);
+  }
+  EXPECT_GT(unknown, 0U);
+  gui.frames(2);
+  EXPECT_EQ(places(), known);
+}
+
 TEST_F(Trajectories, GoToAFileAndComeBackFromIt) {
   const TemporaryFolder folder;
   lay();
