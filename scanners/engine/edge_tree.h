@@ -49,7 +49,7 @@ class EdgeTree {
 
  private:
   static constexpr std::uint32_t kLeaf = 1U << 31U;
-  static constexpr std::size_t kMostOpen = 128;  // seven a level; each level has an eighth of the one above
+  static constexpr std::size_t kMostOpen = 128;  // seven for each level
   struct Node {
     EightBoxes boxes;
     std::uint32_t held[kEight] = {};  // a node, or with kLeaf a leaf
@@ -58,7 +58,7 @@ class EdgeTree {
     EightEdges edges;
     std::uint64_t number[kEight] = {};
   };
-  std::uint32_t build(std::vector<Edge>& edges, std::size_t from, std::size_t to);
+  std::uint32_t build(std::vector<Edge>& edges, std::size_t from, std::size_t to, std::uint32_t level);
 
   double farthest_coordinate_m_ = 0;
   std::uint32_t root_ = kLeaf;
