@@ -9,6 +9,7 @@ namespace standpoint {
 namespace {
 
 constexpr int kBins = 32;
+constexpr std::size_t kSampled = 8192;  // of the edges of a part, for where it is cut
 constexpr std::uint32_t kLevelsByCost = 8;  // below them parts are halved, which bounds how deep the tree is
 
 // A packet meets a box about as often as it is large.
@@ -52,6 +53,7 @@ Cut middleCut(const Part& part) {
 // The one of the least surface times number, in whole leaves.
 Cut bestCut(const std::vector<EdgeTree::Edge>& edges, const Part& part) {
   const auto leaves = [](std::size_t count) { return static_cast<float>((count + kEight - 1) / kEight); };
+  const std::size_t step = 1 + part.count() / kSampled, sampled = (part.count() + step - 1) / step;
   Cut best = middleCut(part);
   float least = std::numeric_limits<float>::infinity();
   for (int side = 0; side < 3; ++side) {
@@ -59,7 +61,7 @@ Cut bestCut(const std::vector<EdgeTree::Edge>& edges, const Part& part) {
     if (!(size > 0)) continue;
     Eigen::AlignedBox3f box[kBins];
     std::size_t count[kBins] = {};
-    for (std::size_t i = part.from; i < part.to; ++i) {
+    for (std::size_t i = part.from; i < part.to; i += step) {
       const float place = (edges[i].from[side] + edges[i].to[side] - low) / size;
       const int bin = std::clamp(static_cast<int>(place * kBins), 0, kBins - 1);
       box[bin].extend(edges[i].from), box[bin].extend(edges[i].to);
@@ -76,9 +78,9 @@ Cut bestCut(const std::vector<EdgeTree::Edge>& edges, const Part& part) {
     std::size_t before = 0;
     for (int bin = 0; bin + 1 < kBins; ++bin) {
       around.extend(box[bin]), before += count[bin];
-      if (before == 0 || before == part.count()) continue;
+      if (before == 0 || before == sampled) continue;
       const float cost = surfaceOf(around) * leaves(before) + after[bin + 1];
-      if (cost < least) least = cost, best = {side, before};
+      if (cost < least) least = cost, best = {side, before * step};
     }
   }
   best.count = std::clamp<std::size_t>((best.count + kEight / 2) / kEight, 1, (part.count() - 1) / kEight) * kEight;
