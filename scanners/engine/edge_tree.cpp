@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <limits>
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 namespace standpoint {
 
 namespace {
 
 constexpr int kBins = 32;
+constexpr std::size_t kSideBySide = 20'000;  // edges of which parts are built by several threads
 constexpr std::size_t kSampled = 8192;  // of the edges of a part, for where it is cut
 constexpr std::uint32_t kLevelsByCost = 8;  // below them parts are halved, which bounds how deep the tree is
 
@@ -134,17 +138,38 @@ std::uint32_t EdgeTree::build(std::vector<Edge>& edges, std::size_t from, std::s
   }
   const auto at = static_cast<std::uint32_t>(nodes_.size());
   nodes_.emplace_back();
-  for (std::uint32_t k = 0; k < count; ++k) {
-    const Eigen::AlignedBox3f& box = parts[k].box;
-    const std::uint32_t held = build(edges, parts[k].from, parts[k].to, level + 1);
-    Node& node = nodes_[at];
+  for (std::uint32_t k = 0; k < count; ++k)
     for (int side = 0; side < 3; ++side) {
-      node.boxes.low[side][k] = box.min()[side];
-      node.boxes.high[side][k] = box.max()[side];
+      nodes_[at].boxes.low[side][k] = parts[k].box.min()[side];
+      nodes_[at].boxes.high[side][k] = parts[k].box.max()[side];
     }
-    node.held[k] = held;
+  if (to - from > kSideBySide) {
+    std::array<EdgeTree, kEight> trees;
+    // Others may wait for this tree: no thread may take up their work meanwhile.
+    tbb::this_task_arena::isolate([&] {
+      tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+        trees[k].root_ = trees[k].build(edges, parts[k].from, parts[k].to, level + 1);
+      });
+    });
+    for (std::uint32_t k = 0; k < count; ++k) nodes_[at].held[k] = append(trees[k]);
+  } else {
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const std::uint32_t held = build(edges, parts[k].from, parts[k].to, level + 1);
+      nodes_[at].held[k] = held;
+    }
   }
   return at;
+}
+
+std::uint32_t EdgeTree::append(const EdgeTree& tree) {
+  const auto nodes = static_cast<std::uint32_t>(nodes_.size()), leaves = static_cast<std::uint32_t>(leaves_.size());
+  const auto moved = [&](std::uint32_t held) { return held + ((held & kLeaf) != 0 ? leaves : nodes); };
+  leaves_.insert(leaves_.end(), tree.leaves_.begin(), tree.leaves_.end());
+  for (Node node : tree.nodes_) {
+    for (std::uint32_t& held : node.held) held = moved(held);
+    nodes_.push_back(node);
+  }
+  return moved(tree.root_);
 }
 
 }  // namespace standpoint

@@ -59,6 +59,7 @@ class EdgeTree {
     std::uint64_t number[kEight] = {};
   };
   std::uint32_t build(std::vector<Edge>& edges, std::size_t from, std::size_t to, std::uint32_t level);
+  std::uint32_t append(const EdgeTree& tree);  // what it is held by
 
   double farthest_coordinate_m_ = 0;
   std::uint32_t root_ = kLeaf;
