@@ -128,9 +128,15 @@ EdgeFinder::EdgeFinder(const ScanPlan& plan) : plan_(plan), bodies_(plan.scene.b
 }
 
 EdgeTree EdgeFinder::treeOf(const std::vector<std::uint32_t>& placements) const {
+  const auto edgesOf = [this](std::uint32_t placement) -> const auto& {
+    return plan_.scene.edges(plan_.scene.placed(placement).mesh);
+  };
+  std::size_t all = 0;
+  for (const std::uint32_t placement : placements) all += edgesOf(placement).size();
   std::vector<EdgeTree::Edge> edges;
+  edges.reserve(all);
   for (const std::uint32_t placement : placements) {
-    const auto count = static_cast<std::uint32_t>(plan_.scene.edges(plan_.scene.placed(placement).mesh).size());
+    const auto count = static_cast<std::uint32_t>(edgesOf(placement).size());
     for (std::uint32_t i = 0; i < count; ++i) {
       const std::uint64_t edge = std::uint64_t{placement} << 32U | i;
       const auto ends = plan_.scene.edgeEnds(edge);

@@ -9,6 +9,14 @@
 
 namespace standpoint {
 
+// A range of edges, and what surrounds it.
+struct EdgeTree::Part {
+  std::size_t from = 0, to = 0;
+  Eigen::AlignedBox3f box, middles;  // of all of each; of the sums of its ends
+  std::size_t count() const { return to - from; }
+  float cost() const;  // to look through it; nothing where it fits into a leaf
+};
+
 namespace {
 
 constexpr int kBins = 32;
@@ -23,17 +31,8 @@ float surfaceOf(const Eigen::AlignedBox3f& box) {
   return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
 }
 
-// A range of edges, and what surrounds it.
-struct Part {
-  std::size_t from = 0, to = 0;
-  Eigen::AlignedBox3f box, middles;  // of all of each; of the sums of its ends
-  std::size_t count() const { return to - from; }
-  // To look through it; nothing where it fits into a leaf.
-  float cost() const { return count() <= kEight ? -1 : surfaceOf(box) * static_cast<float>(count()); }
-};
-
-Part partOf(const std::vector<EdgeTree::Edge>& edges, std::size_t from, std::size_t to) {
-  Part part{from, to, {}, {}};
+EdgeTree::Part partOf(const std::vector<EdgeTree::Edge>& edges, std::size_t from, std::size_t to) {
+  EdgeTree::Part part{from, to, {}, {}};
   for (std::size_t i = from; i < to; ++i) {
     part.box.extend(edges[i].from), part.box.extend(edges[i].to);
     part.middles.extend(edges[i].from + edges[i].to);
@@ -47,15 +46,20 @@ struct Cut {
   std::size_t count = 0;
 };
 
+// About as many, that the second part begins with a leaf of its own.
+std::size_t wholeLeaves(const EdgeTree::Part& part, std::size_t count) {
+  return std::clamp<std::size_t>((count + kEight / 2) / kEight, 1, (part.count() - 1) / kEight) * kEight;
+}
+
 // Halves, along the longest side.
-Cut middleCut(const Part& part) {
-  Cut cut{0, part.count() / 2};
+Cut middleCut(const EdgeTree::Part& part) {
+  Cut cut{0, wholeLeaves(part, part.count() / 2)};
   part.middles.sizes().maxCoeff(&cut.side);
   return cut;
 }
 
 // The one of the least surface times number, in whole leaves.
-Cut bestCut(const std::vector<EdgeTree::Edge>& edges, const Part& part) {
+Cut bestCut(const std::vector<EdgeTree::Edge>& edges, const EdgeTree::Part& part) {
   const auto leaves = [](std::size_t count) { return static_cast<float>((count + kEight - 1) / kEight); };
   const std::size_t step = 1 + part.count() / kSampled, sampled = (part.count() + step - 1) / step;
   Cut best = middleCut(part);
@@ -87,7 +91,7 @@ Cut bestCut(const std::vector<EdgeTree::Edge>& edges, const Part& part) {
       if (cost < least) least = cost, best = {side, before * step};
     }
   }
-  best.count = std::clamp<std::size_t>((best.count + kEight / 2) / kEight, 1, (part.count() - 1) / kEight) * kEight;
+  best.count = wholeLeaves(part, best.count);
   return best;
 }
 
@@ -104,26 +108,34 @@ std::size_t cutAt(std::vector<EdgeTree::Edge>& edges, std::size_t from, std::siz
 
 }  // namespace
 
-EdgeTree::EdgeTree(std::vector<Edge> edges) {
+float EdgeTree::Part::cost() const {
+  return count() <= kEight ? -1 : surfaceOf(box) * static_cast<float>(count());
+}
+
+EdgeTree::EdgeTree(std::vector<Edge> edges) : leaves_((edges.size() + kEight - 1) / kEight) {
   for (const Edge& edge : edges)
     farthest_coordinate_m_ = std::max(
         farthest_coordinate_m_, static_cast<double>(edge.from.cwiseAbs().cwiseMax(edge.to.cwiseAbs()).maxCoeff()));
-  if (!edges.empty()) root_ = build(edges, 0, edges.size(), 0);
+  if (!edges.empty()) root_ = build(edges, partOf(edges, 0, edges.size()), 0, nodes_);
 }
 
-std::uint32_t EdgeTree::build(std::vector<Edge>& edges, std::size_t from, std::size_t to, std::uint32_t level) {
-  if (to - from <= kEight) {
-    Leaf& leaf = leaves_.emplace_back();
-    for (std::size_t i = from; i < to; ++i) {
-      for (int side = 0; side < 3; ++side) {
-        leaf.edges.from[side][i - from] = edges[i].from[side];
-        leaf.edges.to[side][i - from] = edges[i].to[side];
-      }
-      leaf.number[i - from] = edges[i].number;
+// Parts begin at whole leaves, so each leaf's place is known before.
+std::uint32_t EdgeTree::fill(const std::vector<Edge>& edges, std::size_t from, std::size_t to) {
+  Leaf& leaf = leaves_[from / kEight];
+  for (std::size_t i = from; i < to; ++i) {
+    for (int side = 0; side < 3; ++side) {
+      leaf.edges.from[side][i - from] = edges[i].from[side];
+      leaf.edges.to[side][i - from] = edges[i].to[side];
     }
-    return kLeaf | static_cast<std::uint32_t>(leaves_.size() - 1);
+    leaf.number[i - from] = edges[i].number;
   }
-  std::array<Part, kEight> parts{partOf(edges, from, to)};
+  return kLeaf | static_cast<std::uint32_t>(from / kEight);
+}
+
+std::uint32_t EdgeTree::build(std::vector<Edge>& edges, const Part& whole, std::uint32_t level,
+                              std::vector<Node>& nodes) {
+  if (whole.count() <= kEight) return fill(edges, whole.from, whole.to);
+  std::array<Part, kEight> parts{whole};
   std::size_t count = 1;
   const bool by_cost = level < kLevelsByCost;
   while (count < kEight) {
@@ -131,45 +143,42 @@ std::uint32_t EdgeTree::build(std::vector<Edge>& edges, std::size_t from, std::s
         parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(count),
         [by_cost](const Part& a, const Part& b) { return by_cost ? a.cost() < b.cost() : a.count() < b.count(); });
     if (dearest.count() <= kEight) break;
-    const Cut cut = by_cost ? bestCut(edges, dearest) : middleCut(dearest);
-    const Part whole = dearest;
-    const std::size_t middle = cutAt(edges, whole.from, whole.to, cut);
-    dearest = partOf(edges, whole.from, middle), parts[count++] = partOf(edges, middle, whole.to);
+    const Part cut = dearest;
+    const std::size_t middle = cutAt(edges, cut.from, cut.to, by_cost ? bestCut(edges, cut) : middleCut(cut));
+    dearest = partOf(edges, cut.from, middle), parts[count++] = partOf(edges, middle, cut.to);
   }
-  const auto at = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.emplace_back();
-  for (std::uint32_t k = 0; k < count; ++k)
-    for (int side = 0; side < 3; ++side) {
-      nodes_[at].boxes.low[side][k] = parts[k].box.min()[side];
-      nodes_[at].boxes.high[side][k] = parts[k].box.max()[side];
-    }
-  if (to - from > kSideBySide) {
-    std::array<EdgeTree, kEight> trees;
+  const std::size_t at = nodes.size();
+  nodes.emplace_back();
+  std::array<std::uint32_t, kEight> held{};
+  if (whole.count() > kSideBySide) {
+    std::array<std::vector<Node>, kEight> below;
     // Others may wait for this tree: no thread may take up their work meanwhile.
     tbb::this_task_arena::isolate([&] {
-      tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
-        trees[k].root_ = trees[k].build(edges, parts[k].from, parts[k].to, level + 1);
-      });
+      tbb::parallel_for(std::size_t{0}, count,
+                        [&](std::size_t k) { held[k] = build(edges, parts[k], level + 1, below[k]); });
     });
-    for (std::uint32_t k = 0; k < count; ++k) nodes_[at].held[k] = append(trees[k]);
+    for (std::size_t k = 0; k < count; ++k) held[k] = append(below[k], held[k], nodes);
   } else {
-    for (std::uint32_t k = 0; k < count; ++k) {
-      const std::uint32_t held = build(edges, parts[k].from, parts[k].to, level + 1);
-      nodes_[at].held[k] = held;
-    }
+    for (std::size_t k = 0; k < count; ++k) held[k] = build(edges, parts[k], level + 1, nodes);
   }
-  return at;
+  Node& node = nodes[at];
+  for (std::size_t k = 0; k < count; ++k) {
+    for (int side = 0; side < 3; ++side) {
+      node.boxes.low[side][k] = parts[k].box.min()[side];
+      node.boxes.high[side][k] = parts[k].box.max()[side];
+    }
+    node.held[k] = held[k];
+  }
+  return static_cast<std::uint32_t>(at);
 }
 
-std::uint32_t EdgeTree::append(const EdgeTree& tree) {
-  const auto nodes = static_cast<std::uint32_t>(nodes_.size()), leaves = static_cast<std::uint32_t>(leaves_.size());
-  const auto moved = [&](std::uint32_t held) { return held + ((held & kLeaf) != 0 ? leaves : nodes); };
-  leaves_.insert(leaves_.end(), tree.leaves_.begin(), tree.leaves_.end());
-  for (Node node : tree.nodes_) {
-    for (std::uint32_t& held : node.held) held = moved(held);
-    nodes_.push_back(node);
-  }
-  return moved(tree.root_);
+std::uint32_t EdgeTree::append(const std::vector<Node>& below, std::uint32_t root, std::vector<Node>& nodes) {
+  const auto before = static_cast<std::uint32_t>(nodes.size());
+  const auto moved = [before](std::uint32_t held) { return (held & kLeaf) != 0 ? held : held + before; };
+  nodes.insert(nodes.end(), below.begin(), below.end());
+  for (std::size_t i = before; i < nodes.size(); ++i)
+    for (std::uint32_t& held : nodes[i].held) held = moved(held);
+  return moved(root);
 }
 
 }  // namespace standpoint

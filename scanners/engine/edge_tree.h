@@ -19,6 +19,7 @@ class EdgeTree {
     Eigen::Vector3f from, to;
     std::uint64_t number = 0;
   };
+  struct Part;
   EdgeTree() = default;
   // In any order; numbers differ.
   explicit EdgeTree(std::vector<Edge> edges);
@@ -58,8 +59,10 @@ class EdgeTree {
     EightEdges edges;
     std::uint64_t number[kEight] = {};
   };
-  std::uint32_t build(std::vector<Edge>& edges, std::size_t from, std::size_t to, std::uint32_t level);
-  std::uint32_t append(const EdgeTree& tree);  // what it is held by
+  // Each yields what its part is held by.
+  std::uint32_t build(std::vector<Edge>& edges, const Part& whole, std::uint32_t level, std::vector<Node>& nodes);
+  std::uint32_t fill(const std::vector<Edge>& edges, std::size_t from, std::size_t to);
+  static std::uint32_t append(const std::vector<Node>& below, std::uint32_t root, std::vector<Node>& nodes);
 
   double farthest_coordinate_m_ = 0;
   std::uint32_t root_ = kLeaf;
