@@ -21,8 +21,8 @@ namespace {
 
 constexpr int kBins = 32;
 constexpr std::size_t kSideBySide = 20'000;  // edges of which parts are built by several threads
-constexpr std::size_t kSampled = 8192;  // of the edges of a part, for where it is cut
-constexpr std::uint32_t kLevelsByCost = 8;  // below them parts are halved, which bounds how deep the tree is
+constexpr std::size_t kSampled = 8192;       // of the edges of a part, for where it is cut
+constexpr std::uint32_t kLevelsByCost = 8;   // below them parts are halved, which bounds how deep the tree is
 
 // A packet meets a box about as often as it is large.
 float surfaceOf(const Eigen::AlignedBox3f& box) {
@@ -108,9 +108,7 @@ std::size_t cutAt(std::vector<EdgeTree::Edge>& edges, std::size_t from, std::siz
 
 }  // namespace
 
-float EdgeTree::Part::cost() const {
-  return count() <= kEight ? -1 : surfaceOf(box) * static_cast<float>(count());
-}
+float EdgeTree::Part::cost() const { return count() <= kEight ? -1 : surfaceOf(box) * static_cast<float>(count()); }
 
 EdgeTree::EdgeTree(std::vector<Edge> edges) : leaves_((edges.size() + kEight - 1) / kEight) {
   for (const Edge& edge : edges)
