@@ -63,12 +63,14 @@ ColumnHits::ColumnHits(const ScanPlan& plan, TimedScene& scene)
   seen_ = std::make_unique<SeenFaces>(plan.start.translation.cast<float>().cast<double>());
   rays_.one_origin = true;
   rays_.seen = seen_.get();
+  for (std::uint32_t row = 0; row < plan.settings.rows; ++row) elevations_rad_.push_back(plan.elevation_rad(row));
 }
 
 // Clockwise seen from above.
 void ColumnHits::begin(std::uint32_t column) {
   column_ = column;
   if (moving_) return moving_->begin(column);
+  plan_.clock.times(column, elevations_rad_, times_s_);
   double sine = 0, cosine = 0;
   portable::sinCos(plan_.azimuth_rad(column), sine, cosine);
   ahead_ = {cosine, -sine, 0};
@@ -101,9 +103,7 @@ void ColumnHits::traceRows(std::uint32_t first_row) {
 }
 
 double ColumnHits::bodiesTime_s(std::uint32_t row) const {
-  const double since_first_s =
-      moving_ ? plan_.motion->from_s + moving_->time_s(row) : plan_.clock.time_s(column_, plan_.elevation_rad(row));
-  return since_first_s + plan_.options.bodies_ahead_s;
+  return (moving_ ? plan_.motion->from_s + moving_->time_s(row) : times_s_[row]) + plan_.options.bodies_ahead_s;
 }
 
 const RayLanes& ColumnHits::axes(std::uint32_t first_row) {

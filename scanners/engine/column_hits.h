@@ -28,6 +28,8 @@ class ColumnHits {
   void beams(std::uint32_t first_row, BeamLanes& beams) const;  // those of sixteen rows
   // When a row's pulse is sent, by the clock of what moves.
   double bodiesTime_s(std::uint32_t row) const;
+  // The same by the scanner's clock, since its first pulse.
+  double time_s(std::uint32_t row) const { return moving_ ? moving_->time_s(row) : times_s_[row]; }
   // What moves near the beams of sixteen rows from `first_row` on.
   const std::vector<NearBody>& nearBodies(std::uint32_t first_row) const { return near_bodies_[first_row / kPacket]; }
   // For other rays from about where the axes begin; null of a scanner that moves.
@@ -59,6 +61,7 @@ class ColumnHits {
   std::unique_ptr<SeenFaces> seen_;
   std::unique_ptr<MovingColumn> moving_;
   RayPacket rays_{};
+  std::vector<double> elevations_rad_, times_s_;  // of the rows of a scanner that does not move
   std::vector<std::uint64_t> facets_;
   std::vector<float> ranges_;
   std::vector<std::vector<NearBody>> near_bodies_;

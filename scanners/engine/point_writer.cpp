@@ -24,6 +24,7 @@ void PointWriter::begin(PointBlock& block) {
 
 void PointWriter::beginColumn(const ColumnHits& column) {
   column_ = column.column();
+  hits_ = &column;
   moving_ = column.moving();
   column_begin_ = size_;
   makeRoom(plan_.settings.rows);
@@ -81,7 +82,7 @@ void PointWriter::resize(std::size_t size) {
 
 void PointWriter::write(const ReturnLanes& lanes, std::uint32_t detected) {
   const ScanChannels& channels = plan_.options.channels;
-  if (detected == kAllLanes && moving_ == nullptr && !channels.time && !channels.returns && !channels.truth)
+  if (detected == kAllLanes && moving_ == nullptr && !channels.channel && !channels.returns && !channels.truth)
     return writeAll(lanes);
   places_.clear();
   for (std::uint32_t left = detected; left != 0; left &= left - 1) places_.push_back({&lanes, std::countr_zero(left)});
@@ -98,6 +99,9 @@ void PointWriter::writeAll(const ReturnLanes& lanes) {
   std::fill_n(block.column.data() + size_, kReturnLanes, column_);
   copy(lanes.product, block.product), copy(lanes.material, block.material);
   if (plan_.settings.imaging) copy(lanes.red, block.red), copy(lanes.green, block.green), copy(lanes.blue, block.blue);
+  if (plan_.options.channels.time)
+    for (int k = 0; k < kReturnLanes; ++k)
+      block.time_s[size_ + static_cast<std::size_t>(k)] = hits_->time_s(lanes.row[k]);
   size_ += kReturnLanes;
 }
 
@@ -116,15 +120,11 @@ void PointWriter::write(const std::vector<Place>& places) {
     block.product[i] = lanes.product[k], block.material[i] = lanes.material[k];
     if (plan_.settings.imaging)
       block.red[i] = lanes.red[k], block.green[i] = lanes.green[k], block.blue[i] = lanes.blue[k];
-    if (channels.time) block.time_s[i] = time_s(lanes.row[k]);
+    if (channels.time) block.time_s[i] = hits_->time_s(lanes.row[k]);
     if (channels.channel) block.channel[i] = static_cast<std::uint8_t>(block.row[i]);
     if (channels.returns) block.return_number[i] = place.return_number, block.return_count[i] = place.return_count;
     if (channels.truth) writeTruth(lanes, k, i, block.truth);
   }
-}
-
-double PointWriter::time_s(std::uint32_t row) const {
-  return moving_ != nullptr ? moving_->time_s(row) : plan_.clock.time_s(column_, plan_.elevation_rad(row));
 }
 
 void PointWriter::writeTruth(const ReturnLanes& lanes, int lane, std::size_t i, PointTruth& truth) const {

@@ -33,11 +33,11 @@ class PointWriter {
   void resize(std::size_t size);
   void makeRoom(std::size_t points);
   void writeAll(const ReturnLanes& lanes);
-  double time_s(std::uint32_t row) const;  // of its pulse
   void writeTruth(const ReturnLanes& lanes, int lane, std::size_t i, PointTruth& truth) const;
 
   const ScanPlan& plan_;
   std::uint32_t column_ = 0;
+  const ColumnHits* hits_ = nullptr;
   const MovingColumn* moving_ = nullptr;
   PointBlock* block_ = nullptr;
   std::size_t size_ = 0, room_ = 0;  // points written, and that the block has entries for

@@ -9,6 +9,7 @@
 #include "core/portable_math.h"
 #include "scanners/engine/column_hits.h"
 #include "scanners/engine/footprint.h"
+#include "scanners/math/target_clones.h"
 #include "scanners/noise/pulse_noise.h"
 
 namespace standpoint {
@@ -17,6 +18,15 @@ namespace {
 
 std::uint8_t byte(float fraction) { return static_cast<std::uint8_t>(std::clamp(fraction, 0.0F, 1.0F) * 255 + 0.5F); }
 
+// In one turn of the mirror: in front upwards, behind downwards.
+STANDPOINT_CLONES void timesOf(bool behind, std::uint32_t turn, double turn_s, const double* elevations_rad,
+                               std::size_t count, double* times_s) {
+  constexpr double kQuarter = std::numbers::pi / 2;
+  const double from = behind ? 3 * kQuarter : kQuarter, up = behind ? -1 : 1;
+  for (std::size_t i = 0; i < count; ++i)
+    times_s[i] = (turn + (from + up * elevations_rad[i]) / (2 * std::numbers::pi)) * turn_s;
+}
+
 }  // namespace
 
 PulseClock::PulseClock(const Instrument& instrument, const ScanSettings& settings)
@@ -24,10 +34,16 @@ PulseClock::PulseClock(const Instrument& instrument, const ScanSettings& setting
       turn_s_((settings.scan_seconds / settings.passes - instrument.overhead_s) / half_) {}
 
 double PulseClock::time_s(std::uint32_t column, double elevation_rad) const {
-  constexpr double kQuarter = std::numbers::pi / 2;
-  const double mirror = behind(column) ? 3 * kQuarter - elevation_rad : kQuarter + elevation_rad;
-  const std::uint32_t turn = behind(column) ? column - half_ : column;
-  return (turn + mirror / (2 * std::numbers::pi)) * turn_s_;
+  double time_s = 0;
+  timesOf(behind(column), behind(column) ? column - half_ : column, turn_s_, &elevation_rad, 1, &time_s);
+  return time_s;
+}
+
+void PulseClock::times(std::uint32_t column, const std::vector<double>& elevations_rad,
+                       std::vector<double>& times_s) const {
+  times_s.resize(elevations_rad.size());
+  timesOf(behind(column), behind(column) ? column - half_ : column, turn_s_, elevations_rad.data(), times_s.size(),
+          times_s.data());
 }
 
 double ScanPlan::azimuth_rad(std::uint32_t column) const {

@@ -30,6 +30,8 @@ class PulseClock {
  public:
   PulseClock(const Instrument& instrument, const ScanSettings& settings);
   double time_s(std::uint32_t column, double elevation_rad) const;
+  // Of all of a column.
+  void times(std::uint32_t column, const std::vector<double>& elevations_rad, std::vector<double>& times_s) const;
   bool behind(std::uint32_t column) const { return column >= half_; }
 
  private:

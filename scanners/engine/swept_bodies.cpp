@@ -70,19 +70,20 @@ void SweptWindow::addPath(std::uint32_t number) {
   boxes_.emplace_back(box.min().array() - aside, box.max().array() + aside);
 }
 
+void SweptWindow::setPieces(TimedRays& rays) const {
+  const auto number = static_cast<double>(number_);
+  for (int k = 0; k < kPacket; ++k)
+    rays.piece[k] = std::clamp(static_cast<int>((rays.time_s[k] / kLength_s - number) * kPoses), 0, kPoses - 1);
+}
+
 std::uint32_t SweptWindow::reaching(std::size_t box, const TimedRays& rays, std::uint32_t lanes,
                                     const float* farthest_m) const {
   const auto number = static_cast<double>(number_);
   std::uint32_t found = 0;
   while (lanes != 0) {
-    const auto piece = [&](std::uint32_t k) {
-      return std::clamp(static_cast<int>((rays.time_s[k] / kLength_s - number) * kPoses), 0, kPoses - 1);
-    };
-    const int of_first = piece(static_cast<std::uint32_t>(std::countr_zero(lanes)));
+    const int of_first = rays.piece[std::countr_zero(lanes)];
     std::uint32_t meanwhile = 0;
-    forLanes(lanes, [&](std::uint32_t k) {
-      if (piece(k) == of_first) meanwhile |= 1U << k;
-    });
+    for (std::uint32_t k = 0; k < kPacket; ++k) meanwhile |= rays.piece[k] == of_first ? lanes & 1U << k : 0;
     std::uint64_t reaches[kPacket];
     reach(paths_[box], of_first, number, beam_, beam_m_, rays, farthest_m, reaches);
     found |= meanwhile & bitsOf(reaches);

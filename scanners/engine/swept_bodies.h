@@ -16,6 +16,7 @@ namespace standpoint {
 struct TimedRays {
   RayLanes rays;
   double time_s[kPacket] = {};
+  int piece[kPacket] = {};  // of the paths in the window that is asked, which setPieces() tells
 };
 
 // A ray comes near a body that is in the beam about it: `exit_m` wide and spreading by `divergence_rad`. Rays go
@@ -42,6 +43,8 @@ class SweptWindow {
 
   RTCScene scene() const { return scene_; }  // null: nothing is there
   std::uint32_t body(std::size_t box) const { return bodies_[box]; }
+  // Of those rays.
+  void setPieces(TimedRays& rays) const;
   // Which of those rays may come near the body before they end, as bits.
   std::uint32_t reaching(std::size_t box, const TimedRays& rays, std::uint32_t lanes, const float* farthest_m) const;
 

@@ -170,6 +170,7 @@ void TimedScene::ask(Asked& asked, int count) {
     });
     const SweptWindow& window = windowOf(number);
     if (window.scene() == nullptr) continue;
+    window.setPieces(asked.rays);
     EmbreeScene::setRays(query, asked.packet);
     for (int k = 0; k < kPacket; ++k)
       query.ray.tnear[k] = asked.nearest_m, query.ray.tfar[k] = asked.ranges_m[k] + static_cast<float>(beam_m_) + 0.01F;
