@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <set>
 #include <thread>
 
@@ -22,7 +21,6 @@
 #include "editor/widgets/widgets.h"
 #include "editor/words/words.h"
 #include "item_probe.h"
-#include "tests/temporary_folder.h"
 
 namespace standpoint {
 namespace {
@@ -229,31 +227,6 @@ TEST_F(Gui, TicksSwitchesThatAreOnAndTheChoiceThatHolds) {
   EXPECT_GT(ticked, 15);
 }
 
-TEST_F(Gui, FindsAnActionInThePaletteByWords) {
-  open();
-  gui.key('P', true);
-  gui.frames(2);
-  EXPECT_TRUE(editor.dialogs.palette.open);
-  gui.type("view top");
-  gui.key(kEnter);
-  EXPECT_FALSE(editor.dialogs.palette.open);
-  EXPECT_TRUE(editor.view.camera.forward().isApprox(-Eigen::Vector3d::UnitZ(), 1e-9));
-}
-
-TEST_F(Gui, TakesMoreWordsInThePaletteAfterEnterOnNothing) {
-  open();
-  gui.key('P', true);
-  gui.frames(2);
-  gui.type("view topp");
-  gui.key(kEnter);
-  gui.frames(3);
-  ASSERT_TRUE(editor.dialogs.palette.open) << "nothing matches";
-  gui.key(kKeyBackspace);
-  gui.key(kEnter);
-  EXPECT_FALSE(editor.dialogs.palette.open);
-  EXPECT_TRUE(editor.view.camera.forward().isApprox(-Eigen::Vector3d::UnitZ(), 1e-9));
-}
-
 TEST_F(Gui, SaysNothingOfATrajectoryAtEnterWhereNoneIsAdded) {
   open();
   const auto said = editor.notice.text;
@@ -268,39 +241,6 @@ TEST_F(Gui, ShowsAnotherModelInItsOwnColours) {
   editor.session.clear();
   gui.settle();
   EXPECT_EQ(editor.view.colour, ColourMode::model);
-}
-
-TEST_F(Gui, SavesWhereATypedPathSaysWithoutAClick) {
-  open();
-  const TemporaryFolder folder;
-  std::filesystem::path chosen;
-  askForFile(editor, FileDialogState::Purpose::saveFile, "Save", "Save", {".png"}, "house.png",
-             [&](const auto& path) { chosen = path; });
-  gui.frames(3);
-  gui.type((folder.path() / "gone" / "a.png").string());
-  gui.key(kEnter);
-  EXPECT_TRUE(editor.dialogs.file.open) << "there is no such folder";
-  gui.key('A', true);
-  gui.type((folder.path() / "a.png").string());
-  gui.key(kEnter);
-  EXPECT_FALSE(editor.dialogs.file.open);
-  EXPECT_EQ(chosen, folder.path() / "a.png");
-  EXPECT_EQ(editor.settings.last_folder, folder.path().string());
-}
-
-TEST_F(Gui, OpensAModelByATypedPathWithoutAClickAndSaysWhereAFolderHasNone) {
-  const TemporaryFolder folder;
-  folder.write("house.ifc", "");
-  std::filesystem::create_directory(folder / "empty");
-  editor.settings.last_folder = (folder / "empty").string();
-  std::filesystem::path chosen;
-  askForFile(editor, FileDialogState::Purpose::openFile, "Import", "Open", {".ifc"}, "",
-             [&](const auto& path) { chosen = path; });
-  gui.frames(3);
-  EXPECT_TRUE(gui.says("No files of this kind in this folder"));
-  gui.type((folder / "house.ifc").string());
-  gui.key(kEnter);
-  EXPECT_EQ(chosen, folder / "house.ifc");
 }
 
 TEST_F(Gui, ListsTheMaterialLibraryByTheNamesThatItShows) {
@@ -336,100 +276,6 @@ TEST_F(Gui, PutsAPlateUnderTheSwitchesOverTheView) {
     }
   EXPECT_LE(left, rect.Min.x);
   EXPECT_GE(right, rect.Max.x);
-}
-
-TEST_F(Gui, AsksBeforeUnsavedChangesAreLost) {
-  open();
-  gui.key('N', true);
-  gui.frames(3);
-  EXPECT_TRUE(editor.dialogs.unsaved);
-  EXPECT_TRUE(editor.environment());
-  ASSERT_TRUE(gui.click("Do not save"));
-  gui.frames(2);
-  EXPECT_FALSE(editor.environment());
-}
-
-TEST_F(Gui, ShowsAnErrorUntilItIsClosed) {
-  editor.session.open("/no/such/project");
-  gui.settle();
-  ASSERT_EQ(editor.session.errors().size(), 1U);
-  ASSERT_TRUE(gui.click("###close"));
-  EXPECT_TRUE(editor.session.errors().empty());
-}
-
-TEST_F(Gui, TheLogOpensAtItsNewestLineAndFollowsItUnlessSomebodyScrollsUp) {
-  open();
-  for (int i = 0; i < 200; ++i) editor.session.say(LogLevel::note, "", "Entry " + std::to_string(i));
-  editor.workspace = Workspace::environment;
-  const auto shows = [&](const std::string& text) {
-    itemProbe().texts.clear();
-    itemProbe().listens = true;
-    gui.frames(2);
-    itemProbe().listens = false;
-    return std::find(itemProbe().texts.begin(), itemProbe().texts.end(), text) != itemProbe().texts.end();
-  };
-  openPanel(editor, Workspace::environment, "log");
-  gui.frames(4);
-  EXPECT_TRUE(shows("Entry 199"));
-  EXPECT_FALSE(shows("Entry 0"));
-  editor.session.say(LogLevel::note, "", "Entry 200");
-  gui.frames(2);
-  EXPECT_TRUE(shows("Entry 200"));
-  openPanel(editor, Workspace::environment, "tasks");
-  gui.frames(3);
-  for (int i = 201; i < 300; ++i) editor.session.say(LogLevel::note, "", "Entry " + std::to_string(i));
-  gui.frames(3);
-  openPanel(editor, Workspace::environment, "log");
-  gui.frames(4);
-  EXPECT_TRUE(shows("Entry 299")) << "also after it was behind another panel";
-  const auto* table = gui.find("###log-clear");
-  ASSERT_NE(table, nullptr);
-  gui.moveTo({table->rect.Min.x, table->rect.Max.y + 40});
-  for (int i = 0; i < 8; ++i) {
-    ImGui::GetIO().MouseWheel = 1;
-    gui.frame();
-    ImGui::GetIO().MouseWheel = 0;
-    gui.frame();
-  }
-  EXPECT_FALSE(shows("Entry 299"));
-  editor.session.say(LogLevel::note, "", "Entry 300");
-  gui.frames(3);
-  EXPECT_FALSE(shows("Entry 300")) << "what somebody reads stays in place";
-}
-
-TEST_F(Gui, ARowOfTheLogIsCopiedByItsMenu) {
-  open();
-  editor.session.clearLog();
-  editor.session.say(LogLevel::warning, "house.ifc line 7", "An opening is not cut");
-  openPanel(editor, Workspace::environment, "log");
-  gui.frames(4);
-  const auto* row = gui.find("###log-row");
-  ASSERT_NE(row, nullptr);
-  gui.moveTo(row->rect.GetCenter());
-  gui.press(1);
-  gui.frames(2);
-  ASSERT_TRUE(gui.click("###copy-log-row"));
-  gui.frames(2);
-  const std::string copied = ImGui::GetClipboardText();
-  EXPECT_TRUE(copied.ends_with("\thouse.ifc line 7\tAn opening is not cut\n")) << copied;
-}
-
-TEST_F(Gui, AMessageThatTheLogHasNoRoomForIsWholeInItsTooltip) {
-  std::string text = "Scanned";
-  for (int i = 0; i < 60; ++i) text += " word" + std::to_string(i);
-  editor.session.say(LogLevel::note, "", text);
-  editor.workspace = Workspace::instrument;
-  gui.frames(3);
-  const ImGuiWindow* panel = nullptr;
-  for (const auto* window : ImGui::GetCurrentContext()->Windows)
-    if (window->WasActive && std::string(window->Name).find("entries") != std::string::npos) panel = window;
-  ASSERT_NE(panel, nullptr);
-  gui.moveTo({panel->Pos.x + panel->Size.x - 60, panel->Pos.y + ImGui::GetTextLineHeight()});
-  gui.frames(30);
-  const auto* tooltip = ImGui::FindWindowByName("##Tooltip_00");
-  ASSERT_NE(tooltip, nullptr);
-  EXPECT_TRUE(tooltip->WasActive || tooltip->Active);
-  EXPECT_GT(tooltip->Size.y, 3 * ImGui::GetTextLineHeight()) << "all of it, in lines";
 }
 
 TEST_F(Gui, ShowsTheLabelsOfItsFieldsWholeInALanguageWithLongerWords) {
@@ -531,44 +377,6 @@ TEST_F(Gui, ShowsTheOriginalBesideTheLighterModelWithTheirDistances) {
   gui.frames(3);
   EXPECT_EQ(editor.view.side, ModelSide::lighter);
   EXPECT_EQ(editor.view.colour, ColourMode::model);
-}
-
-TEST_F(Gui, NamesWhatTheExportWritesPlainlyAndSaysWhyThereAreNoPoints) {
-  open();
-  ASSERT_TRUE(invoke(editor, "export"));
-  itemProbe().listens = true;
-  itemProbe().texts.clear();
-  gui.frames(3);
-  itemProbe().listens = false;
-  const auto drawn = [&](const char* text) {
-    return std::any_of(itemProbe().texts.begin(), itemProbe().texts.end(),
-                       [&](const auto& t) { return t.find(text) != std::string::npos; });
-  };
-  EXPECT_TRUE(drawn("Assigned materials"));
-  EXPECT_TRUE(drawn("Simpler versions"));
-  EXPECT_FALSE(drawn("Physical"));
-  EXPECT_FALSE(drawn("MSFT_lod")) << "in the tooltip only";
-  ASSERT_NE(gui.find("###export-points"), nullptr);
-  EXPECT_EQ(whyNot(*findAction("export-points"), Editor(verbsWithDemo(), [] {})), "Scan first, or add a point cloud");
-}
-
-TEST_F(Gui, ExportsUnderTheProjectsNameWhereNothingIsYet) {
-  open();
-  const TemporaryFolder folder;
-  editor.settings.last_folder = folder.path().string();
-  const auto offered = [&] {
-    EXPECT_TRUE(invoke(editor, "export"));
-    gui.frames(2);
-    EXPECT_EQ(editor.dialogs.verb.form.problem(), "") << "one press of Run is enough";
-    const std::filesystem::path file = editor.dialogs.verb.form.find("output")->text;
-    editor.dialogs.verb.open = false;
-    gui.frames(2);
-    return file;
-  };
-  const auto first = offered();
-  EXPECT_EQ(first, folder.path() / (editor.session.name() + ".glb"));
-  std::ofstream(first) << "somebody's";
-  EXPECT_NE(offered(), first);
 }
 
 // Boxes cannot have fewer triangles: any budget below theirs is out of reach.
@@ -687,104 +495,6 @@ TEST_F(Gui, AssignsTheChosenMaterialToWhatWasSelectedBeforeTheList) {
   EXPECT_EQ(materialOf(), wanted);
   EXPECT_EQ(editor.selection.products(), std::vector<std::uint32_t>{wall});
   EXPECT_EQ(editor.view.colour, ColourMode::material) << "so that it is seen";
-}
-
-TEST_F(Gui, AShortResultHasASmallDialogAndEnterSavesAPicture) {
-  open();
-  editor.session.answers().push_back(
-      {"Exported", "2 files", {{"file", "a.glb"}, {"bytes", 2411000}, {"triangles", 23842}}});
-  gui.frames(4);
-  EXPECT_TRUE(gui.says("2.4 MB"));
-  EXPECT_TRUE(gui.says(groupedDigits(23842)));
-  const auto* dialog = gui.find("###close-answer");
-  ASSERT_NE(dialog, nullptr);
-  const auto* window = ImGui::FindWindowByName(dialog->window.c_str());
-  ASSERT_NE(window, nullptr);
-  EXPECT_LT(window->Size.y, 260) << "two lines of result";
-  EXPECT_LT(window->Size.x, 520);
-  ASSERT_TRUE(gui.click("###close-answer"));
-  gui.frames(2);
-  struct Picture : SceneView {
-    std::uint64_t texture(const ViewState&, int, int, bool) override { return 0; }
-    std::uint64_t texture(const std::shared_ptr<const PixelPicture>&) override { return 0; }
-  };
-  ASSERT_TRUE(invoke(editor, "picture"));
-  gui.frames(3);
-  gui.key(kEnter);
-  gui.frames(3);
-  EXPECT_FALSE(editor.dialogs.file.open) << "without OpenGL there is nothing to save";
-  EXPECT_TRUE(gui.says("Nothing draws pictures")) << "it may be cut, and says why in a tooltip";
-  Picture picture;
-  editor.scene = &picture;
-  gui.frames(2);
-  ASSERT_TRUE(gui.click("###shot-size"));
-  gui.key(kEnter);
-  gui.frames(3);
-  EXPECT_FALSE(editor.dialogs.file.open) << "it belongs to the open list";
-  gui.key(kKeyEscape);
-  gui.frames(2);
-  EXPECT_TRUE(editor.shots.open);
-  gui.key(kEnter);
-  gui.frames(3);
-  EXPECT_TRUE(editor.dialogs.file.open) << "it asks where to";
-  editor.scene = nullptr;
-}
-
-TEST_F(Gui, APictureOfTheViewHasItsLabelsUnlessTheyAreLeftOut) {
-  open();
-  struct Picture : SceneView {
-    std::uint64_t texture(const ViewState&, int, int, bool) override { return 0; }
-    std::uint64_t texture(const std::shared_ptr<const PixelPicture>&) override { return 0; }
-    Result<PixelPicture> pixels(const ViewState&, int width, int height) override {
-      return PixelPicture{width, height, std::vector<std::array<std::uint8_t, 4>>(std::size_t(width) * height)};
-    }
-    void drawOver(PixelPicture& picture, ImDrawData& drawing) override {
-      ++drawn;
-      EXPECT_EQ(static_cast<int>(drawing.DisplaySize.x * drawing.FramebufferScale.x), picture.width);
-      EXPECT_EQ(static_cast<int>(drawing.DisplaySize.y * drawing.FramebufferScale.y), picture.height);
-      vertices = drawing.TotalVtxCount;
-    }
-    int drawn = 0, vertices = 0;
-  };
-  Picture picture;
-  TemporaryFolder folder;
-  editor.scene = &picture;
-  ASSERT_TRUE(invoke(editor, "picture"));
-  gui.frames(3);
-  const auto save = [&] {
-    ASSERT_TRUE(gui.click("###shot-make"));
-    gui.frames(2);
-    ASSERT_TRUE(editor.dialogs.file.open);
-    editor.dialogs.file.open = false;
-    editor.dialogs.file.done(folder.path() / "view.png");
-    gui.frames(4);
-    EXPECT_FALSE(editor.shots.made.empty()) << editor.shots.problem;
-  };
-  const auto camera = editor.view.camera;
-  const auto size = editor.view.size;
-  ASSERT_NO_FATAL_FAILURE(save());
-  EXPECT_EQ(picture.drawn, 1);
-  EXPECT_GT(picture.vertices, 0);
-  EXPECT_EQ(editor.view.camera, camera);
-  EXPECT_EQ(editor.view.size, size);
-  const auto* unnamed = ImGui::FindWindowByName("Debug##Default");
-  EXPECT_TRUE(unnamed == nullptr || !unnamed->Active);
-  ASSERT_TRUE(gui.click("###shot-labels"));
-  ASSERT_NO_FATAL_FAILURE(save());
-  EXPECT_EQ(picture.drawn, 1);
-  editor.scene = nullptr;
-}
-
-TEST_F(Gui, NamesTheTaskOfAnExportShortly) {
-  open();
-  const TemporaryFolder folder;
-  editor.settings.last_folder = folder.path().string();
-  ASSERT_TRUE(invoke(editor, "export"));
-  gui.frames(3);
-  ASSERT_TRUE(gui.click("###run"));
-  gui.settle();
-  ASSERT_FALSE(editor.session.finished().empty());
-  EXPECT_EQ(editor.session.finished().front().title, "Export model");
 }
 
 TEST_F(Gui, HasItsTabsInTheFirstFrameOfAWorkspace) {

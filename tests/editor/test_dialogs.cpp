@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "demo_verbs.h"
+#include "editor/shell/actions.h"
+#include "editor/shell/dialogs.h"
+#include "editor/widgets/keyboard.h"
+#include "editor/widgets/widgets.h"
+#include "editor/words/words.h"
+#include "item_probe.h"
+#include "tests/temporary_folder.h"
+
+namespace standpoint {
+namespace {
+
+class Dialogs : public ::testing::Test {
+ protected:
+  void open() {
+    ASSERT_TRUE(editor.session.start("demo", nlohmann::json::object()));
+    gui.settle();
+    editor.session.wait();
+  }
+  Editor editor{verbsWithDemo(), [] {}};
+  GuiDriver gui{editor};
+};
+
+TEST_F(Dialogs, FindsAnActionInThePaletteByWords) {
+  open();
+  gui.key('P', true);
+  gui.frames(2);
+  EXPECT_TRUE(editor.dialogs.palette.open);
+  gui.type("view top");
+  gui.key(kKeyEnter);
+  EXPECT_FALSE(editor.dialogs.palette.open);
+  EXPECT_TRUE(editor.view.camera.forward().isApprox(-Eigen::Vector3d::UnitZ(), 1e-9));
+}
+
+TEST_F(Dialogs, TakesMoreWordsInThePaletteAfterEnterOnNothing) {
+  open();
+  gui.key('P', true);
+  gui.frames(2);
+  gui.type("view topp");
+  gui.key(kKeyEnter);
+  gui.frames(3);
+  ASSERT_TRUE(editor.dialogs.palette.open) << "nothing matches";
+  gui.key(kKeyBackspace);
+  gui.key(kKeyEnter);
+  EXPECT_FALSE(editor.dialogs.palette.open);
+  EXPECT_TRUE(editor.view.camera.forward().isApprox(-Eigen::Vector3d::UnitZ(), 1e-9));
+}
+
+TEST_F(Dialogs, SavesWhereATypedPathSaysWithoutAClick) {
+  open();
+  const TemporaryFolder folder;
+  std::filesystem::path chosen;
+  askForFile(editor, FileDialogState::Purpose::saveFile, "Save", "Save", {".png"}, "house.png",
+             [&](const auto& path) { chosen = path; });
+  gui.frames(3);
+  gui.type((folder.path() / "gone" / "a.png").string());
+  gui.key(kKeyEnter);
+  EXPECT_TRUE(editor.dialogs.file.open) << "there is no such folder";
+  gui.key('A', true);
+  gui.type((folder.path() / "a.png").string());
+  gui.key(kKeyEnter);
+  EXPECT_FALSE(editor.dialogs.file.open);
+  EXPECT_EQ(chosen, folder.path() / "a.png");
+  EXPECT_EQ(editor.settings.last_folder, folder.path().string());
+}
+
+TEST_F(Dialogs, OpensAModelByATypedPathWithoutAClickAndSaysWhereAFolderHasNone) {
+  const TemporaryFolder folder;
+  folder.write("house.ifc", "");
+  std::filesystem::create_directory(folder / "empty");
+  editor.settings.last_folder = (folder / "empty").string();
+  std::filesystem::path chosen;
+  askForFile(editor, FileDialogState::Purpose::openFile, "Import", "Open", {".ifc"}, "",
+             [&](const auto& path) { chosen = path; });
+  gui.frames(3);
+  EXPECT_TRUE(gui.says("No files of this kind in this folder"));
+  gui.type((folder / "house.ifc").string());
+  gui.key(kKeyEnter);
+  EXPECT_EQ(chosen, folder / "house.ifc");
+}
+
+TEST_F(Dialogs, AsksBeforeUnsavedChangesAreLost) {
+  open();
+  gui.key('N', true);
+  gui.frames(3);
+  EXPECT_TRUE(editor.dialogs.unsaved);
+  EXPECT_TRUE(editor.environment());
+  ASSERT_TRUE(gui.click("Do not save"));
+  gui.frames(2);
+  EXPECT_FALSE(editor.environment());
+}
+
+TEST_F(Dialogs, ShowsAnErrorUntilItIsClosed) {
+  editor.session.open("/no/such/project");
+  gui.settle();
+  ASSERT_EQ(editor.session.errors().size(), 1U);
+  ASSERT_TRUE(gui.click("###close"));
+  EXPECT_TRUE(editor.session.errors().empty());
+}
+
+TEST_F(Dialogs, NamesWhatTheExportWritesPlainlyAndSaysWhyThereAreNoPoints) {
+  open();
+  ASSERT_TRUE(invoke(editor, "export"));
+  itemProbe().listens = true;
+  itemProbe().texts.clear();
+  gui.frames(3);
+  itemProbe().listens = false;
+  const auto drawn = [&](const char* text) {
+    return std::any_of(itemProbe().texts.begin(), itemProbe().texts.end(),
+                       [&](const auto& t) { return t.find(text) != std::string::npos; });
+  };
+  EXPECT_TRUE(drawn("Assigned materials"));
+  EXPECT_TRUE(drawn("Simpler versions"));
+  EXPECT_FALSE(drawn("Physical"));
+  EXPECT_FALSE(drawn("MSFT_lod")) << "in the tooltip only";
+  ASSERT_NE(gui.find("###export-points"), nullptr);
+  EXPECT_EQ(whyNot(*findAction("export-points"), Editor(verbsWithDemo(), [] {})), "Scan first, or add a point cloud");
+}
+
+TEST_F(Dialogs, ExportsUnderTheProjectsNameWhereNothingIsYet) {
+  open();
+  const TemporaryFolder folder;
+  editor.settings.last_folder = folder.path().string();
+  const auto offered = [&] {
+    EXPECT_TRUE(invoke(editor, "export"));
+    gui.frames(2);
+    EXPECT_EQ(editor.dialogs.verb.form.problem(), "") << "one press of Run is enough";
+    const std::filesystem::path file = editor.dialogs.verb.form.find("output")->text;
+    editor.dialogs.verb.open = false;
+    gui.frames(2);
+    return file;
+  };
+  const auto first = offered();
+  EXPECT_EQ(first, folder.path() / (editor.session.name() + ".glb"));
+  std::ofstream(first) << "somebody's";
+  EXPECT_NE(offered(), first);
+}
+
+TEST_F(Dialogs, AShortResultHasASmallDialogAndEnterSavesAPicture) {
+  open();
+  editor.session.answers().push_back(
+      {"Exported", "2 files", {{"file", "a.glb"}, {"bytes", 2411000}, {"triangles", 23842}}});
+  gui.frames(4);
+  EXPECT_TRUE(gui.says("2.4 MB"));
+  EXPECT_TRUE(gui.says(groupedDigits(23842)));
+  const auto* dialog = gui.find("###close-answer");
+  ASSERT_NE(dialog, nullptr);
+  const auto* window = ImGui::FindWindowByName(dialog->window.c_str());
+  ASSERT_NE(window, nullptr);
+  EXPECT_LT(window->Size.y, 260) << "two lines of result";
+  EXPECT_LT(window->Size.x, 520);
+  ASSERT_TRUE(gui.click("###close-answer"));
+  gui.frames(2);
+  struct Picture : SceneView {
+    std::uint64_t texture(const ViewState&, int, int, bool) override { return 0; }
+    std::uint64_t texture(const std::shared_ptr<const PixelPicture>&) override { return 0; }
+  };
+  ASSERT_TRUE(invoke(editor, "picture"));
+  gui.frames(3);
+  gui.key(kKeyEnter);
+  gui.frames(3);
+  EXPECT_FALSE(editor.dialogs.file.open) << "without OpenGL there is nothing to save";
+  EXPECT_TRUE(gui.says("Nothing draws pictures")) << "it may be cut, and says why in a tooltip";
+  Picture picture;
+  editor.scene = &picture;
+  gui.frames(2);
+  ASSERT_TRUE(gui.click("###shot-size"));
+  gui.key(kKeyEnter);
+  gui.frames(3);
+  EXPECT_FALSE(editor.dialogs.file.open) << "it belongs to the open list";
+  gui.key(kKeyEscape);
+  gui.frames(2);
+  EXPECT_TRUE(editor.shots.open);
+  gui.key(kKeyEnter);
+  gui.frames(3);
+  EXPECT_TRUE(editor.dialogs.file.open) << "it asks where to";
+  editor.scene = nullptr;
+}
+
+TEST_F(Dialogs, APictureOfTheViewHasItsLabelsUnlessTheyAreLeftOut) {
+  open();
+  struct Picture : SceneView {
+    std::uint64_t texture(const ViewState&, int, int, bool) override { return 0; }
+    std::uint64_t texture(const std::shared_ptr<const PixelPicture>&) override { return 0; }
+    Result<PixelPicture> pixels(const ViewState&, int width, int height) override {
+      return PixelPicture{width, height, std::vector<std::array<std::uint8_t, 4>>(std::size_t(width) * height)};
+    }
+    void drawOver(PixelPicture& picture, ImDrawData& drawing) override {
+      ++drawn;
+      EXPECT_EQ(static_cast<int>(drawing.DisplaySize.x * drawing.FramebufferScale.x), picture.width);
+      EXPECT_EQ(static_cast<int>(drawing.DisplaySize.y * drawing.FramebufferScale.y), picture.height);
+      vertices = drawing.TotalVtxCount;
+    }
+    int drawn = 0, vertices = 0;
+  };
+  Picture picture;
+  TemporaryFolder folder;
+  editor.scene = &picture;
+  ASSERT_TRUE(invoke(editor, "picture"));
+  gui.frames(3);
+  const auto save = [&] {
+    ASSERT_TRUE(gui.click("###shot-make"));
+    gui.frames(2);
+    ASSERT_TRUE(editor.dialogs.file.open);
+    editor.dialogs.file.open = false;
+    editor.dialogs.file.done(folder.path() / "view.png");
+    gui.frames(4);
+    EXPECT_FALSE(editor.shots.made.empty()) << editor.shots.problem;
+  };
+  const auto camera = editor.view.camera;
+  const auto size = editor.view.size;
+  ASSERT_NO_FATAL_FAILURE(save());
+  EXPECT_EQ(picture.drawn, 1);
+  EXPECT_GT(picture.vertices, 0);
+  EXPECT_EQ(editor.view.camera, camera);
+  EXPECT_EQ(editor.view.size, size);
+  const auto* unnamed = ImGui::FindWindowByName("Debug##Default");
+  EXPECT_TRUE(unnamed == nullptr || !unnamed->Active);
+  ASSERT_TRUE(gui.click("###shot-labels"));
+  ASSERT_NO_FATAL_FAILURE(save());
+  EXPECT_EQ(picture.drawn, 1);
+  editor.scene = nullptr;
+}
+
+TEST_F(Dialogs, NamesTheTaskOfAnExportShortly) {
+  open();
+  const TemporaryFolder folder;
+  editor.settings.last_folder = folder.path().string();
+  ASSERT_TRUE(invoke(editor, "export"));
+  gui.frames(3);
+  ASSERT_TRUE(gui.click("###run"));
+  gui.settle();
+  ASSERT_FALSE(editor.session.finished().empty());
+  EXPECT_EQ(editor.session.finished().front().title, "Export model");
+}
+
+}  // namespace
+}  // namespace standpoint
