@@ -42,8 +42,8 @@ constexpr std::array kSteps = {
                "and why.",
                [](const Tour& tour, const Model& model) { return stationsOf(model) > tour.stations(); }},
     Tour::Step{"Scan",
-               "Press Scan at the top right, choose a coarse resolution, then Scan in the panel. The points appear as "
-               "they are measured.",
+               "Press Scan… at the top right, choose a coarse resolution, then press Scan all stations. The points "
+               "appear as they are measured.",
                [](const Tour&, const Model& model) { return anyScan(model); }},
     Tour::Step{"Judge the result",
                "Return to the model, go to Inspect (Alt+7) and assess the scans: coverage, noise and the worst places.",

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <utility>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -271,6 +270,17 @@ std::string whyNotScan(const Model& model, const ScanChoice& asked, const ScanSe
   return whyNotConditions(asked, settings);
 }
 
+// What the button does, and what its task and the step in history are called.
+std::string scanTitle(const Model& model, const ScanState& state, bool along) {
+  if (along) {
+    const auto wanted = trajectoryWanted(model);
+    return wanted ? trf("Scan along {}", model.session.document().job->trajectories[*wanted].name)
+                  : tr("Scan along a trajectory");
+  }
+  const auto stations = stationsText(model, state);
+  return stations == "all" ? tr("Scan all stations") : trf("Scan station {}", stations);
+}
+
 void start(const Model& model, ScanState& state, const ScanChoice& asked, const CarriedScan& carried, Actions& actions,
            const std::filesystem::path& folder, const CloudFormat* format) {
   const auto& job = *model.session.document().job;
@@ -287,9 +297,7 @@ void start(const Model& model, ScanState& state, const ScanChoice& asked, const 
     options.resume = state.resume;
     state.started = asked;
   }
-  actions.startScan(options, along ? trf("Scan along {}", stations)
-                             : all ? tr("Scan all stations")
-                                   : trf("Scan station {}", stations));
+  actions.startScan(options, scanTitle(model, state, along.has_value()));
 }
 
 bool lastWasCancelled(const Session& session) {
@@ -328,9 +336,11 @@ void drawForm(const Model& model, ScanState& state, ScanChoice& standing, Carrie
   if (asked.instrument != instrument->id) return;  // another was chosen: the next frame shows it
   const auto settings =
       along ? resolveMovingSettings(*instrument, asked.settings) : resolveSettings(*instrument, asked.settings);
+  const float room = ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().FramePadding.x;
+  const auto label = ui::fittingText(ICON_PLAY "  " + scanTitle(model, state, along), room) + "###run-scan";
   if (!settings) {
     const auto problem = trError(inWordsOfDevice(*instrument, settings.error()));
-    ui::primaryButton(ICON_PLAY "  Scan###run-scan", problem, {-FLT_MIN, model.px(28)});
+    ui::primaryButton(label.c_str(), problem, {-FLT_MIN, model.px(28)});
     ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
     ImGui::SameLine();
     ui::wrapped(problem);
@@ -342,12 +352,11 @@ void drawForm(const Model& model, ScanState& state, ScanChoice& standing, Carrie
       state.folder.empty() ? standardFolder(model) : std::filesystem::path(state.folder);
   const CloudFormat* format = formats.empty() ? nullptr : formats[static_cast<std::size_t>(state.format)];
   const auto why = whyNotScan(model, asked, *settings, along);
-  const bool pressed = std::exchange(state.pressed, false) && why.empty();
-  if (ui::primaryButton(ICON_PLAY "  Scan###run-scan", why, {-FLT_MIN, model.px(28)}) || pressed)
+  if (ui::primaryButton(label.c_str(), why, {-FLT_MIN, model.px(28)}))
     start(model, state, asked, carried, actions, folder, format);
   if (!why.empty() && model.session.whyNot("scan").empty()) ui::dimWrapped(tr(why));
   if (!along && state.resume && lastWasCancelled(model.session))
-    ui::dimWrapped("The last scan was cancelled. With the same settings, Scan resumes it.");
+    ui::dimWrapped("The last scan was cancelled. With the same settings, the next one resumes it.");
   if (!model.session.document().materials) {
     ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
     ImGui::SameLine();

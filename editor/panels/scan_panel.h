@@ -16,10 +16,9 @@ void listBrokenInstruments(const Model& model);
 
 struct ScanState {
   std::shared_ptr<const ScanChoice> remembered;  // the document's, that Model::scan_choice was last filled from
-  std::optional<ScanChoice> started;             // with the last press of "Scan"
+  std::optional<ScanChoice> started;             // with the last press of its button
   bool all_stations = true;
-  bool pressed = false;  // the button of the toolbar, while the panel is in front
-  bool resume = true;    // what a cancelled run has finished is taken where it is the same
+  bool resume = true;  // what a cancelled run has finished is taken where it is the same
   int format = 0;
   std::string folder;
 };

@@ -12,7 +12,6 @@
 
 #include "editor/panels/import_preview_panel.h"
 #include "editor/panels/panels.h"
-#include "editor/panels/scan_panel.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
@@ -198,8 +197,15 @@ void toolGap(const Editor& editor) {
 }
 
 float scanButtonWidth(const Editor& editor) {
-  const float text = ImGui::CalcTextSize(tr(ICON_PLAY "  Scan").c_str()).x + 2 * ImGui::GetStyle().FramePadding.x;
+  const float text = ImGui::CalcTextSize(tr(ICON_PLAY "  Scan…").c_str()).x + 2 * ImGui::GetStyle().FramePadding.x;
   return std::max(editor.px(96), text);
+}
+
+// Of two buttons in sight one opens the panel, and one scans.
+std::string whyNotOpenScan(const Editor& editor) {
+  const bool open =
+      editor.workspace == Workspace::survey && editor.front_tab[static_cast<std::size_t>(Area::right)] == "scan";
+  return open ? "The Scan panel is open: its button starts the scan" : editor.session.whyNot("scan");
 }
 
 // Beside ten tools, the button Scan and the palette's, with room for one more between them.
@@ -250,15 +256,7 @@ void drawToolbar(Editor& editor, const Box& box) {
   for (const char* id : {"walk", "teleport", "add-station", "add-target", "measure"}) actionToolButton(editor, id);
   const float scan = scanButtonWidth(editor), right = scan + editor.px(36);
   ImGui::SameLine(box.w - right - editor.px(8));
-  if (ui::primaryButton(ICON_PLAY "  Scan###tool_scan", editor.session.whyNot("scan"), {scan, 0})) {
-    // Who has the settings before them and presses it means to scan, as with the button below them.
-    const bool set =
-        editor.workspace == Workspace::survey && editor.front_tab[static_cast<std::size_t>(Area::right)] == "scan";
-    if (set)
-      editor.panels.of<ScanState>().pressed = true;
-    else
-      invoke(editor, "scan");
-  }
+  if (ui::primaryButton(ICON_PLAY "  Scan…###tool_scan", whyNotOpenScan(editor), {scan, 0})) invoke(editor, "scan");
   ImGui::SameLine(0, editor.px(4));
   actionToolButton(editor, "palette");
   ImGui::PopStyleVar();

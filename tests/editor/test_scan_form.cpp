@@ -150,20 +150,25 @@ TEST_F(ScanPanel, NeedsNoSavedProjectToScanIn) {
   EXPECT_NE(editor.session.ownFolder().filename().string().substr(0, 5), own.filename().string().substr(0, 5));
 }
 
-TEST_F(ScanPanel, TheButtonOfTheToolbarOpensItAndScansWhereItIsInFront) {
+TEST_F(ScanPanel, OneButtonOpensItAndItsOwnSaysWhatItScans) {
   editor.wanted_tab[1] = "plan";
   gui.frames(3);
+  ASSERT_FALSE(gui.find("###tool_scan")->disabled);
+  EXPECT_TRUE(gui.find("###tool_scan")->label.ends_with("Scan…###tool_scan")) << "as what asks before it acts";
   ASSERT_TRUE(gui.click("###tool_scan"));
   gui.frames(3);
   EXPECT_EQ(editor.front_tab[1], "scan");
-  EXPECT_TRUE(editor.session.finished().empty() || editor.session.finished().front().verb != "scan");
+  EXPECT_TRUE(gui.find("###tool_scan")->disabled) << "of two buttons in sight one scans";
+  EXPECT_TRUE(gui.find("###run-scan")->label.ends_with("Scan all stations###run-scan"));
   const TemporaryFolder folder;
-  editor.panels.of<ScanState>().folder = folder.path().string();
+  editor.panels.of<ScanState>() = {.all_stations = false, .folder = folder.path().string()};
+  editor.survey.station = 0;
   asked().settings = {{"resolution", "12mm"}};
+  gui.frames(3);
+  EXPECT_TRUE(gui.find("###run-scan")->label.ends_with("Scan station S1###run-scan"));
+  ASSERT_TRUE(gui.click("###run-scan"));
   gui.frames(2);
-  ASSERT_TRUE(gui.click("###tool_scan"));
-  gui.frames(2);
-  EXPECT_EQ(editor.session.whyNot("scan"), "Wait for 'Scan all stations' to finish, or cancel it");
+  EXPECT_EQ(editor.session.whyNot("scan"), "Wait for 'Scan station S1' to finish, or cancel it");
   editor.session.cancelAll();
   gui.settle();
 }
