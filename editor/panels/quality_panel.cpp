@@ -10,31 +10,13 @@
 #include "editor/panels/panel.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
+#include "editor/widgets/verdict_sign.h"
 #include "editor/widgets/widgets.h"
 #include "editor/words/sentences.h"
 
 namespace standpoint {
 
 namespace {
-
-struct Sign {
-  Tone tone;
-  const char* icon;
-  const char* word;
-};
-Sign signOf(Verdict verdict) {
-  static constexpr Sign kSigns[] = {{tone::kGood, ICON_CHECK, "Good"},
-                                    {tone::kWarning, ICON_WARNING, "To check"},
-                                    {tone::kBad, ICON_CLOSE, "Bad"},
-                                    {tone::kDim, ICON_HELP, "Unknown"}};
-  return kSigns[static_cast<int>(verdict)];
-}
-
-void drawSign(Verdict verdict) {
-  const auto sign = signOf(verdict);
-  ImGui::TextColored(colour(sign.tone), "%s", sign.icon);
-  ui::tooltip(sign.word);
-}
 
 std::string whyNotAssess(const Model& model) {
   const auto& stations = model.session.document().job->stations;
@@ -87,7 +69,7 @@ void drawRow(const Model& model, QualityState& state, Actions& actions, const As
   if (state.shown_row == index) ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg1, ImGui::GetColorU32(ImGuiCol_Header));
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
-  drawSign(row.verdict);
+  ui::verdict(row.verdict);
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
   ui::wrapped(tr(row.label));
@@ -107,7 +89,7 @@ TableRows tableOf(const std::vector<AssessRow>& rows) {
   TableRows table = {{tr("Figure"), tr("Value"), tr("Limit"), tr("State")}};
   for (const auto& row : rows)
     if (!row.good_text.empty())
-      table.push_back({tr(row.label), valueText(row), row.good_text, tr(signOf(row.verdict).word)});
+      table.push_back({tr(row.label), valueText(row), row.good_text, tr(verdictWord(row.verdict))});
   return table;
 }
 
@@ -130,17 +112,18 @@ void drawRows(const Model& model, QualityState& state, Actions& actions, const s
 void drawRemedies(const AssessAnswer& answer) {
   for (const auto& row : answer.rows) {
     if (!row.good_text.empty()) continue;
-    drawSign(row.verdict);
-    ImGui::SameLine();
+    ui::verdict(row.verdict);
     ui::wrapped(trSentence(row.label) + ": " + trSentence(row.note));
   }
 }
 
-void drawVerdict(const AssessAnswer& answer) {
+void drawVerdict(const Model& model, const AssessAnswer& answer) {
   const auto verdict = answer.bad > 0 ? Verdict::bad : answer.warn > 0 ? Verdict::warn : Verdict::good;
-  drawSign(verdict);
-  ImGui::SameLine();
-  ui::wrapped(trf("{}, by {}", trSentence(verdictText(answer)), tr(answer.profile)));
+  ui::verdict(verdict);
+  if (model.fonts.bold != nullptr) ImGui::PushFont(model.fonts.bold);
+  ImGui::TextColored(colour(verdictInk(verdict)), "%s", tr(verdictWord(verdict)).c_str());
+  if (model.fonts.bold != nullptr) ImGui::PopFont();
+  ui::dimWrapped(trf("{}, by {}", trSentence(verdictText(answer)), tr(answer.profile)));
 }
 
 // Of what was assessed: later changes of the project are not in it.
@@ -170,7 +153,7 @@ void draw(const Model& model, QualityState& state, Actions& actions) {
     return;
   }
   if (model.session.isOutOfDate(*last)) ui::wrapped("The project has changed since. Assess the scans again.");
-  drawVerdict(*answer);
+  drawVerdict(model, *answer);
   drawSave(*answer, actions);
   drawRemedies(*answer);
   drawRows(model, state, actions, answer->rows);

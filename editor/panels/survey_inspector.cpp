@@ -76,9 +76,8 @@ void drawPlaceVerdict(const Model& model, SurveyInspectorState& state, const Sta
   if (kept.scene.lock() != scene || kept.centre != centre || kept.on_tripod != on_tripod || kept.nearest_m != nearest_m)
     kept = {scene, centre, on_tripod, nearest_m, judgeStation(*placement, centre, on_tripod, nearest_m)};
   const auto& found = kept.answer;
-  ImGui::TextColored(colour(verdictInk(found.verdict)), "%s", verdictSign(found.verdict));
-  ImGui::SameLine();
-  ui::wrapped(trSentence(found.brief));
+  ui::verdict(found.verdict);
+  ui::wrapped(withVerdictWord(found.verdict, trSentence(found.brief)));
   if (!found.reason.empty()) ui::dimWrapped(trSentence(found.reason));
 }
 
@@ -86,10 +85,9 @@ void drawPlaceVerdict(const Model& model, SurveyInspectorState& state, const Sta
 void drawRefusal(const Model& model, const Station& station) {
   const auto& refused = model.view.refused_place;
   if (!refused || refused->station != station.name) return;
-  ImGui::PushStyleColor(ImGuiCol_Text, tone::kBad);
-  ui::wrapped(fmt::format(ICON_BAN "  {}. {} stays where it was", refused->brief, station.name));
-  ImGui::PopStyleColor();
-  ui::dimWrapped(refused->reason);
+  ui::verdict(Verdict::bad);
+  ui::wrapped(withVerdictWord(Verdict::bad, trSentence(refused->brief)) + trf(". {} stays where it was", station.name));
+  ui::dimWrapped(trSentence(refused->reason));
 }
 
 StationOptions movedStation(const Station& station, const SurveyEdit& edit, StationStand stand) {

@@ -150,16 +150,14 @@ void wantFigures(Editor& editor, const HeldStation& held, const Vector3d& centre
 void drawRefused(const Editor& editor, const ViewPen& pen, ImVec2 origin, ImVec2 size) {
   const auto& refused = editor.view.refused_place;
   if (!refused) return;
-  const ImU32 tone = verdictTone(Verdict::bad);
   if (!refused->floor)
-    return pen.plate({origin.x + editor.px(14), origin.y + size.y - editor.px(90)}, verdictSign(Verdict::bad), tone,
-                     trSentence(refused->brief) + ": " + trSentence(refused->reason));
-  drawCross(pen, *refused->floor, tone);
+    return pen.plate({origin.x + editor.px(14), origin.y + size.y - editor.px(90)}, verdictSign(Verdict::bad),
+                     verdictTone(Verdict::bad), trSentence(refused->brief) + ": " + trSentence(refused->reason));
+  drawCross(pen, *refused->floor, verdictTone(Verdict::bad));
   const auto place = pen.at(*refused->floor);
   if (!place) return;
   const auto stays = refused->station.empty() ? std::string() : trf(". {} stays where it was", refused->station);
-  pen.plate({place->x + editor.px(18), place->y + editor.px(14)}, verdictSign(Verdict::bad), tone,
-            trSentence(refused->brief) + stays);
+  pen.verdict({place->x + editor.px(18), place->y + editor.px(14)}, Verdict::bad, trSentence(refused->brief) + stays);
 }
 
 // The name of the chosen station where the title is about it.
@@ -249,8 +247,7 @@ void drawPlaceGhost(Editor& editor, ImVec2 origin, ImVec2 size) {
   drawHeldStation(editor, pen, *held, floor, verdict.verdict);
   if (verdict.verdict != Verdict::bad) drawFigures(editor, *held, origin, size);
   const ImVec2 pointer = ImGui::GetIO().MousePos;
-  pen.plate({pointer.x + editor.px(20), pointer.y + editor.px(16)}, verdictSign(verdict.verdict),
-            verdictTone(verdict.verdict), trSentence(verdict.brief));
+  pen.verdict({pointer.x + editor.px(20), pointer.y + editor.px(16)}, verdict.verdict, trSentence(verdict.brief));
 }
 
 }  // namespace standpoint

@@ -11,7 +11,6 @@
 #include "editor/shell/place_ghost.h"
 #include "editor/shell/view_pen.h"
 #include "editor/widgets/number_field.h"
-#include "editor/widgets/verdict_sign.h"
 #include "editor/words/words.h"
 #include "survey/stations/station_places.h"
 
@@ -73,8 +72,7 @@ void drawRow(Editor& editor, ImVec2 origin) {
   }
   const ImVec2 pointer = ImGui::GetIO().MousePos;
   const auto verdict = bad == floors.size() ? Verdict::bad : bad > 0 ? Verdict::warn : Verdict::good;
-  pen.plate({pointer.x + editor.px(20), pointer.y + editor.px(16)}, verdictSign(verdict), verdictTone(verdict),
-            rowText(floors, bad));
+  pen.verdict({pointer.x + editor.px(20), pointer.y + editor.px(16)}, verdict, rowText(floors, bad));
 }
 
 }  // namespace standpoint

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "editor/widgets/theme.h"
+#include "editor/widgets/verdict_sign.h"
 
 namespace standpoint {
 
@@ -89,6 +90,10 @@ void ViewPen::plate(ImVec2 beside, const char* sign, ImU32 sign_tone, const std:
   list.AddText({low.x + 1.5F * pad, low.y + pad / 2}, sign_tone, sign);
   list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {low.x + 1.5F * pad + icon.x + gap, low.y + pad / 2},
                IM_COL32(236, 239, 244, 255), text.c_str(), nullptr, most);
+}
+
+void ViewPen::verdict(ImVec2 beside, Verdict verdict, const std::string& text) const {
+  plate(beside, verdictSign(verdict), verdictTone(verdict), withVerdictWord(verdict, text));
 }
 
 }  // namespace standpoint

@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 #include "editor/shell/editor.h"
+#include "survey/quality/quality_limits.h"
 
 namespace standpoint {
 
@@ -26,6 +27,7 @@ class ViewPen {
   void body(std::span<const Eigen::Vector3d> corners, ImU32 fill, ImU32 rim) const;
   // On a dark plate beside a pixel, and within the view.
   void plate(ImVec2 beside, const char* sign, ImU32 sign_tone, const std::string& text) const;
+  void verdict(ImVec2 beside, Verdict verdict, const std::string& text) const;  // the same with its word before
 
  private:
   const Editor& editor_;

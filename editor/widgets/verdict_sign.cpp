@@ -3,6 +3,8 @@
 
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
+#include "editor/words/words.h"
 
 namespace standpoint {
 
@@ -34,6 +36,27 @@ const char* verdictSign(Verdict verdict) {
     case Verdict::unknown: break;
   }
   return ICON_CIRCLE;
+}
+
+const char* verdictWord(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::good: return "Good";
+    case Verdict::warn: return "Check";
+    case Verdict::bad: return "Bad";
+    case Verdict::unknown: break;
+  }
+  return "Unknown";
+}
+
+std::string withVerdictWord(Verdict verdict, const std::string& said) {
+  const bool speaks_against = verdict == Verdict::warn || verdict == Verdict::bad;
+  return speaks_against ? tr(verdictWord(verdict)) + ": " + said : said;
+}
+
+void ui::verdict(Verdict verdict) {
+  ImGui::TextColored(colour(verdictInk(verdict)), "%s", verdictSign(verdict));
+  tooltip(verdictWord(verdict));
+  ImGui::SameLine();
 }
 
 }  // namespace standpoint

@@ -11,6 +11,7 @@
 #include "editor/shell/panel_actions.h"
 #include "editor/shell/shell.h"
 #include "editor/widgets/keyboard.h"
+#include "editor/words/words.h"
 #include "item_probe.h"
 #include "survey/stations/levelling.h"
 
@@ -59,8 +60,13 @@ TEST_F(Inspector, SaysOfAStationWhatWasSaidOfItsPlaceWhileItWasHeldThere) {
   EXPECT_TRUE(gui.says("Good place"));
   typeInto("###inspected-X", fmt::format("{}", 0.7 + editor.shift_m().x()).c_str());
   ASSERT_TRUE(editor.session.errors().empty());
-  EXPECT_TRUE(gui.says("40 cm from wall"));
+  EXPECT_TRUE(gui.says("Check: 40 cm from wall")) << "a plain word leads";
   EXPECT_FALSE(gui.says("Good place"));
+  speak("de");
+  editor.view.refused_place = RefusedPlace{job().stations[0].name, "No floor", "No floor; move it.", std::nullopt};
+  EXPECT_TRUE(gui.says("Prüfen: ")) << "in the language of the editor";
+  EXPECT_TRUE(gui.says("Schlecht: Kein Boden. S1 bleibt, wo er war"));
+  speak("en");
 }
 
 TEST_F(Inspector, TheListOfStationsHasTheDecimalsThatWereTyped) {

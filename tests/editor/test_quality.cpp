@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -61,6 +62,13 @@ TEST_F(QualityPanel, AssessesAndGoesToTheWorstPlaceOfARow) {
   ASSERT_NE(answer(), nullptr);
   EXPECT_GT(answer()->good, 0U);
   gui.frames(2);
+  ASSERT_GT(answer()->bad + answer()->warn, 0U);
+  const auto texts = gui.texts();
+  const auto word = std::find(texts.begin(), texts.end(), answer()->bad > 0 ? "Bad" : "Check");
+  const auto counts = std::find_if(
+      texts.begin(), texts.end(), [&](const auto& t) { return t.find("LOA30") != t.npos && t.find("good") != t.npos; });
+  ASSERT_NE(counts, texts.end());
+  EXPECT_LT(word, counts) << "a plain word leads";
   EXPECT_NE(gui.find("###save-quality"), nullptr);
   const auto before = editor.view.camera;
   ASSERT_TRUE(gui.click("###go"));  // of the first row: coverage
