@@ -263,20 +263,29 @@ const std::array kOwn = {
            ICON_CHECK,
            {kKeyEnter},
            [](Editor& e) { endTrajectory(e); },
-           [](const Editor& e) { return whyNotEndTrajectory(e); }},
+           [](const Editor& e) { return whyNotEndTrajectory(e); },
+           nullptr,
+           false,
+           Tool::layTrajectory},
     Action{"take-back-waypoint",
            "Take the last waypoint back",
            ICON_UNDO,
            {kKeyBackspace},
            [](Editor& e) { takeBackWaypoint(e); },
-           [](const Editor& e) { return whyNotTakeBack(e); }},
+           [](const Editor& e) { return whyNotTakeBack(e); },
+           nullptr,
+           false,
+           Tool::layTrajectory},
     Action{"play-trajectory",
            "Play the selected trajectory, or stop",
            ICON_PLAY,
            {},
            [](Editor& e) { playMoments(e); },
            [](const Editor& e) { return whyNoMoment(e); },
-           [](const Editor& e) { return e.path_moment.plays; }},
+           [](const Editor& e) { return e.path_moment.plays; },
+           false,
+           {},
+           ICON_STOP},
     Action{"earlier-on-trajectory",
            "Earlier along the selected trajectory",
            "",
@@ -440,9 +449,6 @@ std::string shortcutText(const Shortcut& s) {
 namespace {
 
 // A key that can do nothing now says why.
-// Keys that mean something else to whatever else has them.
-bool isForDraft(const Shortcut& s) { return s.key == kKeyEnter || s.key == kKeyBackspace; }
-
 void runByKey(Editor& editor, const Action& action) {
   if (const auto why = whyNot(action, editor); !why.empty())
     return editor.say(fmt::format("{}: {}", tr(action.title), tr(why)));
@@ -464,7 +470,7 @@ void runShortcuts(Editor& editor) {
     if (!s.ctrl && !s.alt && movesByKey(editor, s.key)) continue;
     if (io.WantTextInput && !leavesText(s)) continue;
     if (editor.device_has_keys && isTyped(s)) continue;
-    if (isForDraft(s) && editor.view.tool != Tool::layTrajectory) continue;
+    if (action.key_of && editor.view.tool != *action.key_of) continue;
     const bool shifted = s.shift == io.KeyShift || s.key == kKeyPlus;  // some keyboards need Shift for a plus
     const bool pressed =
         s.key != 0 && (keyboard::pressed(s.key) || (action.repeats && keyboard::pressedOrRepeated(s.key)) ||
@@ -500,8 +506,9 @@ void actionButton(Editor& editor, const char* id, const char* text, float width)
   const std::string keys = shortcutText(action.shortcut);
   const std::string tip = tr(action.title) + (keys.empty() ? "" : "  (" + keys + ")");
   const float wide = width < 0 ? ImGui::GetContentRegionAvail().x : width;
-  if (ui::button(ui::fittingLabel(action.icon, text, id, wide).c_str(), whyNot(action, editor), {width, 0},
-                 tip.c_str()))
+  const bool ends = action.icon_on != nullptr && action.on(editor);
+  const char* const icon = ends ? action.icon_on : action.icon;
+  if (ui::button(ui::fittingLabel(icon, text, id, wide).c_str(), whyNot(action, editor), {width, 0}, tip.c_str()))
     action.run(editor);
 }
 

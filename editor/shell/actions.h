@@ -2,12 +2,14 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 
 namespace standpoint {
 
 struct Editor;
+enum class Tool;
 
 struct Shortcut {
   int key = 0;  // of widgets/keyboard.h; 0 = none
@@ -24,6 +26,8 @@ struct Action {
   std::string (*why_not)(const Editor&);  // null = always possible; else "" or the reason
   bool (*on)(const Editor&) = nullptr;    // of a switch, or a choice of several: it is ticked
   bool repeats = false;                   // again and again while its key is held
+  std::optional<Tool> key_of = {};        // its key means this with that tool alone
+  const char* icon_on = nullptr;          // of a button that ends what it began
 };
 
 std::span<const Action> actions();

@@ -13,6 +13,7 @@
 #include "editor/bodies/under_way.h"
 #include "editor/model/trajectory_steps.h"
 #include "editor/shell/actions.h"
+#include "editor/widgets/icons.h"
 #include "editor/widgets/keyboard.h"
 #include "item_probe.h"
 #include "survey/instruments.h"
@@ -223,8 +224,11 @@ TEST_F(UnderWay, IsPlayedToTheEndAndThenFromTheBeginning) {
   add("W1", {{1, 1}, {2.2, 1}});
   choose(0);
   const double seconds = editor.trajectory_ways.of(0)->seconds;
+  EXPECT_TRUE(gui.find("###play-trajectory")->label.starts_with(ICON_PLAY "  Play"));
   ASSERT_TRUE(gui.click("###play-trajectory"));
   EXPECT_TRUE(editor.path_moment.plays);
+  gui.frame();
+  EXPECT_TRUE(gui.find("###play-trajectory")->label.starts_with(ICON_STOP "  Stop"));
   gui.frames(3);
   const double early_s = shownMoment_s(editor);
   EXPECT_GT(early_s, 0);
