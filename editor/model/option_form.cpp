@@ -6,7 +6,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <sstream>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -84,6 +87,38 @@ std::string readableOption(const char* name) {
   std::replace(result.begin(), result.end(), '-', ' ');
   if (!result.empty()) result[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(result[0])));
   return result;
+}
+
+std::string verbTitle(const char* verb) {
+  static constexpr std::pair<std::string_view, const char*> kTitles[] = {
+      {"add", "Add models"},
+      {"assess", "Assess scans"},
+      {"bookmark", "Bookmarks"},
+      {"clean", "Clean points"},
+      {"collide", "Make collision shapes"},
+      {"compare", "Compare clouds"},
+      {"coverage", "Coverage along trajectories"},
+      {"dataset", "Make a dataset"},
+      {"info", "Contents of a file"},
+      {"locate", "Locate files"},
+      {"materials", "Assign materials"},
+      {"mover", "Movers"},
+      {"optimize", "Optimise the model"},
+      {"plan", "Plan coverage"},
+      {"register", "Register stations"},
+      {"run", "Replay a job"},
+      {"score", "Score labels"},
+      {"station", "Stations"},
+      {"target", "Targets"},
+      {"trajectory", "Trajectories"},
+      {"treat", "Treat single products"},
+      {"underlay", "Underlays"},
+      {"verify", "Verify materials"},
+      {"waveform", "Waveform of a pulse"},
+  };
+  const auto* const found =
+      std::find_if(std::begin(kTitles), std::end(kTitles), [&](const auto& title) { return title.first == verb; });
+  return found == std::end(kTitles) ? readableOption(verb) : found->second;
 }
 
 std::string optionLabel(const Parameter& parameter) {

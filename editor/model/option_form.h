@@ -40,6 +40,8 @@ class OptionForm {
 
 // "max-deviation" → "Max deviation"
 std::string readableOption(const char* name);
+// What a verb does, as menus and forms call it: "optimize" → "Optimise the model".
+std::string verbTitle(const char* verb);
 // Its label, else as readableOption() makes it of its name.
 std::string optionLabel(const Parameter& parameter);
 

@@ -303,7 +303,7 @@ namespace {
 
 // Of a task: shorter than the verb's summary, which heads the form.
 std::string taskTitle(const VerbDialogState& form) {
-  if (!form.exports) return tr(readableOption(form.verb.c_str()));
+  if (!form.exports) return tr(verbTitle(form.verb.c_str()));
   return form.verb == "convert" ? "Export points" : "Export model";
 }
 

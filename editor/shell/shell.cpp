@@ -87,13 +87,18 @@ void recentMenu(Editor& editor) {
   ImGui::EndMenu();
 }
 
+// What has its own place among the menus, where it is asked for with more help than a form gives.
+bool isElsewhere(std::string_view verb) {
+  return verb == "import" || verb == "export" || verb == "convert" || verb == "scan" || verb.ends_with("-project") ||
+         verb.ends_with("-recovery");
+}
+
 void runMenu(Editor& editor) {
   items(editor, {"add-station", "add-row", "add-trajectory", "add-target", "scan", ""});
   for (const auto& verb : editor.session.verbs()) {
-    const std::string_view name = verb.name;
-    if (name.ends_with("-project") || name.ends_with("-recovery")) continue;
+    if (isElsewhere(verb.name)) continue;
     const auto why = editor.session.whyNot(verb.name);
-    if (ui::menuItem("", fmt::format("{}…###run-{}", tr(readableOption(verb.name)), verb.name), nullptr, why))
+    if (ui::menuItem("", fmt::format("{}…###run-{}", tr(verbTitle(verb.name)), verb.name), nullptr, why))
       openVerbForm(editor, verb.name);
     if (why.empty()) ui::tooltip(tr(verb.summary));
   }

@@ -187,7 +187,7 @@ Result<Answered<ConvertAnswer>> runConvert(const Document& document, const Conve
   TRY_ASSIGN(outcome.answer.files, convertCloud(in, options.out, options.as, outcome.report, progress, counted));
   outcome.answer.points = points;
   outcome.answer.bytes = sizeOf(outcome.answer.files);
-  outcome.description = "Converted " + in.filename().string();
+  outcome.description = "Exported " + options.out.filename().string();
   return outcome;
 }
 

@@ -47,7 +47,7 @@ const std::vector<Verb>& table() {
              "update it from a changed model",
              S::creates, importFields(), runImport),
       withoutModel(verbOf("add", "Add models to the environment", S::changes, addFields(), runAdd)),
-      verbOf("optimize", "Optimize the model to a triangle budget and measure the deviation", S::changes,
+      verbOf("optimize", "Optimise the model to a triangle budget and measure the deviation", S::changes,
              optimizeFields(), runOptimize),
       verbOf("treat", "Set or list the treatment of single products: excluded, kept, or simplified within own limits",
              S::changes, treatFields(), runTreat),

@@ -278,6 +278,17 @@ TEST_F(Gui, PutsAPlateUnderTheSwitchesOverTheView) {
   EXPECT_GE(right, rect.Max.x);
 }
 
+TEST_F(Gui, TheRunMenuSaysWhatEachVerbDoesAndHasNothingTwice) {
+  open();
+  ASSERT_TRUE(gui.click("Run"));
+  gui.frames(2);
+  EXPECT_TRUE(gui.says("Optimise the model…"));
+  EXPECT_FALSE(gui.says("Optimize"));
+  for (const char* elsewhere : {"###run-import", "###run-export", "###run-convert", "###run-scan"})
+    EXPECT_EQ(gui.find(elsewhere), nullptr) << elsewhere;
+  EXPECT_EQ(verbTitle("measure"), "Measure") << "its name, where that says it";
+}
+
 TEST_F(Gui, ShowsTheLabelsOfItsFieldsWholeInALanguageWithLongerWords) {
   open();
   openPanel(editor, Workspace::georeference, "georeference");

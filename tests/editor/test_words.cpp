@@ -394,7 +394,7 @@ TEST_F(Words, AreTranslatedForEveryVerbAndOption) {
   };
   for (const auto& verb : verbs()) {
     want(verb.summary);
-    want(readableOption(verb.name));
+    want(verbTitle(verb.name));
     for (const auto& option : verb.parameters) {
       want(optionLabel(option));
       want(option.help);
