@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -20,6 +21,9 @@ struct LogState {
   LogFilter filter;
   bool follows = true;  // its end is shown, until somebody scrolls up
   float scroll_px = 0;  // when it was drawn last
+  // The widest source of the entries that were shown last, by how many there were and the size of letters.
+  std::size_t entries = 0, shown = 0;
+  float letters_px = 0, source_px = 0;
 };
 
 struct Look {
@@ -108,6 +112,18 @@ void drawEntry(const Model& model, Actions& actions, const LogEntry& entry, int 
   ImGui::PopID();
 }
 
+// As wide as the sources need, and at most a third: the rest is the message's.
+float sourceWidth(const std::vector<LogEntry>& log, const std::vector<int>& shown, LogState& state) {
+  if (state.entries != log.size() || state.shown != shown.size() || state.letters_px != ImGui::GetFontSize()) {
+    state.entries = log.size(), state.shown = shown.size(), state.letters_px = ImGui::GetFontSize();
+    state.source_px = 1;
+    for (const int i : shown)
+      state.source_px =
+          std::max(state.source_px, ImGui::CalcTextSize(log[static_cast<std::size_t>(i)].source.c_str()).x);
+  }
+  return std::min(std::ceil(state.source_px), ImGui::GetContentRegionAvail().x / 3);
+}
+
 // The place is that of the entries of the frame before: those that are new have not moved it yet.
 void followEnd(LogState& state) {
   const float place = ImGui::GetScrollY();
@@ -128,10 +144,7 @@ void draw(const Model& model, LogState& state, Actions& actions) {
   if (!ImGui::BeginTable("entries", 4, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) return;
   ImGui::TableSetupColumn("level", ImGuiTableColumnFlags_WidthFixed, model.px(18));
   ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthFixed, model.px(62));
-  const bool sourced = std::any_of(shown.begin(), shown.end(),  // else the room is the message's
-                                   [&](int i) { return !log[static_cast<std::size_t>(i)].source.empty(); });
-  const float source = std::min(model.px(120), 0.25F * ImGui::GetContentRegionAvail().x);
-  ImGui::TableSetupColumn("source", ImGuiTableColumnFlags_WidthFixed, sourced ? source : 1);
+  ImGui::TableSetupColumn("source", ImGuiTableColumnFlags_WidthFixed, sourceWidth(log, shown, state));
   ImGui::TableSetupColumn("message", ImGuiTableColumnFlags_WidthStretch);
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(shown.size()));

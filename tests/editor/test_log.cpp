@@ -79,6 +79,27 @@ TEST_F(LogPanel, ARowOfTheLogIsCopiedByItsMenu) {
   EXPECT_TRUE(copied.ends_with("\thouse.ifc line 7\tAn opening is not cut\n")) << copied;
 }
 
+TEST_F(LogPanel, AMessageOfTheLogHasTheRoomThatTheSourcesDoNotNeed) {
+  open();
+  editor.session.clearLog();
+  editor.session.say(LogLevel::note, "#12", "short");
+  openPanel(editor, Workspace::environment, "log");
+  gui.frames(4);
+  const auto* row = gui.find("###log-row");
+  ASSERT_NE(row, nullptr);
+  const auto scale = editor.px(1);
+  const float room = row->rect.GetWidth() - (18 + 62 + 6 * 8) * scale - ImGui::CalcTextSize("#12").x;
+  std::string message = "Cut";
+  while (ImGui::CalcTextSize((message + " a").c_str()).x < room - 20 * scale) message += " a";
+  editor.session.say(LogLevel::note, "#13", message);
+  gui.frames(3);
+  EXPECT_TRUE(gui.says(message));
+  editor.session.say(LogLevel::note, std::string(120, 'x'), "An opening is not cut");
+  gui.frames(3);
+  EXPECT_TRUE(gui.says("An opening is not cut")) << "a long source leaves it two thirds";
+  EXPECT_FALSE(gui.says(std::string(120, 'x')));
+}
+
 TEST_F(LogPanel, AMessageThatTheLogHasNoRoomForIsWholeInItsTooltip) {
   std::string text = "Scanned";
   for (int i = 0; i < 60; ++i) text += " word" + std::to_string(i);
