@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/panels/inspector_panel.h"
+
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
 #include "editor/model/material_scope.h"
@@ -24,6 +29,7 @@ namespace {
 
 struct InspectorState {
   std::string material_filter;
+  bool material_list_wanted = false;
   std::string property_filter;
   // The product that was counted last; of a larger one it would take longer than a frame may.
   std::shared_ptr<const Environment> counted_in;
@@ -191,21 +197,34 @@ void drawAssign(const Model& model, InspectorState& state, Actions& actions, con
     ui::button((current + "###assign").c_str(), why, {-FLT_MIN, 0});
     return;
   }
+  if (state.material_list_wanted) {
+    state.material_list_wanted = !ImGui::IsRectVisible({1, ImGui::GetFrameHeight()});
+    if (state.material_list_wanted)
+      ImGui::SetScrollHereY();
+    else
+      ImGui::OpenPopupEx(ImHashStr("##ComboPopup", 0, ImGui::GetID("###assign")));
+  }
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (!ImGui::BeginCombo("###assign", current.c_str(), ImGuiComboFlags_HeightLargest)) return;
   const auto& catalogue = model.catalogue();
   auto& filter = state.material_filter;
-  if (ImGui::IsWindowAppearing()) {
-    filter.clear();
-    ui::focusNext();
-  }
+  const bool appears = ImGui::IsWindowAppearing();
+  if (appears) filter.clear();
+  const float width = model.px(300);
+  ImGui::BeginChild("material-search", {width, ImGui::GetFrameHeight()});  // the field takes all the room that there is
+  if (appears) ui::focusNext();
   ui::searchField("material-filter", "Brick, glass, steel …", filter);
-  ImGui::BeginChild("materials", {model.px(300), model.px(260)});
+  ImGui::EndChild();
+  std::vector<const PhysicalMaterial*> listed;
   for (const auto* material : model.offeredByName()) {
-    if (isGap(*material)) continue;
     Product searched;
     searched.name = material->label + " " + tr(material->label) + " " + material->id;
-    if (!matchesFilter(searched, filter)) continue;
+    if (!isGap(*material) && matchesFilter(searched, filter)) listed.push_back(material);
+  }
+  const std::size_t lines = catalogue.materials.empty() ? 4 : std::max<std::size_t>(listed.size(), 1);
+  const float height = ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(lines);
+  ImGui::BeginChild("materials", {width, std::min(model.px(260), height)});  // no higher than what is found
+  for (const auto* material : listed) {
     ui::swatch(model, materialColour(material));
     ImGui::SameLine();
     if (ImGui::Selectable((tr(material->label) + "###" + material->id).c_str())) {
@@ -215,6 +234,8 @@ void drawAssign(const Model& model, InspectorState& state, Actions& actions, con
   }
   if (catalogue.materials.empty())
     ui::wrapped(catalogue.problem.empty() ? "The material library is empty." : catalogue.problem);
+  else if (listed.empty())
+    ui::dimText("No matches");
   ImGui::EndChild();
   ImGui::EndCombo();
 }
@@ -334,6 +355,7 @@ void drawMany(const Model& model, InspectorState& state, Actions& actions) {
 
 void draw(const Model& model, PanelStates& states, Actions& actions) {
   auto& state = states.of<InspectorState>();
+  state.material_list_wanted |= std::exchange(states.of<InspectorWish>().materials, false);
   const bool in_survey = drawSurveyInspector(model, states, actions);
   const auto& environment = model.environment();
   if (!environment || model.selection.empty() || model.selection.primary() >= environment->products.size()) {

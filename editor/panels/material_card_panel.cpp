@@ -231,15 +231,26 @@ const PhysicalMaterial* shownMaterial(const Model& model) {
   return nullptr;
 }
 
+void drawNothing(const Model& model) {
+  const auto& selected = model.selection.products();
+  if (selected.empty() || !model.environment() || model.selection.primary() >= model.environment()->products.size())
+    return ui::emptyState(
+        model, ICON_PAINT, "No material selected",
+        "Select a material in the list or a surface in the view to see its spectrum, angular response and "
+        "scanner readings.");
+  const auto what = selected.size() == 1 ? productLabel(model.environment()->products[selected.front()])
+                                         : trn("{} product", "{} products", selected.size(), selected.size());
+  ui::emptyState(model, ICON_PAINT, "No material yet",
+                 trf("{}: no physical material is assigned. Assign materials by rules, or choose one in the "
+                     "Inspector.",
+                     what)
+                     .c_str());
+}
+
 void draw(const Model& model, MaterialCardState& state, Actions& actions) {
   if (state.edit) return drawMaterialForm(model, state, actions);
   const auto* material = shownMaterial(model);
-  if (material == nullptr) {
-    ui::emptyState(model, ICON_PAINT, "No material selected",
-                   "Select a material in the list or a surface in the view to see its spectrum, angular response and "
-                   "scanner readings.");
-    return;
-  }
+  if (material == nullptr) return drawNothing(model);
   ImGui::BeginChild("card");
   if (model.fonts.bold != nullptr) ImGui::PushFont(model.fonts.bold);
   ui::wrapped(tr(material->label));

@@ -104,7 +104,7 @@ void productMenu(const Model& model, OutlinerState& state, Actions& actions, con
   }
   for (const char* id : {"frame", "hide", "isolate", "show-all"}) actions.menuItem(id);
   ImGui::Separator();
-  for (const char* id : {"exclude", "keep", "by-rules"}) actions.menuItem(id);
+  for (const char* id : {"assign-material", "exclude", "keep", "by-rules"}) actions.menuItem(id);
   ImGui::EndPopup();
 }
 

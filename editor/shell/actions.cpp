@@ -12,6 +12,8 @@
 #include "editor/model/station_steps.h"
 #include "editor/model/trajectory_steps.h"
 #include "editor/model/walk_recording_steps.h"
+#include "editor/panels/inspector_panel.h"
+#include "editor/panels/panels.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/escape.h"
@@ -126,6 +128,16 @@ std::string whyRemoveNot(const Editor& e) {
 std::string whyNoMaterials(const Editor& e) {
   if (auto why = whyNoModel(e); !why.empty()) return why;
   return e.session.document().materials ? std::string() : "Assign materials first";
+}
+// Its list of materials is opened, wherever the Inspector is.
+void assignMaterial(Editor& e) {
+  if (areaOf("inspector", e.workspace) == Area::none) showWorkspace(e, Workspace::materials);
+  e.wanted_tab[static_cast<std::size_t>(areaOf("inspector", e.workspace))] = "inspector";
+  e.panels.of<InspectorWish>().materials = true;
+}
+std::string whyAssignNot(const Editor& e) {
+  if (auto why = whyNoModel(e); !why.empty()) return why;
+  return e.selection.empty() ? "Select products in the view first" : e.session.whyNot("materials");
 }
 std::string whyPaintNot(const Editor& e) {
   if (auto why = whyNoModel(e); !why.empty()) return why;
@@ -314,6 +326,7 @@ const std::array kOwn = {
            {kKeyDelete},
            removeChosen,
            whyRemoveNot},
+    Action{"assign-material", "Assign material to selection…", ICON_PAINT, {}, assignMaterial, whyAssignNot},
     Action{"take-material",
            "Pick material from a surface",
            ICON_DROP,

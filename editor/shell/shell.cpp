@@ -156,7 +156,7 @@ void drawMenuBar(Editor& editor) {
   }
   if (ImGui::BeginMenu(ui::Label("Edit"))) {
     items(editor, {"undo", "redo", "", "select-all", "select-none", "", "rename", "duplicate-station", "remove", "",
-                   "take-material", "paint-material"});
+                   "assign-material", "take-material", "paint-material"});
     submenu(
         editor, "", "Measure###menu-measure",
         {"measure", "measure-height", "measure-angle", "measure-area", "measure-plane", "pick-wall", "measurements"});

@@ -168,7 +168,7 @@ void contextMenu(Editor& editor) {
     ui::dimText(productLabel(editor.environment()->products[editor.selection.primary()]));
   for (const char* id : {"frame", "hide", "isolate", "show-all"}) actionMenuItem(editor, id);
   ImGui::Separator();
-  for (const char* id : {"exclude", "keep", "by-rules"}) actionMenuItem(editor, id);
+  for (const char* id : {"assign-material", "exclude", "keep", "by-rules"}) actionMenuItem(editor, id);
   ImGui::Separator();
   const auto why = hit ? editor.session.whyNot("station") : "No surface under the pointer";
   if (ImGui::MenuItem(ui::Label(ICON_STATION "  Add station here###station-here"), nullptr, false, why.empty()))

@@ -160,6 +160,38 @@ TEST_F(Gui, AssignsAMaterialThroughTheVerb) {
   EXPECT_EQ(assignment.materials[static_cast<std::size_t>(material)].id, library.front().id);
 }
 
+TEST_F(Gui, OpensTheListOfMaterialsForAWallAndIsNoHigherThanWhatIsFound) {
+  open();
+  const auto& library = editor.catalogue().materials;
+  if (library.empty()) GTEST_SKIP() << editor.catalogue().problem;
+  EXPECT_FALSE(invoke(editor, "assign-material")) << "nothing is selected";
+  editor.select(productNamed(*editor.environment(), "Wall east OG"), true);
+  editor.workspace = Workspace::materials;
+  editor.wanted_tab[1] = "material";
+  gui.frames(3);
+  EXPECT_TRUE(gui.says("Wall east OG: no physical material is assigned")) << "it does not deny the selection";
+  ASSERT_TRUE(invoke(editor, "assign-material"));
+  gui.frames(4);
+  EXPECT_EQ(editor.front_tab[1], "inspector");
+  const auto* row = gui.find("###" + library.front().id);
+  ASSERT_NE(row, nullptr);
+  const auto* list = ImGui::FindWindowByName(row->window.c_str());
+  ASSERT_NE(list, nullptr);
+  const float whole = list->Size.y, wide = list->ParentWindow->Size.x;
+  gui.type(library.front().id);
+  gui.frames(12);
+  EXPECT_LT(list->Size.y, whole / 3) << "nothing below what is found";
+  EXPECT_EQ(list->ParentWindow->Size.x, wide) << "nor beside it";
+  ASSERT_TRUE(gui.click("###" + library.front().id));
+  gui.settle();
+  EXPECT_TRUE(editor.session.document().materials);
+  ASSERT_TRUE(invoke(editor, "assign-material"));
+  gui.frames(4);
+  gui.type("no such thing");
+  gui.frames(2);
+  EXPECT_TRUE(gui.says("No matches"));
+}
+
 TEST_F(Gui, EditsTheRowsOfAMetalAndUndoTakesItOutAgain) {
   open();
   const auto& library = editor.catalogue().materials;
