@@ -42,6 +42,27 @@ double lengthOf(const PoseFunction& path) {
   return length;
 }
 
+// Of who walks with it, from step to step: what sways in their hand, or goes around them as they turn, goes farther.
+double walkedLength(const PoseFunction& path) {
+  constexpr double kLook_s = 0.05, kStep_m = 0.4;
+  double length = 0;
+  Eigen::Vector3d before = path.pose(path.first_s()).translation;
+  const auto goTo = [&](const Eigen::Vector3d& place) {
+    length += (place - before).norm();
+    before = place;
+  };
+  for (double time_s = path.first_s(); time_s < path.last_s(); time_s += kLook_s)
+    if (const Eigen::Vector3d here = path.pose(time_s).translation; (here - before).norm() >= kStep_m) goTo(here);
+  goTo(path.pose(path.last_s()).translation);
+  return length;
+}
+
+const Carrier* carrierOf(const CarriedTrajectory& trajectory) {
+  const auto found =
+      std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == trajectory.carrier; });
+  return found == kCarriers.end() ? nullptr : &*found;
+}
+
 Result<CarriedMotion> motionOfFile(const CarriedTrajectory& trajectory, const Georeference& georeference,
                                    Report& report, Progress& progress) {
   const TrajectoryFormat* format = trajectoryFormat(trajectory.format);
@@ -57,7 +78,9 @@ Result<CarriedMotion> motionOfFile(const CarriedTrajectory& trajectory, const Ge
   if (!spline) return failure(spline.error().kind, spline.error().message, trajectory.file);
   CarriedMotion carried;
   carried.path = carried.truth = std::make_shared<const PoseSpline>(*std::move(spline));
-  carried.length_m = lengthOf(*carried.path);
+  const Carrier* const carrier = carrierOf(trajectory);
+  const bool walks = carrier != nullptr && carrier->gait > 0;
+  carried.length_m = walks ? walkedLength(*carried.path) : lengthOf(*carried.path);
   return carried;
 }
 
@@ -171,9 +194,8 @@ Result<std::vector<LoopClosure>> closuresOf(const CarriedMotion& carried, const 
 Result<CarriedMotion> carriedMotion(const CarriedTrajectory& trajectory, const Georeference& georeference,
                                     Report& report, Progress& progress) {
   if (!trajectory.file.empty()) return motionOfFile(trajectory, georeference, report, progress);
-  const auto carrier =
-      std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == trajectory.carrier; });
-  if (carrier == kCarriers.end())
+  const Carrier* const carrier = carrierOf(trajectory);
+  if (carrier == nullptr)
     return failure(ErrorKind::usage, fmt::format("unknown carrier '{}'", trajectory.carrier), trajectory.name);
   PathLimits limits = carrier->limits;
   if (trajectory.height_m > 0) limits.height_m = trajectory.height_m;

@@ -22,7 +22,7 @@ namespace standpoint {
 struct CarriedMotion {
   PoseFunctionPtr path;   // without gait and shaking; of a file it is what the file has
   PoseFunctionPtr truth;  // as the body goes it
-  double length_m = 0;
+  double length_m = 0;    // that the carrier goes: of a file that somebody walked without their steps and swaying, too
   double seconds() const { return truth->last_s() - truth->first_s(); }
 };
 

@@ -391,7 +391,7 @@ TEST_F(LiveWalk, ShowsPointsAsTheyComeAndKeepsTheWalkWithEveryTurn) {
   hold('W', 40);
   editor.view.camera.elevation_rad = -0.5;  // looks up
   gui.frames(40);
-  const double walked_s = editor.recording.record.seconds();
+  const double walked_s = editor.recording.record.seconds(), walked_m = editor.recording.record.length_m();
   EXPECT_GT(walked_s, 1.2);
   gui.key(kKeyEscape);
   gui.frames(2);
@@ -413,6 +413,9 @@ TEST_F(LiveWalk, ShowsPointsAsTheyComeAndKeepsTheWalkWithEveryTurn) {
   EXPECT_NEAR(read->samples.time_s.back() - read->samples.time_s.front(), walked_s, 0.1);
   const Vector3d looked = read->samples.pose.back().rotation * Vector3d::UnitX();
   EXPECT_NEAR(std::asin(looked.z()), 0.5, 0.06) << "up, but for the shaking of a hand";
+  editor.trajectory_ways.wait();
+  ASSERT_NE(editor.trajectory_ways.of(0), nullptr);
+  EXPECT_NEAR(editor.trajectory_ways.of(0)->length_m, walked_m, 0.1) << "as it was said while they walked";
 }
 
 TEST_F(LiveWalk, OffersTheRealScanOfTheWalk) {

@@ -156,11 +156,12 @@ TEST(TrajectoryVerb, WritesWhatItReadsAgain) {
   for (const std::string name : {"w.csv", "w.tum", "w.trj"}) {
     const auto file = (folder.path() / name).string();
     ASSERT_TRUE(run("trajectory", made, {{"write", "loop"}, {"output", file}})) << name;
-    const auto read = run("trajectory", made, {{"add", "again"}, {"file", file}});
+    const auto read = run("trajectory", made, {{"add", "again"}, {"file", file}, {"carrier", "hand"}});
     ASSERT_TRUE(read) << name << describe(read.error());
     const json& rows = read->answer["trajectories"];
     EXPECT_NEAR(rows[1]["seconds"].get<double>(), rows[0]["seconds"].get<double>(), 0.01) << name;
-    EXPECT_NEAR(rows[1]["length_m"].get<double>(), rows[0]["length_m"].get<double>(), 0.9) << name;  // gait
+    EXPECT_NEAR(rows[1]["length_m"].get<double>(), rows[0]["length_m"].get<double>(), 0.2)
+        << name << ": steps and swaying are no way";
   }
 }
 

@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "core/data_folder.h"
+#include "survey/trajectories/trajectory_file.h"
 #include "tests/project/support.h"
+#include "tests/temporary_folder.h"
 
 namespace standpoint {
 namespace {
@@ -55,6 +57,29 @@ CarriedMotion alongAndBack() {
   CarriedMotion carried;
   carried.path = carried.truth = std::make_shared<const PoseSpline>(*PoseSpline::through(samples));
   return carried;
+}
+
+TEST(CarriedMotion, IsAsLongAsTheWayOfWhoWalksWithIt) {
+  const TemporaryFolder folder;
+  CarriedTrajectory walk;
+  walk.name = "walk";
+  walk.waypoints = {{{0, 0, 0}, 10, {}}, {{6, 0, 0}, 20, {}}, {{6, 4, 0}, {}, {}}};
+  Report report;
+  Progress progress;
+  const Georeference local;
+  const auto laid = carriedMotion(walk, local, report, progress);
+  ASSERT_TRUE(laid) << describe(laid.error());
+  const auto* format = trajectoryFormat("csv");
+  walk.file = folder.path() / "walk.csv";
+  const auto frame = *fileFrame(local, "csv");
+  ASSERT_TRUE(format->write(walk.file, evenSamples(*laid->truth, 200), frame));
+  walk.waypoints.clear();
+  const auto read = carriedMotion(walk, local, report, progress);
+  ASSERT_TRUE(read) << describe(read.error());
+  EXPECT_NEAR(laid->length_m, 10, 0.1);
+  EXPECT_NEAR(read->length_m, laid->length_m, 0.2) << "steps, shaking and half a minute of standing are no way";
+  walk.carrier = "trolley";
+  EXPECT_GT(carriedMotion(walk, local, report, progress)->length_m, 1.1 * read->length_m) << "as the file has it";
 }
 
 TEST(CarriedMotion, IsNotHeldByWhatIsBehindAWall) {
