@@ -6,8 +6,6 @@
 #include <numeric>
 #include <tuple>
 
-#include <Eigen/Geometry>
-
 namespace standpoint {
 
 namespace {
@@ -57,14 +55,15 @@ std::vector<Try> triesOf(const WantedLabel& label) {
 }  // namespace
 
 std::vector<std::optional<PlacedLabel>> LabelLayout::layOut(const std::vector<WantedLabel>& labels,
-                                                            const Eigen::Vector2d& size_px, double slack_px) {
+                                                            const Eigen::Vector2d& size_px, double slack_px,
+                                                            const std::vector<Eigen::AlignedBox2d>& kept_free) {
   std::vector<std::size_t> order(labels.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return std::tuple(!labels[a].chosen, labels[a].of.kind) < std::tuple(!labels[b].chosen, labels[b].of.kind);
   });
   const Box picture(Eigen::Vector2d::Zero(), size_px);
-  std::vector<Box> taken;
+  std::vector<Box> taken = kept_free;
   for (const auto& label : labels)
     if (label.mark_px > 0) taken.push_back(around(label.at_px, Eigen::Vector2d::Constant(label.mark_px)));
   std::vector<std::optional<PlacedLabel>> result(labels.size());

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace standpoint {
 
@@ -60,9 +61,11 @@ struct PlacedLabel {
 // where there is more room for it than it takes to stay: a picture that moves does not make it flicker.
 class LabelLayout {
  public:
-  // For each label its place, or none where every text of it would cover another or leave the picture.
+  // For each label its place, or none where every text of it would cover another or what is `kept_free`, or leave the
+  // picture.
   std::vector<std::optional<PlacedLabel>> layOut(const std::vector<WantedLabel>& labels, const Eigen::Vector2d& size_px,
-                                                 double slack_px = 0);
+                                                 double slack_px = 0,
+                                                 const std::vector<Eigen::AlignedBox2d>& kept_free = {});
 
  private:
   std::map<LabelOf, PlacedLabel> before_;

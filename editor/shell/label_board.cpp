@@ -44,8 +44,13 @@ void LabelBoard::add(LabelOf of, ImVec2 p, std::vector<std::string> texts, ImU32
   tones_.push_back(tone);
 }
 
+void LabelBoard::keepFree(ImVec2 low, ImVec2 high) {
+  kept_free_.push_back(
+      {Eigen::Vector2d(low.x - origin_.x, low.y - origin_.y), Eigen::Vector2d(high.x - origin_.x, high.y - origin_.y)});
+}
+
 void LabelBoard::draw(ImDrawList& list, LabelLayout& layout) const {
-  const auto places = layout.layOut(wanted_, {size_.x, size_.y}, kSlack * scale_);
+  const auto places = layout.layOut(wanted_, {size_.x, size_.y}, kSlack * scale_, kept_free_);
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
     if (!places[i]) continue;
     const auto& text = wanted_[i].texts[places[i]->text];

@@ -22,6 +22,8 @@ class LabelBoard {
   void around(LabelOf of, ImVec2 p, std::vector<std::string> texts, ImU32 tone) {
     add(of, p, std::move(texts), tone, false, true);
   }
+  // Of what is drawn over the labels: they keep away from it.
+  void keepFree(ImVec2 low, ImVec2 high);
   // `layout` is that of the frame before.
   void draw(ImDrawList& list, LabelLayout& layout) const;
 
@@ -32,6 +34,7 @@ class LabelBoard {
   float scale_;
   std::vector<WantedLabel> wanted_;
   std::vector<ImU32> tones_;
+  std::vector<Eigen::AlignedBox2d> kept_free_;
 };
 
 }  // namespace standpoint

@@ -76,11 +76,19 @@ std::string warningText(const Editor& editor) {
                     pace.limits().turn_radps / kRadPerDeg);
 }
 
+// Behind what is drawn next: the points may be as light as letters and switches.
+void drawChipGround(const Editor& editor, float width) {
+  const ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + width, at.y + ImGui::GetFrameHeight());
+  ImGui::GetWindowDrawList()->AddRectFilled(at, end, tone::kOverlay, editor.px(4));
+}
+
 void instrumentChip(Editor& editor) {
   const Instrument* const chosen = carriedOnFoot(editor);
   const std::string label =
       chosen == nullptr ? tr("Choose a scanner…") : fmt::format("{} {}", chosen->maker, chosen->model);
-  ImGui::SetNextItemWidth(chipWidth(editor, label, 120));
+  const float width = chipWidth(editor, label, 120);
+  drawChipGround(editor, width);
+  ImGui::SetNextItemWidth(width);
   ImGui::BeginDisabled(scansWalk(editor));
   if (ImGui::BeginCombo("###live-instrument", label.c_str(),
                         ImGuiComboFlags_NoArrowButton | ImGuiComboFlags_HeightLarge)) {
@@ -107,6 +115,28 @@ void litButton(Editor& editor, const char* id) {
 
 const char* liveColourName(LiveColour colour) {
   return colour == LiveColour::height ? "Height above the feet" : "Range";
+}
+
+// What the colours mean, in the row of the chip that chooses them: nothing else of the view can lie over it.
+void scaleChip(const Editor& editor) {
+  constexpr int kSteps = 32;
+  const std::string most = trf("{:.0f} m or more", liveScale_m(editor.recording.live.colour()));
+  const ImVec2 pad = ImGui::GetStyle().FramePadding;
+  const float bar = editor.px(110), bar_height = editor.px(8), gap = editor.px(5), frame = ImGui::GetFrameHeight();
+  const float zero = ImGui::CalcTextSize("0").x,
+              width = 2 * pad.x + zero + bar + 2 * gap + ImGui::CalcTextSize(most.c_str()).x;
+  beside(editor, width);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  auto& list = *ImGui::GetWindowDrawList();
+  drawChipGround(editor, width);
+  list.AddText({at.x + pad.x, at.y + pad.y}, tone::kDim, "0");
+  const float from = at.x + pad.x + zero + gap, y = at.y + (frame - bar_height) / 2;
+  for (int i = 0; i < kSteps; ++i)
+    list.AddRectFilled({from + bar * static_cast<float>(i) / kSteps, y},
+                       {from + bar * static_cast<float>(i + 1) / kSteps, y + bar_height},
+                       packed(viridis((i + 0.5) / kSteps)));
+  list.AddText({from + bar + gap, at.y + pad.y}, tone::kDim, most.c_str());
+  ImGui::Dummy({width, frame});
 }
 
 }  // namespace
@@ -140,29 +170,10 @@ void drawLiveReadout(const Editor& editor, ImVec2 origin, ImVec2 size, float abo
     drawBanner(editor, origin, size, ICON_WARNING "  " + text, above_pt, kTooFastGround);
 }
 
-void drawLiveLegend(const Editor& editor, ImVec2 origin) {
-  const LiveScan& live = editor.recording.live;
-  if (live.empty()) return;
-  constexpr int kSteps = 32;
-  const double most_m = liveScale_m(live.colour());
-  auto& list = *ImGui::GetWindowDrawList();
-  const float width = editor.px(160), height = editor.px(8), line = ImGui::GetTextLineHeight();
-  const float x = origin.x + editor.px(14);
-  const float y = origin.y + static_cast<float>(editor.view.size.y()) - editor.px(220);  // over all that is said below
-  drawPlate(editor, {x, y}, {width, height + 2 * line + editor.px(4)});
-  list.AddText({x, y}, tone::kText, tr(liveColourName(live.colour())).c_str());
-  const float bar = y + line + editor.px(2);
-  for (int i = 0; i < kSteps; ++i)
-    list.AddRectFilled({x + width * static_cast<float>(i) / kSteps, bar},
-                       {x + width * static_cast<float>(i + 1) / kSteps, bar + height},
-                       packed(viridis((i + 0.5) / kSteps)));
-  list.AddText({x, bar + height + editor.px(2)}, tone::kDim, "0");
-  const std::string most = trf("{:.0f} m or more", most_m);
-  list.AddText({x + width - ImGui::CalcTextSize(most.c_str()).x, bar + height + editor.px(2)}, tone::kDim,
-               most.c_str());
-}
-
 void walkingChips(Editor& editor) {
+  const auto& style = ImGui::GetStyle();
+  drawChipGround(editor, ImGui::CalcTextSize(ICON_CIRCLE).x + style.ItemSpacing.x + ImGui::CalcTextSize(ICON_FEED).x +
+                             4 * style.FramePadding.x);
   litButton(editor, "record-walk");
   litButton(editor, "scan-walk");
   instrumentChip(editor);
@@ -181,16 +192,18 @@ void livePointChips(Editor& editor) {
   } else {
     ui::tooltip("By what live points are coloured");
   }
+  scaleChip(editor);
   if (live.active()) return;
   const auto& name = editor.recording.scanned;
   if (!name.empty()) {
-    ImGui::SameLine();
+    const std::string label = std::string(ICON_PLAY "  ") + trf("Scan along {}", name);
+    beside(editor, chipWidth(editor, label, 0));
     const auto& scan = *findAction("scan-walked");
-    if (ui::button((std::string(ICON_PLAY "  ") + trf("Scan along {}", name) + "###scan-walked").c_str(),
-                   whyNot(scan, editor), {0, 0}, "The real scan of this walk, with noise and trajectory error"))
+    if (ui::button((label + "###scan-walked").c_str(), whyNot(scan, editor), {0, 0},
+                   "The real scan of this walk, with noise and trajectory error"))
       scan.run(editor);
   }
-  ImGui::SameLine();
+  beside(editor, ImGui::GetFrameHeight());
   const auto& drop = *findAction("drop-live-points");
   if (ui::iconButton(ICON_CLOSE "###drop-live-points", drop.title, whyNot(drop, editor))) drop.run(editor);
 }

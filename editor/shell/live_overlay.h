@@ -12,8 +12,8 @@ struct ViewState;
 void drawWalkedRibbon(const Editor& editor, const ViewState& state, ImVec2 origin);
 // Above `above_pt`: how the live scan goes, and above that a warning while somebody walks or turns too fast.
 void drawLiveReadout(const Editor& editor, ImVec2 origin, ImVec2 size, float above_pt);
-void drawLiveLegend(const Editor& editor, ImVec2 origin);  // of the live points
-// While one walks: record, scan, with which instrument; and what is done with live points.
+// While one walks: record, scan, with which instrument; and what colours live points, what that means, and what is done
+// with them.
 void walkingChips(Editor& editor);
 void livePointChips(Editor& editor);
 

@@ -30,12 +30,6 @@ namespace {
 
 constexpr float kMargin = 10, kBannerPad_pt = 8;
 constexpr float kBannerAbove_pt = 26;  // of the hint, over the view's edge
-// Behind the last chip where there is room for one of this width before the view's edge, else below.
-void beside(const Editor& editor, float width) {
-  ImGui::SameLine();
-  if (ImGui::GetCursorScreenPos().x + width > overlayEnd(editor)) ImGui::NewLine();
-}
-
 const char* colourName(ColourMode mode) {
   switch (mode) {
     case ColourMode::model: return "Model colours";
@@ -352,6 +346,11 @@ float overlayEnd(const Editor& editor) {
   return y >= editor.beside_cube && y < editor.cube_corner.y() ? editor.cube_corner.x() : editor.overlay_end;
 }
 
+void beside(const Editor& editor, float width) {
+  ImGui::SameLine();
+  if (ImGui::GetCursorScreenPos().x + width > overlayEnd(editor)) ImGui::NewLine();
+}
+
 float chipWidth(const Editor& editor, const std::string& label, float least_pt) {
   return std::max(editor.px(least_pt), ImGui::CalcTextSize(label.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x);
 }
@@ -364,7 +363,7 @@ ImVec2 bannerPlace(const Editor& editor, ImVec2 origin, ImVec2 size, ImVec2 text
   if (!in_the_way) return at;
   const float gap = editor.px(2 * kBannerPad_pt);
   const ImVec2 cube = navigationCubeCorner(editor, origin, size);
-  float controls_end = origin.y + editor.px(kMargin) + editor.overlay_size.y();
+  float controls_end = controlsCorner(editor, origin).y;
   if (at.x + text.x + gap > cube.x) controls_end = std::max(controls_end, cube.y);
   return {at.x, std::max(controls_end - editor.px(kBannerAbove_pt) + gap, origin.y + gap) + editor.px(above_pt)};
 }
@@ -386,11 +385,16 @@ void drawPlate(const Editor& editor, ImVec2 at, ImVec2 size) {
                                             tone::kOverlay, rim);
 }
 
+ImVec2 controlsCorner(const Editor& editor, ImVec2 origin) {
+  return {origin.x + editor.px(kMargin) + editor.overlay_size.x(),
+          origin.y + editor.px(kMargin) + editor.overlay_size.y()};
+}
+
 bool overOverlay(const Editor& editor, ImVec2 origin, ImVec2 size) {
   const ImVec2 p = ImGui::GetIO().MousePos;
   if (overNavigationCube(editor, origin, size)) return true;
-  return p.y < origin.y + editor.px(kMargin) + editor.overlay_size.y() &&
-         p.x < origin.x + editor.px(kMargin) + editor.overlay_size.x();
+  const ImVec2 end = controlsCorner(editor, origin);
+  return p.y < end.y && p.x < end.x;
 }
 
 void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
@@ -429,7 +433,6 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   drawReflectanceLegend(editor, origin, size);
   drawConfidenceLegend(editor, origin, size);
   drawDeviationLegend(editor, origin, size);
-  drawLiveLegend(editor, origin);
   drawToolHint(editor, origin, size);
   drawCloudTrouble(editor, origin, size);
 }

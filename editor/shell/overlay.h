@@ -22,6 +22,8 @@ float chipWidth(const Editor& editor, const std::string& label, float least_pt);
 void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size);  // view controls, cut, cube, legend
 // Where the row of controls must end in which the cursor is.
 float overlayEnd(const Editor& editor);
+// Behind the last chip where there is room for one of this width before that end, else below.
+void beside(const Editor& editor, float width);
 // Where words of this size stand over the lower edge of the view; at the upper one while the pointer is near them, so
 // that they never hide what is pointed at.
 ImVec2 bannerPlace(const Editor& editor, ImVec2 origin, ImVec2 size, ImVec2 text, float above_pt);
@@ -29,6 +31,8 @@ ImVec2 bannerPlace(const Editor& editor, ImVec2 origin, ImVec2 size, ImVec2 text
 float drawBanner(const Editor& editor, ImVec2 origin, ImVec2 size, const ui::Text& words, float above_pt, ImU32 ground);
 // A ground for words over the view.
 void drawPlate(const Editor& editor, ImVec2 at, ImVec2 size);
+// The lower right corner of the controls at the view's upper left one, as they were drawn last.
+ImVec2 controlsCorner(const Editor& editor, ImVec2 origin);
 // Is the pointer on one of the overlay's controls, so that the scene must not take the click?
 bool overOverlay(const Editor& editor, ImVec2 origin, ImVec2 size);
 

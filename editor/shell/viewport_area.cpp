@@ -333,6 +333,7 @@ void drawViewport(Editor& editor) {
   drawHolesLegend(editor, both ? right : origin, size, hovered);
   drawClip(editor, both ? right : origin);
   drawInspectMarks(editor, both ? right : origin, labels);
+  labels.keepFree(origin, controlsCorner(editor, origin));
   labels.draw(*ImGui::GetWindowDrawList(), editor.label_layout);
   drawOverlay(editor, origin, whole);
   drawStationHandles(editor, both ? right : origin);

@@ -102,6 +102,16 @@ TEST(LabelLayout, LeavesThePictureToNobody) {
   EXPECT_FALSE(placed[0] || placed[1] || placed[2]);
 }
 
+TEST(LabelLayout, KeepsAwayFromWhatIsDrawnOverIt) {
+  const std::vector<Eigen::AlignedBox2d> controls = {{Eigen::Vector2d(0, 0), Eigen::Vector2d(200, 60)}};
+  const auto placed =
+      LabelLayout().layOut({wanted({LabelKind::station, 0}, 100, 70, {{40, 20}}), wantedRoom(0, 100, 30, {{40, 20}})},
+                           {200, 200}, 0, controls);
+  ASSERT_TRUE(placed[0]);
+  EXPECT_EQ(placed[0]->side, LabelSide::below) << "above are controls";
+  EXPECT_FALSE(placed[1]);
+}
+
 TEST(LabelLayout, CoversNoMark) {
   auto station = wanted({LabelKind::station, 0}, 100, 100, {{40, 20}});
   station.mark_px = 4;

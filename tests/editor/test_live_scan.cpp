@@ -15,6 +15,7 @@
 #include "demo_verbs.h"
 #include "editor/model/walk_recording_steps.h"
 #include "editor/shell/actions.h"
+#include "editor/shell/overlay.h"
 #include "editor/trajectories/live_scan.h"
 #include "editor/trajectories/walk_pace.h"
 #include "editor/widgets/keyboard.h"
@@ -416,6 +417,25 @@ TEST_F(LiveWalk, ShowsPointsAsTheyComeAndKeepsTheWalkWithEveryTurn) {
   editor.trajectory_ways.wait();
   ASSERT_NE(editor.trajectory_ways.of(0), nullptr);
   EXPECT_NEAR(editor.trajectory_ways.of(0)->length_m, walked_m, 0.1) << "as it was said while they walked";
+}
+
+TEST_F(LiveWalk, HasItsLegendAmongTheChipsWhereNothingElseOfTheViewIs) {
+  ImGui::GetIO().DisplaySize = {1280, 800};
+  walk();
+  begin();
+  hold('W', 40);
+  editor.recording.live.wait();
+  gui.frames(3);
+  ASSERT_FALSE(editor.recording.live.empty());
+  const auto* chip = gui.find("###live-colour");
+  const auto* window = ImGui::FindWindowByName("###viewport");
+  ASSERT_TRUE(chip != nullptr && window != nullptr);
+  EXPECT_TRUE(gui.says("Height above the feet"));
+  EXPECT_TRUE(gui.says("m or more"));
+  const ImVec2 end = controlsCorner(editor, window->Pos);
+  EXPECT_LE(chip->rect.Max.y, end.y);
+  EXPECT_LE(end.x, window->Pos.x + window->Size.x);
+  EXPECT_LT(end.y, window->Pos.y + window->Size.y / 2) << "what is scanned stays in sight";
 }
 
 TEST_F(LiveWalk, OffersTheRealScanOfTheWalk) {
