@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -268,26 +269,27 @@ void drawToolbar(Editor& editor, const Box& box) {
   ImGui::End();
 }
 
-// What tabs show, by the room there is: all of it, no icons, these closely side by side, or the title of the chosen one
-// alone.
-enum class TabLabels { whole, titles, close_titles, chosen_title };
-constexpr float kClosePadding_pt = 3;
+// What tabs show, by the room there is: all of it, no icons, these side by side as closely as need be, or the title of
+// the chosen one alone.
+enum class TabLabels { whole, titles, chosen_title };
+struct TabLook {
+  TabLabels labels = TabLabels::whole;
+  float padding = 0;  // px, at either side of a tab's words
+};
 
-TabLabels tabLabels(const Editor& editor, Area area) {
-  const float spared = 2 * (ImGui::GetStyle().FramePadding.x - editor.px(kClosePadding_pt));
-  float titles = 0, icons = 0, close = 0;
+TabLook tabLook(const Editor& editor, Area area) {
+  constexpr float kClosest_pt = 3;
+  const float usual = ImGui::GetStyle().FramePadding.x, room = ImGui::GetContentRegionAvail().x;
+  float words = 0, count = 0;
   for (const auto& panel : panels())
     if (panel.area[static_cast<std::size_t>(editor.workspace)] == area) {
-      titles += ImGui::CalcTextSize(tr(panel.title).c_str()).x + 2 * ImGui::GetStyle().FramePadding.x +
-                ImGui::GetStyle().ItemInnerSpacing.x;
-      icons += editor.px(26);
-      close += spared;
+      words += ImGui::CalcTextSize(tr(panel.title).c_str()).x + ImGui::GetStyle().ItemInnerSpacing.x + 1;
+      ++count;
     }
-  const float room = ImGui::GetContentRegionAvail().x;
-  return titles + icons <= room   ? TabLabels::whole
-         : titles <= room         ? TabLabels::titles
-         : titles - close <= room ? TabLabels::close_titles
-                                  : TabLabels::chosen_title;
+  if (words + count * (2 * usual + editor.px(26)) <= room) return {TabLabels::whole, usual};
+  const float padding = std::floor((room - words) / (2 * std::max(count, 1.0F)));
+  return padding < editor.px(kClosest_pt) ? TabLook{TabLabels::chosen_title, usual}
+                                          : TabLook{TabLabels::titles, std::min(padding, usual)};
 }
 
 std::string tabLabel(const Panel& panel, TabLabels labels) {
@@ -301,15 +303,18 @@ void drawPanelTabs(Editor& editor, Area area, const char* id) {
   // A panel of this area may ask for another one of it, which is for the next frame.
   const auto wanted = std::exchange(editor.wanted_tab[static_cast<std::size_t>(area)], {});
   const auto workspace = static_cast<std::size_t>(editor.workspace);
-  const TabLabels labels = tabLabels(editor, area);
+  const auto [labels, across] = tabLook(editor, area);
   ImGui::PushID(static_cast<int>(workspace));
-  if (ImGui::BeginTabBar(id, ImGuiTabBarFlags_FittingPolicyResizeDown)) {
+  // A tab takes the padding of its own moment for its width, and that of its bar for its letters.
+  const ImVec2 padding(across, ImGui::GetStyle().FramePadding.y);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, padding);
+  const bool bar = ImGui::BeginTabBar(id, ImGuiTabBarFlags_FittingPolicyResizeDown);
+  ImGui::PopStyleVar();
+  if (bar) {
     for (const auto& panel : panels()) {
       if (panel.area[workspace] != area) continue;
       const auto flags = wanted == panel.id ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
-      const ImVec2 padding = ImGui::GetStyle().FramePadding;
-      ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
-                          {labels == TabLabels::close_titles ? editor.px(kClosePadding_pt) : padding.x, padding.y});
+      ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, padding);
       const bool open = ImGui::BeginTabItem(tabLabel(panel, labels).c_str(), nullptr, flags);
       ImGui::PopStyleVar();
       if (labels == TabLabels::chosen_title) ui::tooltip(panel.title);

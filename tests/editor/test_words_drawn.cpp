@@ -296,12 +296,15 @@ TEST_F(DrawnWords, OfTabsAreAllThereAt1280By800InAnyLanguage) {
     for (int workspace = 0; workspace < kWorkspaces; ++workspace) {
       editor.workspace = static_cast<Workspace>(workspace);
       gui.frames(3);
+      const auto texts = gui.texts();
       for (const auto& panel : panels()) {
         if (panel.area[static_cast<std::size_t>(workspace)] == Area::none) continue;
-        const auto title = tr(panel.title) + "###" + panel.id;
+        const auto title = tr(panel.title);
         EXPECT_TRUE(std::any_of(itemProbe().items.begin(), itemProbe().items.end(),
-                                [&](const GuiItem& item) { return item.label.ends_with(title); }))
+                                [&](const GuiItem& item) { return item.label.ends_with(title + "###" + panel.id); }))
             << language.code << " " << workspace << " " << title;
+        EXPECT_TRUE(std::any_of(texts.begin(), texts.end(), [&](const auto& text) { return text.ends_with(title); }))
+            << language.code << " " << workspace << " " << title << " is cut";
       }
     }
   }
