@@ -11,21 +11,21 @@ namespace {
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 bool isSpace(char c) { return c == ' ' || c == '\n'; }
 
-// What follows a number as its unit: "m", "m²", "°", "%", "GB".
-bool isUnit(std::string_view word) {
-  static constexpr std::string_view kUnits[] = {"m",  "mm",  "cm", "km", "m²", "m³",  "mm²",  "nm", "px",  "%",
-                                                "°",  "gon", "s",  "ms", "h",  "min", "mrad", "Hz", "kHz", "kB",
-                                                "MB", "GB",  "TB", "м",  "мм", "см",  "с",    "хв", "МБ",  "ГБ"};
-  const auto end = word.find_last_not_of(".,;:!?)");
-  return std::find(std::begin(kUnits), std::end(kUnits), word.substr(0, end + 1)) != std::end(kUnits);
-}
-
 std::size_t beginOfWord(std::string_view text, std::size_t at) {
   while (at > 0 && !isSpace(text[at - 1])) --at;
   return at;
 }
 
 }  // namespace
+
+bool isUnit(std::string_view word) {
+  static constexpr std::string_view kUnits[] = {"m",   "mm",  "cm", "km", "m²", "m³",  "mm²", "nm",   "px",   "%",
+                                                "°",   "gon", "s",  "ms", "h",  "min", "rad", "mrad", "dB",   "Hz",
+                                                "kHz", "kB",  "MB", "GB", "TB", "m/s", "°/s", "mm/m", "inch", "м",
+                                                "мм",  "см",  "с",  "хв", "МБ", "ГБ",  "м/с"};
+  const auto end = word.find_last_not_of(".,;:!?)");
+  return std::find(std::begin(kUnits), std::end(kUnits), word.substr(0, end + 1)) != std::end(kUnits);
+}
 
 std::size_t beginOfNumber(std::string_view text, std::size_t at) {
   if (at >= text.size()) return at;

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "editor/words/words.h"
+
 namespace standpoint {
 
 namespace {
@@ -61,9 +63,9 @@ FileListing listFolder(const std::filesystem::path& folder, std::span<const std:
 std::string readableSize(std::uint64_t bytes) {
   const auto b = static_cast<double>(bytes);
   if (b < 1000) return fmt::format("{} B", bytes);
-  if (b < 1e6) return fmt::format("{:.1f} kB", b / 1e3);
-  if (b < 1e9) return fmt::format("{:.1f} MB", b / 1e6);
-  return fmt::format("{:.2f} GB", b / 1e9);
+  if (b < 1e6) return figures("{:.1f} kB", b / 1e3);
+  if (b < 1e9) return figures("{:.1f} MB", b / 1e6);
+  return figures("{:.2f} GB", b / 1e9);
 }
 
 }  // namespace standpoint

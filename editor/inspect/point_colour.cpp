@@ -83,8 +83,8 @@ Rgba8 productColour(std::size_t index) {
 }
 
 // A figure for each point; NaN where there is none.
-std::vector<float> figures(std::span<const CloudPoint> points, const CloudHeader& header, C colour,
-                           std::span<const float> deviations_m) {
+std::vector<float> pointFigures(std::span<const CloudPoint> points, const CloudHeader& header, C colour,
+                                std::span<const float> deviations_m) {
   std::vector<float> result(points.size(), kNone);
   const auto each = [&](const auto& figure) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 1 << 15), [&](const auto& range) {
@@ -304,7 +304,7 @@ PointLegend legendOf(std::span<const CloudPoint> points, const CloudHeader& head
   else if (colour == C::natural)
     legend.natural = colouringOf(points, header.channels);
   else if (colour != C::rgb)
-    legend = scaleLegend(figures(points, header, colour, deviations_m), colour);
+    legend = scaleLegend(pointFigures(points, header, colour, deviations_m), colour);
   legend.title = rowOf(colour).name;
   legend.unit = rowOf(colour).unit;
   return legend;
@@ -314,7 +314,7 @@ std::vector<Rgba8> paintPoints(std::span<const CloudPoint> points, const CloudHe
                                const PointLegend& legend, std::span<const float> deviations_m) {
   if (colour == C::rgb) return ownColours(points);
   if (colour == C::natural) return naturalColours(points, legend.natural);
-  if (!hasClasses(colour)) return scaleColours(figures(points, header, colour, deviations_m), legend);
+  if (!hasClasses(colour)) return scaleColours(pointFigures(points, header, colour, deviations_m), legend);
   const auto classes = classesOf(points, header, colour);
   std::vector<Rgba8> colours;
   colours.reserve(points.size());

@@ -11,7 +11,7 @@ namespace standpoint {
 
 namespace {
 
-std::string millimetres(double value_m) { return fmt::format("{:.2f} mm", value_m * 1000); }
+std::string millimetres(double value_m) { return figures("{:.2f} mm", value_m * 1000); }
 
 Result<WallResult> measured(const WallRequest& request, Progress& progress) {
   progress.stage("Measure a wall in " + request.file.filename().string());
@@ -53,11 +53,11 @@ std::string wallText(const WallResult& wall) {
   row(tr("Sigma"), millimetres(fit.sigma_m));
   row(tr("Largest residual"), millimetres(fit.max_m));
   if (fit.beam_sigma_m) row(tr("Sigma along the beam"), millimetres(*fit.beam_sigma_m));
-  if (fit.incidence_rad) row(tr("Mean incidence"), fmt::format("{:.1f}°", *fit.incidence_rad / kRadPerDeg));
-  row(fit.level ? tr("Tilt from level") : tr("Tilt from plumb"), fmt::format("{:.3f}°", fit.tilt_rad / kRadPerDeg));
+  if (fit.incidence_rad) row(tr("Mean incidence"), figures("{:.1f}°", *fit.incidence_rad / kRadPerDeg));
+  row(fit.level ? tr("Tilt from level") : tr("Tilt from plumb"), figures("{:.3f}°", fit.tilt_rad / kRadPerDeg));
   row(trf("Roughness (r {:.3g} m)", fit.roughness.radius_m), millimetres(fit.roughness.mean_m));
-  row(tr("Width"), fmt::format("{:.3f} m", fit.width_m));
-  row(tr("Height"), fmt::format("{:.3f} m", fit.height_m));
+  row(tr("Width"), figures("{:.3f} m", fit.width_m));
+  row(tr("Height"), figures("{:.3f} m", fit.height_m));
   return text;
 }
 

@@ -8,8 +8,6 @@
 #include <thread>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "editor/words/words.h"
 
 namespace standpoint {
@@ -80,7 +78,7 @@ ImportFacts factsOf(const Document& document, const Report& report) {
 std::string sizeText(const Eigen::Vector3d& size_m) {
   const double largest = size_m.maxCoeff();
   const int decimals = largest < 1 ? 3 : largest < 1000 ? 2 : 0;
-  return fmt::format("{:.{}f} × {:.{}f} × {:.{}f} m", size_m.x(), decimals, size_m.y(), decimals, size_m.z(), decimals);
+  return figures("{:.{}f} × {:.{}f} × {:.{}f} m", size_m.x(), decimals, size_m.y(), decimals, size_m.z(), decimals);
 }
 
 ImportPreview::~ImportPreview() {

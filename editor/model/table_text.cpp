@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "editor/words/figures.h"
+
 namespace standpoint {
 
 namespace {
@@ -18,6 +20,7 @@ std::string fieldOf(std::string text) {
 }
 
 std::string fieldOf(const json& value) {
+  if (value.is_number_float()) return asFigure(value.dump());
   return fieldOf(value.is_string() ? value.get<std::string>() : value.is_null() ? std::string() : value.dump());
 }
 

@@ -192,7 +192,7 @@ void draw(const Model& model, CollisionState& state, Actions& actions) {
   for (const auto& d : result.doors) passable += d.passable ? 1 : 0;
   for (const auto& s : result.shapes) triangles += s.mesh.triangles.size();
   if (ui::beginProperties("result", 0.5F)) {
-    ui::property("Walkable area", fmt::format("{:.1f} m²", result.walkable_area_m2));
+    ui::property("Walkable area", figures("{:.1f} m²", result.walkable_area_m2));
     ui::property("Doors passable", trf("{} of {}", passable, result.doors.size()));
     ui::property("Shapes", trf("{}, {} triangles", groupedDigits(result.shapes.size()), groupedDigits(triangles)));
     ui::endProperties();

@@ -97,11 +97,11 @@ std::vector<Row> rowsOf(const CompareAnswer& answer) {
            static_cast<double>(b.occupied_cells) / 1e3, 1}};
 }
 
-std::string number(double value, int decimals) { return fmt::format("{:.{}f}", value, decimals); }
+std::string number(double value, int decimals) { return figures("{:.{}f}", value, decimals); }
 
 std::string changeText(const Row& row) {
-  if (row.unit == "%" || row.a == 0) return fmt::format("{:+.{}f}", row.b - row.a, row.decimals);
-  return fmt::format("{:+.1f} %", (row.b / row.a - 1) * 100);
+  if (row.unit == "%" || row.a == 0) return figures("{:+.{}f}", row.b - row.a, row.decimals);
+  return figures("{:+.1f} %", (row.b / row.a - 1) * 100);
 }
 
 TableRows tableOf(const std::vector<Row>& rows, const std::string& a, const std::string& b) {

@@ -56,7 +56,7 @@ void drawList(const Model& model, FindingsState& state, Actions& actions,
       ImGui::SameLine(0, 0);
       drawMark(finding);
       ImGui::SameLine();
-      const auto area = fmt::format("{:.1f} m²", finding.area_m2);
+      const auto area = figures("{:.1f} m²", finding.area_m2);
       const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(area.c_str()).x - model.px(14);
       ui::fitted(withReadableClasses(shownSentence(finding.message)), room);
       ImGui::SameLine();

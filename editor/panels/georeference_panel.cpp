@@ -37,22 +37,22 @@ void drawStated(const Georeference& g) {
   ui::property("Global shift", coordinates(g.shift_m) + " m");
   ui::property("CRS", g.crs.empty() ? tr("unknown") : g.crs);
   if (g.map_from_file) {
-    ui::property("Origin on the map", fmt::format("{:.3f}  {:.3f}  {:.3f}", g.map_from_file->eastings_m,
-                                                  g.map_from_file->northings_m, g.map_from_file->orthogonal_height_m));
-    ui::property("Rotation", fmt::format("{:.5f}°", rotationDeg(*g.map_from_file)));
-    if (g.map_from_file->scale != 1) ui::property("Scale", fmt::format("{:.8f}", g.map_from_file->scale));
+    ui::property("Origin on the map", figures("{:.3f}  {:.3f}  {:.3f}", g.map_from_file->eastings_m,
+                                              g.map_from_file->northings_m, g.map_from_file->orthogonal_height_m));
+    ui::property("Rotation", figures("{:.5f}°", rotationDeg(*g.map_from_file)));
+    if (g.map_from_file->scale != 1) ui::property("Scale", figures("{:.8f}", g.map_from_file->scale));
   }
   if (g.site)
-    ui::property("Site in the file", fmt::format("{:.6f}°  {:.6f}°", g.site->latitude_deg, g.site->longitude_deg));
+    ui::property("Site in the file", figures("{:.6f}°  {:.6f}°", g.site->latitude_deg, g.site->longitude_deg));
   if (g.true_north_rad) ui::property("True north", trf("{:.3f}° clockwise from +Y", *g.true_north_rad / kRadPerDeg));
   ui::endProperties();
 }
 
 void drawUtm(double latitude_deg, double longitude_deg) {
   const auto u = utm(latitude_deg, longitude_deg);
-  ui::property("UTM", fmt::format("{}{}\n{:.3f}  {:.3f}", u.zone, u.north ? "N" : "S", u.easting_m, u.northing_m));
-  ui::property("Convergence, UTM", fmt::format("{:.6f}°", u.convergence_deg));
-  ui::property("Scale, UTM", fmt::format("{:.8f}", u.scale));
+  ui::property("UTM", figures("{}{}\n{:.3f}  {:.3f}", u.zone, u.north ? "N" : "S", u.easting_m, u.northing_m));
+  ui::property("Convergence, UTM", figures("{:.6f}°", u.convergence_deg));
+  ui::property("Scale, UTM", figures("{:.8f}", u.scale));
 }
 
 // What follows from the CRS; computed anew only for another georeference.
@@ -77,10 +77,10 @@ void drawDerived(const Model& model, GeoreferenceState& state, const Georeferenc
   }
   if (!ui::beginProperties("derived", 0.42F)) return;
   const auto& at = state.derived->geographic;
-  ui::property("Latitude", fmt::format("{:.8f}°", at.latitude_deg));
-  ui::property("Longitude", fmt::format("{:.8f}°", at.longitude_deg));
-  ui::property("Convergence, CRS", fmt::format("{:.6f}°", state.derived->grid_convergence_deg));
-  ui::property("Scale, CRS", fmt::format("{:.8f}", state.derived->scale_factor));
+  ui::property("Latitude", figures("{:.8f}°", at.latitude_deg));
+  ui::property("Longitude", figures("{:.8f}°", at.longitude_deg));
+  ui::property("Convergence, CRS", figures("{:.6f}°", state.derived->grid_convergence_deg));
+  ui::property("Scale, CRS", figures("{:.8f}", state.derived->scale_factor));
   drawUtm(at.latitude_deg, at.longitude_deg);
   ui::endProperties();
 }

@@ -5,7 +5,6 @@
 #include <array>
 #include <cctype>
 
-#include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
@@ -81,8 +80,8 @@ void drawPlace(const Model& model, Actions& actions) {
                        chosen.crs);
   if (!facts.bounds_file_m.empty()) {
     const auto& b = facts.bounds_file_m;
-    ui::property("From", fmt::format("{:.2f}  {:.2f}  {:.2f} m", b.min.x(), b.min.y(), b.min.z()));
-    ui::property("To", fmt::format("{:.2f}  {:.2f}  {:.2f} m", b.max.x(), b.max.y(), b.max.z()));
+    ui::property("From", figures("{:.2f}  {:.2f}  {:.2f} m", b.min.x(), b.min.y(), b.min.z()));
+    ui::property("To", figures("{:.2f}  {:.2f}  {:.2f} m", b.max.x(), b.max.y(), b.max.z()));
   }
   ui::endProperties();
   if (!facts.doubt.empty()) {

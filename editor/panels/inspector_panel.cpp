@@ -138,7 +138,7 @@ void drawLayers(const Model& model, const Product& product) {
   ui::heading(model, "Materials in the model");
   if (!ui::beginProperties("layers", 0.68F)) return;
   for (const auto& layer : product.layers)
-    ui::property(layer.name.empty() ? "Air" : layer.name.c_str(), fmt::format("{:.4g} mm", layer.thickness_m * 1000));
+    ui::property(layer.name.empty() ? "Air" : layer.name.c_str(), figures("{:.4g} mm", layer.thickness_m * 1000));
   if (product.layers.empty())
     for (const auto& name : product.materials) ui::property(name, " ");
   ui::endProperties();
@@ -166,7 +166,7 @@ void drawSurfaces(const Model& model, std::uint32_t product) {
     const auto& surface = environment.surfaces[index];
     ui::swatch(model, surface.colour);
     ImGui::SameLine();
-    std::string text = fmt::format("{}  {:.2f} m²", surface.name.empty() ? tr("Nameless") : surface.name, area);
+    std::string text = figures("{}  {:.2f} m²", surface.name.empty() ? tr("Nameless") : surface.name, area);
     if (surface.image >= 0) text += "  " + environment.images[static_cast<std::size_t>(surface.image)]->name;
     ui::wrapped(text);
   }
@@ -245,8 +245,8 @@ void drawPhysics(const PhysicalMaterial& m) {
   for (const double wavelength : {905.0, 1064.0, 1550.0})
     ui::property(trf("Reflectance {:.0f} nm", wavelength).c_str(),
                  fmt::format("{:.0f} %", atWavelength(m.reflectance, wavelength) * 100));
-  if (m.roughness_rad > 0) ui::property("Roughness σ", fmt::format("{:.2f} rad", m.roughness_rad));
-  if (m.index_of_refraction > 0) ui::property("Index of refraction", fmt::format("{:.2f}", m.index_of_refraction));
+  if (m.roughness_rad > 0) ui::property("Roughness σ", figures("{:.2f} rad", m.roughness_rad));
+  if (m.index_of_refraction > 0) ui::property("Index of refraction", figures("{:.2f}", m.index_of_refraction));
   if (!m.transmittance.empty())
     ui::property("Transmittance 1550 nm", fmt::format("{:.0f} %", atWavelength(m.transmittance, 1550) * 100));
   ui::endProperties();

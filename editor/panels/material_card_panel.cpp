@@ -139,7 +139,7 @@ void drawAngles(const Model& model, const PhysicalMaterial& m) {
                      : most > 5  ? 20
                                  : 5;
   const Plot plot(model, 90);
-  for (const double fraction : {0.0, 0.5, 1.0}) plot.level(fraction, fmt::format("{:g} %", fraction * top));
+  for (const double fraction : {0.0, 0.5, 1.0}) plot.level(fraction, figures("{:g} %", fraction * top));
   for (const int degrees : {0, 20, 40, 60, 80}) plot.column(degrees / 80.0, fmt::format("{}°", degrees), tone::kLine);
   std::vector<ImVec2> own, lambert;
   for (int degrees = 0; degrees <= 80; ++degrees) {
@@ -158,7 +158,7 @@ void drawAngles(const Model& model, const PhysicalMaterial& m) {
 
 std::string reading(const ExpectedReturn& expected) {
   if (expected.fate != ReturnFate::returned) return tr(fateName(expected.fate));
-  return fmt::format("{:.2f}\n{:.1f} mm", expected.intensity, expected.sigma_m * 1000);
+  return figures("{:.2f}\n{:.1f} mm", expected.intensity, expected.sigma_m * 1000);
 }
 
 void drawReported(const Model& model, MaterialCardState& state, const PhysicalMaterial& m) {

@@ -94,7 +94,7 @@ TableRows usesTable(const Model& model, const MaterialResult& result) {
     table.push_back({use.material.empty()  ? tr("Unassigned")
                      : material != nullptr ? tr(material->label)
                                            : use.material,
-                     fmt::format("{:.3f}", use.area_m2),
+                     figures("{:.3f}", use.area_m2),
                      material != nullptr ? reflectanceText(model, *material) : std::string(),
                      std::to_string(use.products.size())});
   }
@@ -124,7 +124,7 @@ void drawUses(const Model& model, MaterialsState& state, Actions& actions, const
   const auto wavelength = fmt::format("{:.0f}", model.view.wavelength_nm);
   float area = wide("m²"), share = std::max(wide("100 %"), wide(wavelength)), count = wide("n");
   for (const auto& use : uses) {
-    area = std::max(area, wide(fmt::format("{:.1f}", use.area_m2)));
+    area = std::max(area, wide(figures("{:.1f}", use.area_m2)));
     count = std::max(count, wide(std::to_string(use.products.size())));
   }
   ImGui::TableSetupScrollFreeze(0, 1);
@@ -146,7 +146,7 @@ void drawUses(const Model& model, MaterialsState& state, Actions& actions, const
       if (model.view.colour == ColourMode::model) actions.colourBy(ColourMode::material);
     }
     ImGui::TableNextColumn();
-    ui::textRightAligned(fmt::format("{:.1f}", use.area_m2));
+    ui::textRightAligned(figures("{:.1f}", use.area_m2));
     ImGui::TableNextColumn();
     if (material != nullptr) ui::textRightAligned(reflectanceText(model, *material));
     ImGui::TableNextColumn();

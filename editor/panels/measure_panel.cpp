@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <fmt/format.h>
 #include <imgui.h>
 
 #include "editor/panels/actions.h"
@@ -8,6 +7,7 @@
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/figures.h"
 #include "editor/words/words.h"
 #include "project/survey/measure_verb.h"
 
@@ -49,7 +49,8 @@ void drawList(const Model& model, Actions& actions, const Measurements& measurem
   }
   ui::copyTable("measured", [&] {
     TableRows table = {{tr("Name"), tr("Kind"), tr("Result")}};
-    for (const auto& m : measurements) table.push_back({m.name, rowOf(m.kind).name, figureText(figuresOf(m)[0])});
+    for (const auto& m : measurements)
+      table.push_back({m.name, rowOf(m.kind).name, figuresIn(figureText(figuresOf(m)[0]))});
     return table;
   });
   if (!ImGui::BeginTable("measurements", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
@@ -72,7 +73,7 @@ void drawList(const Model& model, Actions& actions, const Measurements& measurem
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(rowOf(m.kind).name);
     ImGui::TableNextColumn();
-    ui::textRightAligned(figureText(figuresOf(m)[0]));
+    ui::textRightAligned(figuresIn(figureText(figuresOf(m)[0])));
     ImGui::PopID();
   }
   ImGui::EndTable();
@@ -99,7 +100,7 @@ void drawChosen(const Model& model, MeasureState& state, Actions& actions, const
   ui::heading(model, trf("Measurement {}", m.name).c_str());
   if (ui::beginProperties("measurement", 0.42F)) {
     drawName(model, state, actions, m);
-    for (const auto& figure : figuresOf(m)) ui::property(figure.label, figureText(figure));
+    for (const auto& figure : figuresOf(m)) ui::property(figure.label, figuresIn(figureText(figure)));
     for (std::size_t i = 0; i < m.points.size() && i < 12; ++i)
       ui::property(trf("Point {}", i + 1).c_str(), coordinates(m.points[i] + model.shift_m()));
     ui::endProperties();
@@ -117,7 +118,7 @@ void drawChosen(const Model& model, MeasureState& state, Actions& actions, const
   ImGui::SameLine();
   if (ui::button(ui::fittingLabel(ICON_COPY, "Copy", "copy-measurement", width).c_str(), {}, {width, 0},
                  "Copy its figures and points as text"))
-    ImGui::SetClipboardText(measurementText(m, model.shift_m()).c_str());
+    ImGui::SetClipboardText(figuresIn(measurementText(m, model.shift_m())).c_str());
   ImGui::SameLine();
   actions.button("remove", "Remove", width);
 }
@@ -139,7 +140,7 @@ void draw(const Model& model, MeasureState& state, Actions& actions) {
   if (ui::button(ICON_COPY "  Copy all###copy-measurements", {}, {-FLT_MIN, 0}, "Copy all measurements as text")) {
     std::string text;
     for (const auto& m : measurements) text += measurementText(m, model.shift_m()) + "\n";
-    ImGui::SetClipboardText(text.c_str());
+    ImGui::SetClipboardText(figuresIn(text).c_str());
   }
   const int chosen = model.survey.measurement;
   if (chosen >= 0 && chosen < static_cast<int>(measurements.size()))

@@ -29,9 +29,9 @@ void drawResult(const Model& model, const OptimiseState& state, const Simplified
   ui::meter(model, fraction, tone::kAccent);
   if (ui::beginProperties("result", 0.5F)) {
     ui::property("Triangles before", groupedDigits(all.triangles_before));
-    ui::property("Triangles after", fmt::format("{}  ({:.1f} %)", groupedDigits(all.triangles_after), fraction * 100));
-    ui::property("Largest deviation", fmt::format("{:.2f} mm", all.max_deviation_m * 1000));
-    ui::property("Mean deviation", fmt::format("{:.3f} mm", all.mean_deviation_m * 1000));
+    ui::property("Triangles after", figures("{}  ({:.1f} %)", groupedDigits(all.triangles_after), fraction * 100));
+    ui::property("Largest deviation", figures("{:.2f} mm", all.max_deviation_m * 1000));
+    ui::property("Mean deviation", figures("{:.3f} mm", all.mean_deviation_m * 1000));
     ui::property("Normal deviation", trf("{:.2f}° mean", all.mean_turn_rad / kRadPerDeg));
     ui::endProperties();
   }
@@ -44,7 +44,7 @@ void drawResult(const Model& model, const OptimiseState& state, const Simplified
 }
 
 std::string lengthText(double metres) {
-  return metres < 1e-3 ? fmt::format("{:.1f} mm", metres * 1000) : fmt::format("{:.0f} mm", metres * 1000);
+  return metres < 1e-3 ? figures("{:.1f} mm", metres * 1000) : fmt::format("{:.0f} mm", metres * 1000);
 }
 
 // Of the area of both models, how much stands how far from the other one.
@@ -67,7 +67,7 @@ void drawHistogram(const Model& model, Actions& actions) {
   ui::copyTable("histogram", [&] {
     TableRows table = {{tr("Surface deviation"), "m²", "%"}};
     for (std::size_t i = 0; i < area.size(); ++i)
-      table.push_back({upTo(i), fmt::format("{:.3f}", area[i]), fmt::format("{:.3f}", area[i] / sum * 100)});
+      table.push_back({upTo(i), figures("{:.3f}", area[i]), figures("{:.3f}", area[i] / sum * 100)});
     return table;
   });
   if (!ImGui::BeginTable("histogram", 3)) return;
@@ -89,7 +89,7 @@ void drawHistogram(const Model& model, Actions& actions) {
                                               IM_COL32(c[0], c[1], c[2], 255));
     ImGui::Dummy({width, height});
     ImGui::TableNextColumn();
-    ui::textRightAligned(fmt::format("{:.2f} %", area[i] / sum * 100));
+    ui::textRightAligned(figures("{:.2f} %", area[i] / sum * 100));
   }
   ImGui::EndTable();
   const bool shown = model.view.colour == ColourMode::deviation && model.view.side == ModelSide::both;
@@ -117,7 +117,7 @@ void drawWorst(const Model& model, Actions& actions, const SimplifiedModel& ligh
     for (std::size_t i = 0; i < shown; ++i) {
       const auto& loss = light.products[order[i]];
       table.push_back({productLabel(model.environment()->products[order[i]]),
-                       fmt::format("{:.3f}", loss.max_deviation_m * 1000), std::to_string(loss.triangles_after),
+                       figures("{:.3f}", loss.max_deviation_m * 1000), std::to_string(loss.triangles_after),
                        std::to_string(loss.triangles_before)});
     }
     return table;
@@ -140,7 +140,7 @@ void drawWorst(const Model& model, Actions& actions, const SimplifiedModel& ligh
     ImGui::SameLine(0, 0);
     ui::fitted(productLabel(model.environment()->products[order[i]]), ImGui::GetContentRegionAvail().x);
     ImGui::TableNextColumn();
-    ui::textRightAligned(fmt::format("{:.1f}", loss.max_deviation_m * 1000));
+    ui::textRightAligned(figures("{:.1f}", loss.max_deviation_m * 1000));
     ImGui::TableNextColumn();
     ui::textRightAligned(
         fmt::format("{} → {}", groupedDigits(loss.triangles_before), groupedDigits(loss.triangles_after)));

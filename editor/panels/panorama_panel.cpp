@@ -3,7 +3,6 @@
 #include <cmath>
 #include <memory>
 
-#include <fmt/format.h>
 #include <imgui.h>
 
 #include "editor/panels/actions.h"
@@ -98,7 +97,7 @@ std::string underPointer(const PanoramaRead& read, const Eigen::Vector2i& pixel,
   const auto point = read.panorama.point(pixel.x(), pixel.y());
   if (!point) return "No point";
   const auto at = read.panorama.at(pixel.x(), pixel.y());
-  std::string text = fmt::format("{:.3f} m", read.panorama.range_m[at]);
+  std::string text = figures("{:.3f} m", read.panorama.range_m[at]);
   if (read.panorama.has_intensity) text += trf("   intensity {:.3f}", read.panorama.intensity[at]);
   return text + "\n" + coordinates(read.request.local_from_cloud * *point + shift_m);
 }

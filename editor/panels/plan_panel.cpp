@@ -87,8 +87,8 @@ void drawStations(const Model& model, const PlanAnswer& answer) {
   ui::copyTable("planned", [&] {
     TableRows table = {{tr("Station"), tr("Sees") + ", m²", tr("Points"), tr("File") + ", MB"}};
     for (const auto& s : answer.stations)
-      table.push_back({s.station, fmt::format("{:.2f}", s.seen_m2), std::to_string(s.points),
-                       fmt::format("{:.1f}", static_cast<double>(s.bytes) / 1e6)});
+      table.push_back({s.station, figures("{:.2f}", s.seen_m2), std::to_string(s.points),
+                       figures("{:.1f}", static_cast<double>(s.bytes) / 1e6)});
     return table;
   });
   if (!ImGui::BeginTable("planned", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
@@ -96,7 +96,7 @@ void drawStations(const Model& model, const PlanAnswer& answer) {
   ImGui::TableHeadersRow();
   const auto row = [](const std::string& name, const std::string& sees, std::int64_t points, std::int64_t bytes) {
     ImGui::TableNextRow();
-    for (const auto& text : {name, sees, fmt::format("{:.1f} M", static_cast<double>(points) / 1e6),
+    for (const auto& text : {name, sees, figures("{:.1f} M", static_cast<double>(points) / 1e6),
                              fmt::format("{:.0f} MB", static_cast<double>(bytes) / 1e6)}) {
       ImGui::TableNextColumn();
       ui::fitted(text, ImGui::GetContentRegionAvail().x);
@@ -127,8 +127,7 @@ void drawHoles(const Model& model, Actions& actions, const std::vector<PlanHole>
     const auto& hole = holes[k];
     ImGui::PushID(static_cast<int>(k));
     if (ImGui::Selectable(
-            fmt::format("{:.1f} m²   {} {}###hole", hole.unseen_m2, tr(readableClass(hole.ifc_class)), hole.name)
-                .c_str()))
+            figures("{:.1f} m²   {} {}###hole", hole.unseen_m2, tr(readableClass(hole.ifc_class)), hole.name).c_str()))
       for (std::uint32_t p = 0; p < products.size(); ++p)
         if (products[p].id == hole.id) actions.reveal(p);
     ImGui::PopID();

@@ -12,6 +12,7 @@
 #include "editor/widgets/theme.h"
 #include "editor/widgets/verdict_sign.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/figures.h"
 #include "editor/words/sentences.h"
 
 namespace standpoint {
@@ -58,9 +59,10 @@ std::string placeText(const AssessPlace& place) {
 
 // All of it, for what the columns are too narrow for.
 std::string rowText(const AssessRow& row) {
-  std::string text = fmt::format("{}: {}", tr(row.label), valueText(row));
+  std::string text = fmt::format("{}: {}", tr(row.label), figuresIn(valueText(row)));
   if (!row.note.empty()) text += "\n" + trSentence(row.note);
-  return text + "\n" + trf("Good {}, bad {} ({})", row.good_text, row.bad_text, trSentence(row.limit_source));
+  return text + "\n" +
+         trf("Good {}, bad {} ({})", figuresIn(row.good_text), figuresIn(row.bad_text), trSentence(row.limit_source));
 }
 
 void drawRow(const Model& model, QualityState& state, Actions& actions, const AssessRow& row, std::size_t index) {
@@ -74,7 +76,7 @@ void drawRow(const Model& model, QualityState& state, Actions& actions, const As
   ImGui::AlignTextToFramePadding();
   ui::wrapped(tr(row.label));
   ui::tooltip(rowText(row));
-  for (const auto& text : {valueText(row), row.good_text}) {
+  for (const auto& text : {figuresIn(valueText(row)), figuresIn(row.good_text)}) {
     ImGui::TableNextColumn();
     ImGui::AlignTextToFramePadding();
     ui::textRightAligned(text);
@@ -89,7 +91,8 @@ TableRows tableOf(const std::vector<AssessRow>& rows) {
   TableRows table = {{tr("Figure"), tr("Value"), tr("Limit"), tr("State")}};
   for (const auto& row : rows)
     if (!row.good_text.empty())
-      table.push_back({tr(row.label), valueText(row), row.good_text, tr(verdictWord(row.verdict))});
+      table.push_back(
+          {tr(row.label), figuresIn(valueText(row)), figuresIn(row.good_text), tr(verdictWord(row.verdict))});
   return table;
 }
 

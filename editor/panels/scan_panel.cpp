@@ -20,6 +20,7 @@
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/figures.h"
 #include "editor/words/sentences.h"
 #include "pointclouds/formats.h"
 #include "project/survey/scan_request.h"
@@ -102,13 +103,13 @@ void drawSetting(ScanChoice& asked, const Instrument& instrument, const Instrume
   ui::propertyLabel(tr(setting.label));  // the device's own word
   const auto current = std::find_if(setting.choices.begin(), setting.choices.end(),
                                     [&](const SettingChoice& c) { return c.value == value->second; });
-  const std::string shown = current == setting.choices.end() ? value->second : tr(current->label);
+  const std::string shown = current == setting.choices.end() ? value->second : figuresIn(tr(current->label));
   ImGui::PushID(setting.key.c_str());
   if (setting.choices.empty()) {
     if (drawNumber(setting, value->second) && isAreaEdge(setting.key)) scanArea(asked, instrument);
   } else if (ImGui::BeginCombo("###value", shown.c_str())) {
     for (const auto& choice : setting.choices)
-      if (ImGui::Selectable(fmt::format("{}###{}", tr(choice.label), choice.value).c_str(),
+      if (ImGui::Selectable(fmt::format("{}###{}", figuresIn(tr(choice.label)), choice.value).c_str(),
                             choice.value == value->second))
         value->second = choice.value;
     ImGui::EndCombo();
@@ -205,7 +206,7 @@ std::vector<std::size_t> stationsWanted(const Model& model, const ScanState& sta
 }
 
 std::string bytesText(double bytes) {
-  return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.2f} GB", bytes / 1e9);
+  return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : figures("{:.2f} GB", bytes / 1e9);
 }
 
 // Grid and time at once; points and size as soon as some rays have said what there is to see.
@@ -232,7 +233,7 @@ void drawForecast(const Model& model, const ScanState& state, const ScanChoice& 
   ui::property("Pulses per station", trf("{:.1f} million,  {} × {}",
                                          static_cast<double>(settings.columns) * settings.rows * settings.passes / 1e6,
                                          settings.columns, settings.rows));
-  ui::property("Working range", fmt::format("{:.1f} – {:.0f} m", instrument.min_range_m, settings.max_range_m));
+  ui::property("Working range", figures("{:.1f} – {:.0f} m", instrument.min_range_m, settings.max_range_m));
   ui::property("Wavelength", fmt::format("{:.0f} nm", instrument.wavelength_nm));
   ui::endProperties();
 }
@@ -247,9 +248,9 @@ void drawCarriedForecast(const Model& model, const Instrument& instrument, const
   const auto& head = *instrument.moving;
   const double a_second = static_cast<double>(head.channel_elevations_rad.size()) * head.heads / settings.firing_s;
   ui::property("Instrument time", known ? durationText(way->seconds) : waiting);
-  ui::property("Length", known ? fmt::format("{:.1f} m", way->length_m) : waiting);
+  ui::property("Length", known ? figures("{:.1f} m", way->length_m) : waiting);
   ui::property("Pulses", known ? trf("about {:.1f} million", way->seconds * a_second / 1e6) : waiting);
-  ui::property("Working range", fmt::format("{:.1f} – {:.0f} m", instrument.min_range_m, settings.max_range_m));
+  ui::property("Working range", figures("{:.1f} – {:.0f} m", instrument.min_range_m, settings.max_range_m));
   ui::property("Wavelength", fmt::format("{:.0f} nm", instrument.wavelength_nm));
   ui::endProperties();
 }

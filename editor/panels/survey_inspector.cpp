@@ -233,7 +233,7 @@ void drawTarget(const Model& model, SurveyEdit& edit, Actions& actions, const Ta
     }
     ImGui::EndDisabled();
     ui::property("Kind", plate ? "checkerboard" : "sphere");
-    ui::property(plate ? "Side" : "Diameter", fmt::format("{:.4g} mm", target.size_m * 1000));
+    ui::property(plate ? "Side" : "Diameter", figures("{:.4g} mm", target.size_m * 1000));
     ui::endProperties();
   }
   drawProblem(edit);

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
 #include <imgui.h>
 
 #include "editor/panels/actions.h"
@@ -37,7 +36,7 @@ void drawOlder(const Station& station, const std::string& age) {
 }
 
 std::string placeText(const Eigen::Vector3d& p, int decimals) {
-  return fmt::format("{:.{}f}  {:.{}f}  {:.{}f}", p.x(), decimals, p.y(), decimals, p.z(), decimals);
+  return figures("{:.{}f}  {:.{}f}  {:.{}f}", p.x(), decimals, p.y(), decimals, p.z(), decimals);
 }
 
 // Of all places of a list: as many as tell what was typed, but no more than there is room for.
@@ -72,7 +71,7 @@ void drawStationRow(const Model& model, Actions& actions, const Station& station
 }
 
 std::vector<std::string> placeRow(const std::string& name, const Eigen::Vector3d& p) {
-  return {name, fmt::format("{:.4f}", p.x()), fmt::format("{:.4f}", p.y()), fmt::format("{:.4f}", p.z())};
+  return {name, figures("{:.4f}", p.x()), figures("{:.4f}", p.y()), figures("{:.4f}", p.z())};
 }
 
 void drawStations(const Model& model, Actions& actions, const Job& job) {
@@ -131,8 +130,8 @@ void drawTargets(const Model& model, Actions& actions, const Job& job) {
     ImGui::TextColored(colour(tone::kGood), "%s", ICON_TARGET);
     ImGui::SameLine();
     const Eigen::Vector3d p = target.centre + model.shift_m();
-    ui::fitted(fmt::format("{}   {}   {:.2f}  {:.2f}  {:.2f}", target.name,
-                           tr(target.kind == TargetKind::sphere ? "sphere" : "checkerboard"), p.x(), p.y(), p.z()),
+    ui::fitted(figures("{}   {}   {:.2f}  {:.2f}  {:.2f}", target.name,
+                       tr(target.kind == TargetKind::sphere ? "sphere" : "checkerboard"), p.x(), p.y(), p.z()),
                ImGui::GetContentRegionAvail().x - button - model.px(4));
     ImGui::SameLine(ImGui::GetContentRegionMax().x - button);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(model.px(4), 0));

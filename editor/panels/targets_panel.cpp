@@ -91,10 +91,10 @@ void drawRow(const Model& model, Actions& actions, const TargetRow& row, int ind
   cell(target.kind == TargetKind::sphere ? trf("sphere {:.0f} mm", target.size_m * 1000)
                                          : trf("plate {:.0f} mm", target.size_m * 1000));
   cell(job.stations[row.station].name);
-  cell(fmt::format("{:.2f} m", row.sight.distance_m));
+  cell(figures("{:.2f} m", row.sight.distance_m));
   cell(row.fit ? groupedDigits(row.fit->points) : row.sight.points ? fmt::format("~ {:.0f}", *row.sight.points) : "–");
-  cell(row.fit ? fmt::format("{:.2f} mm", row.fit->residual_m * 1000) : "");
-  cell(row.fit ? fmt::format("{:.2f} mm", row.fit->sigma_m().norm() * 1000) : "");
+  cell(row.fit ? figures("{:.2f} mm", row.fit->residual_m * 1000) : "");
+  cell(row.fit ? figures("{:.2f} mm", row.fit->sigma_m().norm() * 1000) : "");
   const auto standing = standingOf(row);
   ImGui::TableNextColumn();
   ImGui::TextColored(colour(standing.tone), "%s", standing.icon);
@@ -109,11 +109,11 @@ TableRows tableOf(const Job& job, const std::vector<TargetRow>& rows) {
   for (const auto& row : rows) {
     if (row.target >= job.targets.size() || row.station >= job.stations.size()) continue;
     const auto& target = job.targets[row.target];
-    const auto millimetres = [](double value_m) { return fmt::format("{:.3f}", value_m * 1000); };
+    const auto millimetres = [](double value_m) { return figures("{:.3f}", value_m * 1000); };
     table.push_back({target.name,
                      target.kind == TargetKind::sphere ? trf("sphere {:.0f} mm", target.size_m * 1000)
                                                        : trf("plate {:.0f} mm", target.size_m * 1000),
-                     job.stations[row.station].name, fmt::format("{:.3f}", row.sight.distance_m),
+                     job.stations[row.station].name, figures("{:.3f}", row.sight.distance_m),
                      row.fit            ? std::to_string(row.fit->points)
                      : row.sight.points ? fmt::format("~ {:.0f}", *row.sight.points)
                                         : std::string(),

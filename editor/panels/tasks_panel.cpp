@@ -17,7 +17,7 @@ namespace standpoint {
 namespace {
 
 std::string duration(double seconds) {
-  if (seconds < 60) return fmt::format("{:.1f} s", seconds);
+  if (seconds < 60) return figures("{:.1f} s", seconds);
   return fmt::format("{}:{:02} min", static_cast<int>(seconds) / 60, static_cast<int>(seconds) % 60);
 }
 
@@ -69,7 +69,7 @@ void drawTasksPanel(const Model& model, PanelStates&, Actions&) {
   ui::copyTable("tasks", [&] {
     TableRows table = {{tr("Time"), tr("Task"), tr("Result"), "s"}};
     for (const auto& task : model.session.finished())
-      table.push_back({task.time, task.title, trSentence(task.text), fmt::format("{:.1f}", task.seconds)});
+      table.push_back({task.time, task.title, trSentence(task.text), figures("{:.1f}", task.seconds)});
     return table;
   });
   if (!ImGui::BeginTable("tasks", 4, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) return;

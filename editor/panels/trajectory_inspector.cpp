@@ -112,7 +112,7 @@ void bringPathIntoView(const Model& model, Actions& actions, const CarriedTrajec
 bool isKnown(const TrajectoryWay* way) { return way != nullptr && way->problem.empty(); }
 
 std::string lengthOf(const TrajectoryWay* way) {
-  return isKnown(way) ? fmt::format("{:.1f} m", way->length_m) : way == nullptr ? "…" : "–";
+  return isKnown(way) ? figures("{:.1f} m", way->length_m) : way == nullptr ? "…" : "–";
 }
 
 std::string durationOf(const TrajectoryWay* way) {
@@ -232,8 +232,7 @@ void drawFacts(const TrajectoryWay* way, const CarriedTrajectory& trajectory) {
     ui::property("Length", lengthOf(way));
     ui::property("Duration", durationOf(way));
     const bool stands = isKnown(way) && way->seconds <= 0;
-    if (!stands)
-      ui::property("Mean speed", isKnown(way) ? fmt::format("{:.2f} m/s", way->length_m / way->seconds) : "…");
+    if (!stands) ui::property("Mean speed", isKnown(way) ? figures("{:.2f} m/s", way->length_m / way->seconds) : "…");
   }
   if (!trajectory.file.empty()) ui::property("File", trajectory.file);
 }
@@ -264,7 +263,7 @@ void drawTrouble(const Model& model, Actions& actions, const TrajectoryWay& way)
 
 std::string waypointLine(const Model& model, const Waypoint& waypoint, std::size_t number) {
   const Eigen::Vector3d p = waypoint.floor_m + model.shift_m();
-  std::string text = fmt::format("{}   {:.2f}  {:.2f}  {:.2f}", number, p.x(), p.y(), p.z());
+  std::string text = figures("{}   {:.2f}  {:.2f}  {:.2f}", number, p.x(), p.y(), p.z());
   if (waypoint.stop_s > 0) text += "   " + trf("stops {:.3g} s", waypoint.stop_s);
   if (waypoint.look_rad) text += "   " + trf("looks {:.0f}°", *waypoint.look_rad / kRadPerDeg);
   return text;
@@ -423,7 +422,7 @@ CoverageOptions coverageOf(const Model& model, const CarriedTrajectory& trajecto
 void drawShares(const CoverageAnswer& answer) {
   if (!ui::beginProperties("blind", 0.5F)) return;
   const auto row = [](const char* label, double area_m2) {
-    if (area_m2 > 0) ui::property(label, fmt::format("{:.1f} m²", area_m2));
+    if (area_m2 > 0) ui::property(label, figures("{:.1f} m²", area_m2));
   };
   row("Seen twice", answer.twice_m2);
   row(wordsOf(Blindness::passed_by), answer.passed_by_m2);

@@ -126,7 +126,7 @@ void drawMaterial(const Model& model, VerifyState& state, Actions& actions, cons
   ImGui::TableNextColumn();
   drawBox(model, m, reach_db);
   ImGui::TableNextColumn();
-  ui::textRightAligned(m.judged ? fmt::format("{:+.1f}", std::round(m.off_db[2] * 10) / 10 + 0.0) : "?");
+  ui::textRightAligned(m.judged ? figures("{:+.1f}", std::round(m.off_db[2] * 10) / 10 + 0.0) : "?");
   ImGui::PopID();
 }
 
@@ -136,7 +136,7 @@ void drawMaterials(const Model& model, VerifyState& state, Actions& actions, con
     TableRows table = {{tr("Material"), tr("Points"), "5 %, dB", "25 %, dB", "50 %, dB", "75 %, dB", "95 %, dB"}};
     for (const auto& m : view.materials) {
       table.push_back({labelOf(model, m.material), std::to_string(m.points)});
-      for (const double db : m.off_db) table.back().push_back(fmt::format("{:+.2f}", db));
+      for (const double db : m.off_db) table.back().push_back(figures("{:+.2f}", db));
     }
     return table;
   });
@@ -217,7 +217,7 @@ void drawBasis(const Model& model, const VerificationView& view) {
   ui::property("Instrument", view.instrument);
   ui::property("Points", groupedDigits(view.compared));
   if (!view.scale.empty()) ui::property("Vendor's scale", view.scale);
-  if (view.moved_m >= 0) ui::property("Off the model", fmt::format("{:.1f} mm", view.moved_m * 1000));
+  if (view.moved_m >= 0) ui::property("Off the model", figures("{:.1f} mm", view.moved_m * 1000));
   ui::endProperties();
 }
 

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
 #include <imgui.h>
 
 #include "core/units.h"
@@ -19,7 +18,7 @@ namespace standpoint {
 
 namespace {
 
-std::string millimetres(double value_m) { return fmt::format("{:.2f} mm", value_m * 1000); }
+std::string millimetres(double value_m) { return figures("{:.2f} mm", value_m * 1000); }
 
 void drawChoice(const Model& model, Actions& actions) {
   WallChoice choice = model.wall_choice;
@@ -121,24 +120,24 @@ void drawProfile(const Model& model, const WallFit& fit, const WallProfile& prof
                        {from, y(a.mean_m - a.sigma_m)}, (static_cast<ImU32>(tone::kCurve) & 0x00FFFFFFU) | 0x50000000U);
     list.AddLine({from, y(a.mean_m)}, {to, y(b.mean_m)}, tone::kCurve, model.px(1.5F));
   }
-  drawEnds(model, plot, "0 m", "±" + millimetres(reach), fmt::format("{:.2f} m", extent_m));
+  drawEnds(model, plot, "0 m", "±" + millimetres(reach), figures("{:.2f} m", extent_m));
 }
 
 void drawFigures(const WallResult& wall) {
   const auto& fit = wall.fit;
   if (!ui::beginProperties("wall", 0.52F)) return;
   ui::property("Points in region", groupedDigits(wall.inside));
-  ui::property("Fitted points", fmt::format("{}  ({:.1f} %)", groupedDigits(fit.fitted),
-                                            100.0 * static_cast<double>(fit.fitted) / static_cast<double>(fit.points)));
+  ui::property("Fitted points", figures("{}  ({:.1f} %)", groupedDigits(fit.fitted),
+                                        100.0 * static_cast<double>(fit.fitted) / static_cast<double>(fit.points)));
   ui::property("Sigma", millimetres(fit.sigma_m));
   ui::property("Sigma along the beam", fit.beam_sigma_m ? millimetres(*fit.beam_sigma_m) : "no station in the file");
   ui::property("Largest residual", millimetres(fit.max_m));
   ui::property(fit.level ? "Tilt from level" : "Tilt from plumb",
-               fmt::format("{:.3f}°  ({:.2f} mm/m)", fit.tilt_rad / kRadPerDeg, std::tan(fit.tilt_rad) * 1000));
-  if (fit.incidence_rad) ui::property("Mean incidence", fmt::format("{:.1f}°", *fit.incidence_rad / kRadPerDeg));
+               figures("{:.3f}°  ({:.2f} mm/m)", fit.tilt_rad / kRadPerDeg, std::tan(fit.tilt_rad) * 1000));
+  if (fit.incidence_rad) ui::property("Mean incidence", figures("{:.1f}°", *fit.incidence_rad / kRadPerDeg));
   ui::property(trf("Roughness (r {:.3g} m)", fit.roughness.radius_m).c_str(),
                fit.roughness.samples > 0 ? millimetres(fit.roughness.mean_m) : "too few neighbours");
-  ui::property("Extent", fmt::format("{:.2f} × {:.2f} m", fit.width_m, fit.height_m));
+  ui::property("Extent", figures("{:.2f} × {:.2f} m", fit.width_m, fit.height_m));
   ui::endProperties();
 }
 

@@ -92,11 +92,11 @@ std::string trianglesOf(const std::shared_ptr<const SimplifiedModel>& simplified
 }
 
 std::string walkableOf(const std::shared_ptr<const CollideResult>& collision) {
-  return collision ? fmt::format("{:.1f} m²", collision->walkable_area_m2) : tr("none");
+  return collision ? figures("{:.1f} m²", collision->walkable_area_m2) : tr("none");
 }
 
 std::string coverageOf(const std::shared_ptr<const MaterialChoice>& materials) {
-  return materials ? fmt::format("{:.1f} %", 100 * materials->result.report.coverage) : tr("none");
+  return materials ? figures("{:.1f} %", 100 * materials->result.report.coverage) : tr("none");
 }
 
 std::size_t overridesOf(const std::shared_ptr<const MaterialChoice>& materials) {
@@ -106,7 +106,7 @@ std::size_t overridesOf(const std::shared_ptr<const MaterialChoice>& materials) 
 std::string placeOf(const Georeference& g) {
   if (!g.map_from_file) return tr("none");
   const auto& c = *g.map_from_file;
-  return fmt::format("{:.3f}  {:.3f}  {:.3f} m", c.eastings_m, c.northings_m, c.orthogonal_height_m);
+  return figures("{:.3f}  {:.3f}  {:.3f} m", c.eastings_m, c.northings_m, c.orthogonal_height_m);
 }
 
 }  // namespace

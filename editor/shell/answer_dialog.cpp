@@ -43,7 +43,7 @@ std::string scalarText(const json& value) {
   if (value.is_null()) return "–";
   if (value.is_string()) return value.get<std::string>();
   if (value.is_boolean()) return tr(value.get<bool>() ? "yes" : "no");
-  if (value.is_number_float()) return fmt::format("{:.10g}", value.get<double>());
+  if (value.is_number_float()) return figures("{:.10g}", value.get<double>());
   return value.dump();
 }
 

@@ -138,7 +138,7 @@ bool isUnder(const ViewPen& pen, const HoleInSight& hole, bool edge_on, ImVec2 p
   });
 }
 
-std::string areaText(double area_m2) { return fmt::format("{:.{}f} m²", area_m2, area_m2 < 10 ? 1 : 0); }
+std::string areaText(double area_m2) { return figures("{:.{}f} m²", area_m2, area_m2 < 10 ? 1 : 0); }
 
 std::string aboutHole(const PlanPatch& hole) {
   auto text = trf("Not covered: {} of {}", areaText(hole.area_m2),

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/shell/inspect_tools.h"
 
-#include <fmt/format.h>
-
 #include "editor/shell/editor.h"
 #include "editor/shell/label_board.h"
 #include "editor/shell/view_pen.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keyboard.h"
 #include "editor/widgets/theme.h"
+#include "editor/words/figures.h"
 #include "editor/words/sentences.h"
 #include "editor/words/words.h"
 #include "project/survey/measure_verb.h"
@@ -74,9 +73,9 @@ void drawKept(Editor& editor, const ViewPen& pen, LabelBoard& labels) {
     const auto& m = (*kept)[i];
     const bool chosen = editor.survey.measurement == static_cast<int>(i);
     drawShape(pen, editor, m, toneOf(chosen));
+    const auto result = figuresIn(figureText(figuresOf(m)[0]));
     if (const auto at = pen.at(labelPlace(m)); at && editor.view.labels)
-      labels.over({LabelKind::measurement, i}, *at,
-                  {m.name + "   " + figureText(figuresOf(m)[0]), figureText(figuresOf(m)[0])},
+      labels.over({LabelKind::measurement, i}, *at, {m.name + "   " + result, result},
                   chosen ? tone::kAccent : tone::kText, chosen);
   }
 }
@@ -95,7 +94,7 @@ void drawUnfinished(const Editor& editor, const ViewPen& pen, LabelBoard& labels
   drawShape(pen, editor, *so_far, tone::kAccent);
   std::string text;
   for (const auto& figure : figuresOf(*so_far))
-    text += (text.empty() ? "" : "\n") + std::string(figure.label) + "  " + figureText(figure);
+    text += (text.empty() ? "" : "\n") + std::string(figure.label) + "  " + figuresIn(figureText(figure));
   if (const auto at = pen.at(so_far->points.back())) labels.over({LabelKind::measuring, 0}, *at, {text}, tone::kText);
 }
 

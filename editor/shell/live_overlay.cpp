@@ -31,21 +31,21 @@ constexpr ImU32 kReadoutGround = IM_COL32(24, 26, 30, 220), kTooFastGround = IM_
 constexpr float kLineGap_pt = 12, kBannerRims_pt = 32;
 
 std::string paceText(const WalkPace& pace) {
-  return fmt::format("{:.1f} m/s   {:.0f}°/s", pace.speed_mps(), pace.turn_radps() / kRadPerDeg);
+  return figures("{:.1f} m/s   {:.0f}°/s", pace.speed_mps(), pace.turn_radps() / kRadPerDeg);
 }
 
 // As much of it as one line has room for.
 std::string scanningText(const Editor& editor, float room) {
   const auto& recording = editor.recording;
-  const LiveFigures& figures = recording.live.figures();
-  if (!figures.problem.empty()) return trf("No live points: {}. The walk is recorded.", figures.problem);
+  const LiveFigures& scan = recording.live.figures();
+  if (!scan.problem.empty()) return trf("No live points: {}. The walk is recorded.", scan.problem);
   const std::string gap = "   ";
   const std::string walked =
-      durationText(recording.record.seconds()) + gap + fmt::format("{:.1f} m", recording.record.length_m());
-  const std::string points = trf("{} points", groupedDigits(figures.points));
+      durationText(recording.record.seconds()) + gap + figures("{:.1f} m", recording.record.length_m());
+  const std::string points = trf("{} points", groupedDigits(scan.points));
   const std::string rate =
-      trf("{} per second", groupedDigits(1000 * static_cast<std::uint64_t>(figures.points_per_s / 1000 + 0.5)));
-  const std::string thinned = figures.one_pulse_in > 1 ? gap + trf("1 pulse in {}", figures.one_pulse_in) : "";
+      trf("{} per second", groupedDigits(1000 * static_cast<std::uint64_t>(scan.points_per_s / 1000 + 0.5)));
+  const std::string thinned = scan.one_pulse_in > 1 ? gap + trf("1 pulse in {}", scan.one_pulse_in) : "";
   const std::string pace = gap + paceText(recording.pace), begin = tr("Live preview") + gap + walked + gap + points;
   for (const auto& text : {begin + gap + rate + thinned + pace, begin + thinned + pace})
     if (ImGui::CalcTextSize(text.c_str()).x <= room) return text;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <fmt/format.h>
 #include <imgui.h>
 
 #include "editor/shell/editor.h"
@@ -176,10 +175,10 @@ void tellTargetHere(Editor& editor, Pen& pen) {
   std::string text = tr(article.label);
   for (const auto& station : job->stations) {
     const auto sight = sightFrom(station, *scene, target, kinds->rules, settings);
-    text += fmt::format("\n{}   {:.1f} m   {}", station.name, sight.distance_m,
-                        !sight.why_not.empty() ? sight.why_not
-                        : sight.points         ? trf("about {:.0f} points", *sight.points)
-                                               : tr("in sight"));
+    text += figures("\n{}   {:.1f} m   {}", station.name, sight.distance_m,
+                    !sight.why_not.empty() ? sight.why_not
+                    : sight.points         ? trf("about {:.0f} points", *sight.points)
+                                           : tr("in sight"));
   }
   ImGui::SetTooltip("%s", text.c_str());
 }

@@ -8,8 +8,6 @@
 #include <numbers>
 #include <string>
 
-#include <fmt/format.h>
-
 #include "editor/shell/actions.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/live_overlay.h"
@@ -44,7 +42,7 @@ bool moves(const Editor& editor) { return editor.view.tool == Tool::walk || edit
 std::string placeText(const Editor& editor, const Eigen::Vector3d& local) {
   const auto toCentimetre = [](double x) { return std::round(100 * x) / 100 + 0.0; };
   const Eigen::Vector3d p = (local + editor.shift_m()).unaryExpr(toCentimetre);
-  return fmt::format("{:.2f}  {:.2f}  {:.2f} m", p.x(), p.y(), p.z());
+  return figures("{:.2f}  {:.2f}  {:.2f} m", p.x(), p.y(), p.z());
 }
 
 std::string walkLine(const Editor& editor) {
@@ -207,7 +205,7 @@ float drawMovingLine(const Editor& editor, ImVec2 origin, ImVec2 size, float abo
   if (editor.walk.active())
     words = walkLine(editor);
   else if (editor.view.tool == Tool::fly)
-    words = placeText(editor, editor.view.camera.eye()) + fmt::format("   {:.1f} m/s", editor.fly.speed_mps(false));
+    words = placeText(editor, editor.view.camera.eye()) + figures("   {:.1f} m/s", editor.fly.speed_mps(false));
   return words.empty() ? 0 : drawBanner(editor, origin, size, words, above_pt, IM_COL32(24, 26, 30, 220));
 }
 

@@ -119,10 +119,10 @@ void cutChip(Editor& editor) {
     const auto& storeys = editor.storeys();
     for (std::size_t i = storeys.size(); i-- > 0;) {
       const double height = storeys[i].elevation_m + kCutAboveFloor_m;
-      if (ImGui::Selectable(fmt::format("{}   {:+.2f} m###storey{}", storeyName(editor, storeys[i]),
-                                        storeys[i].elevation_m + shift, i)
-                                .c_str(),
-                            cut && std::abs(*cut - height) < 1e-6))
+      if (ImGui::Selectable(
+              figures("{}   {:+.2f} m###storey{}", storeyName(editor, storeys[i]), storeys[i].elevation_m + shift, i)
+                  .c_str(),
+              cut && std::abs(*cut - height) < 1e-6))
         wanted = height;
     }
     if (wanted) {

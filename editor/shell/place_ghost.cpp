@@ -92,7 +92,7 @@ std::vector<FigureRow> figureRows(const Editor& editor, const PlaceForecast& for
   if (forecast.overlaps.empty() && editor.session.document().job->stations.size() > 1)
     rows.push_back({"Overlap", "no station nearby", Verdict::warn});
   if (forecast.spacing_m)
-    rows.push_back({"Spacing, 95 %", fmt::format("{:.1f} mm", *forecast.spacing_m * 1000),
+    rows.push_back({"Spacing, 95 %", figures("{:.1f} mm", *forecast.spacing_m * 1000),
                     placeFigureVerdict("spacing", *forecast.spacing_m * 1000)});
   if (forecast.incidence_rad)
     rows.push_back({"Incidence, 95 %", fmt::format("{:.0f}°", *forecast.incidence_rad / kRadPerDeg),

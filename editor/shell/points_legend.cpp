@@ -3,11 +3,10 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "editor/shell/editor.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/figures.h"
 #include "editor/words/words.h"
 
 namespace standpoint {
@@ -17,8 +16,8 @@ namespace {
 constexpr std::size_t kMostClasses = 10;
 
 std::string shareText(std::uint64_t points, std::uint64_t all) {
-  return fmt::format("{:.1f} %",
-                     100.0 * static_cast<double>(points) / static_cast<double>(std::max<std::uint64_t>(1, all)));
+  return figures("{:.1f} %",
+                 100.0 * static_cast<double>(points) / static_cast<double>(std::max<std::uint64_t>(1, all)));
 }
 
 void drawGround(const Editor& editor, ImVec2 at, ImVec2 size) {
@@ -60,9 +59,10 @@ void drawScale(const Editor& editor, const PointLegend& legend, ImVec2 origin, I
   for (std::size_t i = 0; i < legend.ticks.size(); ++i) {
     const auto x = at.x + width * static_cast<float>((legend.ticks[i] - legend.low) / (legend.high - legend.low));
     list.AddLine({x, y + bar}, {x, y + bar + editor.px(4)}, tone::kText, editor.px(1));
-    const float half = ImGui::CalcTextSize(legend.tick_texts[i].c_str()).x / 2;
+    const std::string text = asFigure(legend.tick_texts[i]);
+    const float half = ImGui::CalcTextSize(text.c_str()).x / 2;
     list.AddText({std::clamp(x - half, at.x, at.x + std::max(0.0F, wide - 2 * half)), y + bar + editor.px(5)},
-                 tone::kText, legend.tick_texts[i].c_str());
+                 tone::kText, text.c_str());
   }
   list.AddText({at.x, y + bar + editor.px(6) + line}, tone::kDim, clamped.c_str());
 }

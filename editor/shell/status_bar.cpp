@@ -22,7 +22,7 @@ namespace standpoint {
 namespace {
 
 std::string placeText(const Eigen::Vector3d& place) {
-  return fmt::format("{:.3f}  {:.3f}  {:.3f} m", place.x(), place.y(), place.z());
+  return figures("{:.3f}  {:.3f}  {:.3f} m", place.x(), place.y(), place.z());
 }
 
 // What a tool measures there, else the product under the pointer.

@@ -152,7 +152,7 @@ void drawObstacles(const ViewPen& pen, LabelBoard& labels, const TrajectoryWay& 
     if (named)
       labels.over({LabelKind::obstacle, i}, *at,
                   {trf("{} after {:.1f} s", way.obstacle_products[i], way.obstacles[i].after_s),
-                   fmt::format("{:.1f} s", way.obstacles[i].after_s)},
+                   figures("{:.1f} s", way.obstacles[i].after_s)},
                   tone);
   }
 }
@@ -226,7 +226,7 @@ void drawRibbonScale(const Editor& editor, RibbonColour by, ImVec2 origin) {
                        {x + width * static_cast<float>(i + 1) / kSteps, y + height},
                        packed(viridis((i + 0.5) / kSteps)));
   list.AddText({x, y + height + editor.px(2)}, tone::kDim, "0");
-  const std::string most = fmt::format("{:.3g} {}", scale.most, named->unit);
+  const std::string most = figures("{:.3g} {}", scale.most, named->unit);
   list.AddText({x + width - ImGui::CalcTextSize(most.c_str()).x, y + height + editor.px(2)}, tone::kDim, most.c_str());
 }
 
@@ -305,7 +305,7 @@ void drawNextWaypoint(Editor& editor, ImVec2 origin) {
   std::string text = refused ? refused->brief : trf("Waypoint {}", draft.waypoints.size() + 1);
   const auto* way = editor.trajectory_ways.draft();
   if (!refused && way != nullptr && draft.waypoints.size() >= 2)
-    text += way->problem.empty() ? fmt::format("   {:.1f} m   {}", way->length_m, durationText(way->seconds))
+    text += way->problem.empty() ? figures("   {:.1f} m   {}", way->length_m, durationText(way->seconds))
                                  : "   " + way->problem;
   const ImVec2 pointer = ImGui::GetIO().MousePos;
   pen.plate({pointer.x + editor.px(20), pointer.y + editor.px(16)}, verdictSign(verdict), verdictTone(verdict),

@@ -6,14 +6,15 @@
 #include <string>
 #include <unordered_map>
 
-#include <fmt/format.h>
 #include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
 #include "editor/widgets/keyboard.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/figures.h"
 #include "editor/words/sentences.h"
+#include "editor/words/words.h"
 
 namespace standpoint::ui {
 
@@ -61,7 +62,7 @@ std::string shownText(double value, const NumberFormat& format) {
   if (value == 0 && format.zero != nullptr) return tr(format.zero);
   if (format.kind.whole) return exactText(value);
   const bool lost = value != 0 && std::abs(value) < std::pow(10.0, -format.decimals) / 2;  // 0.00 would be wrong
-  return format.decimals < 0 || lost ? fmt::format("{:.6g}", value) : fmt::format("{:.{}f}", value, format.decimals);
+  return format.decimals < 0 || lost ? figures("{:.6g}", value) : figures("{:.{}f}", value, format.decimals);
 }
 
 Result<double> typedNumber(const std::string& text, const NumberFormat& format) {
@@ -217,7 +218,7 @@ bool numberField(const char* id, double& value, const NumberFormat& format, cons
   ImGui::BeginGroup();
   const ImGuiID item = ImGui::GetID(id);
   Draft* draft = draftOf(item, value);
-  const std::string before = draft != nullptr ? draft->text : exactText(value);
+  const std::string before = draft != nullptr ? draft->text : asFigure(exactText(value));
   std::string text = before;
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImRect frame(at, {at.x + width, at.y + ImGui::GetFrameHeight()});

@@ -462,9 +462,9 @@ void fitted(const Text& text, float width) {
 
 }  // namespace ui
 
-std::string metres(double value, int decimals) { return fmt::format("{:.{}f} m", value, decimals); }
+std::string metres(double value, int decimals) { return figures("{:.{}f} m", value, decimals); }
 
-std::string coordinates(const Eigen::Vector3d& v) { return fmt::format("{:.3f}  {:.3f}  {:.3f}", v.x(), v.y(), v.z()); }
+std::string coordinates(const Eigen::Vector3d& v) { return figures("{:.3f}  {:.3f}  {:.3f}", v.x(), v.y(), v.z()); }
 
 std::string durationText(double seconds) {
   const auto whole = std::llround(seconds);

@@ -2,16 +2,20 @@
 #include "editor/words/sentences.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/args.h>
 
 #include "core/data_folder.h"
 #include "core/report_words.h"
+#include "editor/words/figures.h"
 #include "editor/words/words.h"
 
 namespace standpoint {
@@ -28,8 +32,8 @@ std::size_t endOfPlace(std::string_view until, std::string_view text, std::strin
 
 // What stands in the places of a pattern; nothing where the text is not of it. A place takes as little as it can, and
 // nothing only at the end.
-std::optional<std::vector<std::string>> placesIn(std::string_view text, std::string_view pattern) {
-  std::vector<std::string> places;
+std::optional<std::vector<std::string_view>> placesIn(std::string_view text, std::string_view pattern) {
+  std::vector<std::string_view> places;
   while (true) {
     const auto place = pattern.find("{}");
     if (place == std::string_view::npos) {
@@ -44,7 +48,7 @@ std::optional<std::vector<std::string>> placesIn(std::string_view text, std::str
                      : until == pattern ? text.rfind(until)
                                         : endOfPlace(until, text, pattern.substr(until.size()));
     if (end == std::string_view::npos || (end == 0 && !pattern.empty())) return std::nullopt;
-    places.emplace_back(text.substr(0, end));
+    places.push_back(text.substr(0, end));
     text.remove_prefix(end);
   }
 }
@@ -66,6 +70,75 @@ const ByWord& sentencesByWord() {
   return all;
 }
 
+struct Match {
+  std::string_view pattern;  // empty: none
+  std::vector<std::string_view> places;
+};
+
+// The sentence with the most words of its own that the text is.
+Match matchOf(std::string_view english) {
+  Match nearest;
+  for (const auto word : {firstWord(english), std::string_view()}) {
+    const auto known = sentencesByWord().find(word);
+    if (known == sentencesByWord().end()) continue;
+    for (const auto pattern : known->second) {
+      if (pattern.size() <= nearest.pattern.size() || !english.ends_with(pattern.substr(pattern.rfind("{}") + 2)))
+        continue;
+      if (auto found = placesIn(english, pattern)) nearest = {pattern, std::move(*found)};
+    }
+  }
+  return nearest;
+}
+
+// What has a figure without a unit behind it. Elsewhere a number without a unit may be the name of a room: "1.01".
+bool announcesFigure(std::string_view before) {
+  static constexpr std::array<std::string_view, 12> kWords = {
+      "scale ",  "confidence ", "refraction ",  "transmission ", "length ", "factor ",
+      "height ", "floor at ",   "floor is at ", "score ",        "least ",  "most "};
+  return std::any_of(kWords.begin(), kWords.end(), [&](auto word) { return before.ends_with(word); });
+}
+
+// Figures that are drawn have the decimal sign of the language; a report's other figures have the point, and so have
+// those of its sentences.
+enum class Sign { of_language, point };
+
+struct Said {
+  std::string text;
+  bool name_first = false;  // it begins with what stands in a place, and has no translation
+};
+Said said(std::string_view english, Sign sign);
+
+// What stands in a place, in the language that is spoken. In quotes is what somebody has typed.
+std::string inPlace(std::string_view sentence, std::string_view place, Sign sign) {
+  const auto begin = static_cast<std::size_t>(place.data() - sentence.data());
+  const auto before = sentence.substr(0, begin);
+  const bool typed = before.ends_with('\'') && place.find('.') != std::string_view::npos;
+  if (place == sentence || typed) return tr(place);
+  if (sign == Sign::point || !isFigure(place)) return said(place, sign).text;
+  return hasUnit(sentence, begin + place.size()) || announcesFigure(before) ? asFigure(std::string(place))
+                                                                            : std::string(place);
+}
+
+bool beginsWithName(const Match& match, const std::vector<std::string>& places) {
+  const auto translation = tr(match.pattern);
+  if (!translation.starts_with('{')) return false;
+  const auto number = translation.size() > 1 && std::isdigit(static_cast<unsigned char>(translation[1])) != 0
+                          ? static_cast<std::size_t>(translation[1] - '0')
+                          : 0;
+  return number < places.size() && places[number] == match.places[number];
+}
+
+Said said(std::string_view english, Sign sign) {
+  if (auto whole = tr(english); whole != english || spoken() == "en") return {std::move(whole)};
+  const auto match = matchOf(english);
+  if (match.places.empty()) return {sign == Sign::point ? std::string(english) : figuresIn(std::string(english))};
+  std::vector<std::string> places;
+  for (const auto place : match.places) places.push_back(inPlace(english, place, sign));
+  fmt::dynamic_format_arg_store<fmt::format_context> arguments;
+  for (const auto& place : places) arguments.push_back(std::cref(place));
+  return {trFormatted({match.pattern.data(), match.pattern.size()}, arguments), beginsWithName(match, places)};
+}
+
 }  // namespace
 
 const std::vector<std::string>& sentences() {
@@ -74,31 +147,17 @@ const std::vector<std::string>& sentences() {
   return all;
 }
 
-std::string trSentence(std::string_view english) {
-  if (const auto whole = tr(english); whole != english || spoken() == "en") return whole;
-  std::string_view nearest;  // with the most words of its own
-  std::vector<std::string> places;
-  for (const auto word : {firstWord(english), std::string_view()}) {
-    const auto known = sentencesByWord().find(word);
-    if (known == sentencesByWord().end()) continue;
-    for (const auto pattern : known->second) {
-      if (pattern.size() <= nearest.size() || !english.ends_with(pattern.substr(pattern.rfind("{}") + 2))) continue;
-      if (auto found = placesIn(english, pattern)) nearest = pattern, places = std::move(*found);
-    }
-  }
-  if (places.empty()) return std::string(english);
-  fmt::dynamic_format_arg_store<fmt::format_context> arguments;
-  for (const auto& place : places) arguments.push_back(place == english ? place : trSentence(place));
-  return trFormatted({nearest.data(), nearest.size()}, arguments);
-}
+std::string trSentence(std::string_view english) { return said(english, Sign::of_language).text; }
 
 void printReportsAsSpoken() {
-  printReportsIn(std::make_shared<const ReportWords>(
-      ReportWords{[] { return std::string(spoken()); }, [](std::string_view english) { return trSentence(english); }}));
+  printReportsIn(std::make_shared<const ReportWords>(ReportWords{
+      [] { return std::string(spoken()); }, [](std::string_view english) { return said(english, Sign::point).text; }}));
 }
 
 std::string shownSentence(std::string_view english) {
-  std::string text = trSentence(english);
+  Said shown = said(english, Sign::of_language);
+  std::string text = std::move(shown.text);
+  if (shown.name_first) return text;
   const auto word = text.substr(0, text.find(' '));
   const auto isLetter = [](unsigned char c) { return std::isalpha(c) != 0 || c == '-'; };
   const auto letters = word.ends_with(':') || word.ends_with(',') ? word.size() - 1 : word.size();

@@ -15,11 +15,11 @@ namespace standpoint {
 const std::vector<std::string>& sentences();
 
 // Such a sentence in the language that is spoken; what stands in a place is translated where it is a text or a sentence
-// itself. Others stay English.
+// itself, and a figure where it has a unit. Others stay English, with their figures as the language writes them.
 std::string trSentence(std::string_view english);
 
 // The same as the interface shows it: as a sentence it begins with a capital, unless its first word is a name, an
-// option or a unit.
+// option or a unit. Names stay as they were typed.
 std::string shownSentence(std::string_view english);
 
 // describe(error), with its message so.

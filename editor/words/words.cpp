@@ -22,12 +22,13 @@ namespace standpoint {
 
 namespace {
 
-constexpr std::array kLanguages = {Language{"en", "English"}, Language{"de", "Deutsch"}, Language{"uk", "Українська"}};
+constexpr std::array kLanguages = {Language{"en", "English", '.'}, Language{"de", "Deutsch", ','},
+                                   Language{"uk", "Українська", ','}};
 
 using Messages = boost::locale::message_format<char>;
 
 // The catalogue of one language. It is made without std::locale's name, so no locale needs to be generated on the
-// machine, and it is never the global locale, so that numbers are written as ever.
+// machine, and it is never the global locale, so that numbers in files are written as ever.
 struct Catalogue {
   const Language* language = &kLanguages.front();
   std::locale held = std::locale::classic();
@@ -66,6 +67,11 @@ const Language* languageOf(std::string_view code) {
   const auto found =
       std::find_if(kLanguages.begin(), kLanguages.end(), [&](const Language& l) { return code == l.code; });
   return found == kLanguages.end() ? nullptr : &*found;
+}
+
+const Language& spokenLanguage() {
+  const auto* catalogue = current.load();
+  return catalogue == nullptr ? kLanguages.front() : *catalogue->language;
 }
 
 const char* variable(const char* name) {
@@ -163,10 +169,8 @@ void speak(std::string_view code) {
   current = known == nullptr ? nullptr : &catalogues()[static_cast<std::size_t>(known - kLanguages.data())];
 }
 
-std::string_view spoken() {
-  const auto* catalogue = current.load();
-  return catalogue == nullptr ? kLanguages.front().code : catalogue->language->code;
-}
+std::string_view spoken() { return spokenLanguage().code; }
+char decimalSign() { return spokenLanguage().decimal_sign; }
 
 std::vector<std::string> catalogueOfContext(const std::filesystem::path& file, std::string_view context) {
   std::ifstream in(file, std::ios::binary);

@@ -3,6 +3,7 @@
 
 #include "editor/widgets/keyboard.h"
 #include "editor/widgets/number_field.h"
+#include "editor/words/words.h"
 #include "item_probe.h"
 
 namespace standpoint {
@@ -187,6 +188,28 @@ TEST_F(NumberField, AClickWithControlOnTheBarGoesIntoTheField) {
   gui.type("2");
   gui.key(kKeyEnter);
   EXPECT_EQ(pulled, 2);
+}
+
+TEST_F(NumberField, HasTheDecimalSignOfTheLanguageAndReadsEither) {
+  speak("de");
+  EXPECT_TRUE(gui.says("1,25"));
+  EXPECT_TRUE(gui.says("5,0")) << "a slider";
+  ASSERT_TRUE(gui.click("###length"));
+  EXPECT_TRUE(gui.says("1,25")) << "while it is edited";
+  for (const auto* typed : {"2,5", "2.5"}) {
+    gui.type(typed);
+    gui.key(kKeyEnter);
+    EXPECT_EQ(length, 2.5) << typed;
+    EXPECT_TRUE(gui.says("2,50"));
+    length = 1.0 / 3;
+    gui.frames(2);
+    ASSERT_TRUE(gui.click("###length"));
+  }
+  gui.key(kTab);
+  gui.frames(2);
+  EXPECT_EQ(length, 1.0 / 3) << "only visited";
+  speak("en");
+  EXPECT_TRUE(gui.says("0.33"));
 }
 
 }  // namespace

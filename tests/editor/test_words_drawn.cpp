@@ -2,6 +2,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <regex>
 #include <set>
@@ -23,6 +24,9 @@
 #include "editor/words/words.h"
 #include "item_probe.h"
 #include "project/materials/material_findings.h"
+#include "project/survey/measure_verb.h"
+#include "project/survey/survey_verbs.h"
+#include "tests/temporary_folder.h"
 
 namespace standpoint {
 namespace {
@@ -146,6 +150,25 @@ class DrawnWords : public ::testing::Test {
     return next != known.end() && next->starts_with(word);
   }
 
+  // Each panel in each of its workspaces, with a product, a station and a target chosen.
+  void eachPanel(const std::function<void(const char* id)>& looks) {
+    for (const auto& panel : panels())
+      for (int w = 0; w < kWorkspaces; ++w) {
+        const Area area = panel.area[static_cast<std::size_t>(w)];
+        if (area == Area::none) continue;
+        editor.workspace = static_cast<Workspace>(w);
+        editor.wanted_tab[static_cast<std::size_t>(area)] = panel.id;
+        editor.survey = {};
+        editor.select(1, true);
+        looks(panel.id);
+        editor.survey.station = 0;
+        looks(panel.id);
+        editor.survey = {};
+        editor.survey.target = 0;
+        looks(panel.id);
+      }
+  }
+
   // Draws, and notes what was drawn without having been asked for.
   void look(const std::string& where) {
     itemProbe().texts.clear();
@@ -181,21 +204,7 @@ TEST_F(DrawnWords, AreAllAskedForInPanelsMenusAndDialogs) {
       ASSERT_TRUE(editor.session.start("materials", nlohmann::json::object()));
       gui.settle();
     }
-    for (const auto& panel : panels())
-      for (int w = 0; w < kWorkspaces; ++w) {
-        const Area area = panel.area[static_cast<std::size_t>(w)];
-        if (area == Area::none) continue;
-        editor.workspace = static_cast<Workspace>(w);
-        editor.wanted_tab[static_cast<std::size_t>(area)] = panel.id;
-        editor.survey = {};
-        editor.select(1, true);
-        look(panel.id);
-        editor.survey.station = 0;
-        look(panel.id);
-        editor.survey = {};
-        editor.survey.target = 0;
-        look(panel.id);
-      }
+    eachPanel([this](const char* panel) { look(panel); });
   }
   const auto empty = std::filesystem::path(BINARY_DIR) / "test_editor_words";
   std::filesystem::create_directories(empty);
@@ -244,6 +253,105 @@ TEST_F(DrawnWords, AreAllAskedForInPanelsMenusAndDialogs) {
       missing.insert(text);
   }
   EXPECT_THAT(missing, IsEmpty()) << "add them to editor/words/*.po:" << oneALine(missing);
+}
+
+// A project with results of most kinds. What a file or a person has named keeps its points: "1.01" is a room.
+TEST_F(DrawnWords, HaveNoDecimalPointInGerman) {
+  speakThrough(nullptr);
+  speak("de");
+  open();
+  const TemporaryFolder folder;
+  const Eigen::Vector3d corner = editor.shift_m();
+  const auto does = [&](auto options) {
+    ASSERT_TRUE(editor.session.start(std::move(options)));
+    gui.settle();
+    ASSERT_TRUE(editor.session.errors().empty()) << describe(editor.session.errors().front().error);
+  };
+  ASSERT_TRUE(editor.session.start("materials", nlohmann::json::object()));
+  gui.settle();
+  ASSERT_NO_FATAL_FAILURE(does(MeasureOptions{.add = "M1", .points = {corner, corner + Eigen::Vector3d(1.25, 0, 0)}}));
+  ASSERT_NO_FATAL_FAILURE(
+      does(TrajectoryOptions{.add = "W1", .through = {"500001,5800001", "500004.2,5800001", "500004.2,5800005:2.5"}}));
+  ASSERT_NO_FATAL_FAILURE(does(PlanOptions{.instrument = "leica-rtc360", .samples = 5000}));
+  ASSERT_NO_FATAL_FAILURE(does(ScanVerbOptions{.instrument = "faro-focus-s350",
+                                               .settings = {{"resolution", "1/20"}, {"quality", "4x"}},
+                                               .ideal = true,
+                                               .output = folder / "scan.e57"}));
+  ASSERT_TRUE(editor.session.start("assess", nlohmann::json::object()));
+  gui.settle();
+
+  std::string named;
+  for (const auto& product : editor.environment()->products) {
+    named += product.name + "\n" + product.type_name + "\n" + product.storey + "\n";
+    for (const auto& p : product.properties) named += p.value + "\n";
+  }
+  static const std::regex point(R"(\d\.\d)"), file_or_version(R"(\w*\d\.\d[.\d]*\.\w+|IFC[\d.]+|\d+(\.\d+){2,})");
+  std::set<std::string> pointed;
+  std::size_t with_comma = 0;
+  const auto looks = [&](const std::string& where) {
+    itemProbe().texts.clear();
+    itemProbe().listens = true;
+    gui.frames(2);
+    itemProbe().listens = false;
+    for (const auto& text : itemProbe().texts) {
+      static const std::regex comma(R"(\d,\d)");
+      if (std::regex_search(text, comma)) ++with_comma;
+      if (!std::regex_search(std::regex_replace(text, file_or_version, ""), point)) continue;
+      if (named.find(text + "\n") == std::string::npos) pointed.insert(where + ": " + text);
+    }
+  };
+  for (const auto mode : {ColourMode::model, ColourMode::reflectance, ColourMode::confidence, ColourMode::coverage,
+                          ColourMode::coverage_spacing, ColourMode::expected_intensity, ColourMode::expected_fate}) {
+    editor.view.colour = mode;
+    looks("view");
+  }
+  editor.view.colour = ColourMode::model;
+  eachPanel(looks);
+  editor.workspace = Workspace::survey;
+  editor.wanted_tab[1] = "inspector";
+  editor.survey = {};
+  editor.survey.trajectory = 0;
+  editor.trajectory_ways.wait();
+  looks("trajectory");
+  editor.workspace = Workspace::inspect;
+  editor.wanted_tab[1] = "measure";
+  editor.survey = {};
+  editor.survey.measurement = 0;
+  looks("measurement");
+  const auto* view = ImGui::FindWindowByName("###viewport");
+  gui.moveTo({view->Pos.x + view->Size.x / 2, view->Pos.y + view->Size.y / 2});
+  gui.settle();
+  looks("status line");
+  static const std::regex place(R"(.*\d,\d{3}  -?\d+,\d{3}  -?\d+,\d{3} m)");
+  EXPECT_TRUE(std::any_of(itemProbe().texts.begin(), itemProbe().texts.end(), [](const std::string& text) {
+    return std::regex_match(text, place);
+  })) << "under the pointer";
+  for (const auto by : {ColourBy::intensity, ColourBy::range, ColourBy::height, ColourBy::incidence}) {
+    editor.view.points_by = by;
+    looks("points");
+  }
+  for (const char* action : {"palette", "preferences", "about"}) {
+    ASSERT_TRUE(invoke(editor, action)) << action;
+    looks(action);
+    editor.dialogs = DialogStates();
+    gui.frames(2);
+  }
+  for (const auto& verb : editor.session.verbs()) {
+    const std::string_view name = verb.name;
+    if (name == "demo" || name.ends_with("-project") || name.ends_with("-recovery")) continue;
+    openVerbForm(editor, verb.name);
+    looks(verb.name);
+    editor.dialogs = DialogStates();
+    gui.frames(2);
+  }
+  for (const auto tool : {Tool::placeStation, Tool::placeRow, Tool::placeTarget, Tool::measure, Tool::pickWall,
+                          Tool::pickSection, Tool::takeMaterial, Tool::paintMaterial, Tool::layWay}) {
+    editor.view.tool = tool;
+    looks("tool");
+  }
+  EXPECT_GT(with_comma, 200U);
+  EXPECT_THAT(pointed, IsEmpty()) << "give them to figures, trf, or figuresIn:" << oneALine(pointed);
+  speak("en");
 }
 
 TEST_F(DrawnWords, OfEveryActionHaveATranslation) {
