@@ -103,7 +103,7 @@ void drawStations(const Model& model, const PlanAnswer& answer) {
     }
   };
   for (const auto& s : answer.stations) row(s.station, fmt::format("{:.0f} m²", s.seen_m2), s.points, s.bytes);
-  row("all", percent(answer.coverage), answer.points, answer.bytes);
+  row(tr("All"), percent(answer.coverage), answer.points, answer.bytes);
   ImGui::EndTable();
   ui::dimText(trf("Time on site: {}", durationText(answer.instrument_seconds)));
 }

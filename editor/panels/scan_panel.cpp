@@ -73,7 +73,9 @@ bool drawNumber(const InstrumentSetting& setting, std::string& text) {
   double number = std::strtod(text.c_str(), nullptr);
   const std::string_view unit = setting.unit == "deg" ? std::string_view("°") : std::string_view(setting.unit);
   const NumberKind kind{.unit = unit, .least = setting.minimum, .most = setting.maximum};
-  if (!ui::numberField("###value", number, {.kind = kind}, rangeText(kind).c_str())) return false;
+  std::string range = rangeText(kind);
+  if (!range.empty()) range = trSentence("Allowed: " + range);
+  if (!ui::numberField("###value", number, {.kind = kind}, range.c_str())) return false;
   text = exactText(number);
   return true;
 }

@@ -205,6 +205,7 @@ bool button(const char* label, const std::string& why, ImVec2 size, const char* 
 }
 
 bool primaryButton(const char* label, const std::string& why, ImVec2 size) {
+  if (!why.empty()) return button(label, why, size);  // thinned letters on a thinned blue are hard to read
   ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.17F, 0.41F, 0.74F, 1));
   ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ImVec4(0.22F, 0.48F, 0.84F, 1));
   ImGui::PushStyleColor(ImGuiCol_ButtonActive, ImVec4(0.14F, 0.36F, 0.66F, 1));

@@ -72,6 +72,8 @@ TEST_F(DrawnFigures, AreThoseOfASentenceThatHaveAUnit) {
   EXPECT_EQ(trSentence("is no sentence: 0.5 m of 1.5.e57"), "is no sentence: 0,5 m of 1.5.e57");
   speak("en");
   EXPECT_EQ(trSentence("Moved station S1 by 0.35 m"), "Moved station S1 by 0.35 m");
+  EXPECT_EQ(trSentence("Allowed: 0.05 to 1 m"), "Erlaubt: 0,05 bis 1 m");
+  EXPECT_EQ(trSentence("Allowed: 0.5 m or more"), "Erlaubt: mindestens 0,5 m");
 }
 
 TEST_F(DrawnFigures, AreFoundByTheirUnits) {
