@@ -183,9 +183,9 @@ void livePointChips(Editor& editor) {
   auto& live = editor.recording.live;
   if (live.empty()) return;
   if (!editor.walk.active()) ImGui::NewLine();
-  const std::string label = ICON_PAINT "  " + tr(liveColourName(live.colour()));
-  ImGui::SetNextItemWidth(chipWidth(editor, label, 120));
-  if (ImGui::BeginCombo("###live-colour", label.c_str(), ImGuiComboFlags_NoArrowButton)) {
+  const std::string colours = ICON_PAINT "  " + tr(liveColourName(live.colour()));
+  ImGui::SetNextItemWidth(chipWidth(editor, colours, 120));
+  if (ImGui::BeginCombo("###live-colour", colours.c_str(), ImGuiComboFlags_NoArrowButton)) {
     for (const auto colour : {LiveColour::height, LiveColour::range})
       if (ImGui::Selectable(ui::Label(liveColourName(colour)), live.colour() == colour)) live.colourBy(colour);
     ImGui::EndCombo();
