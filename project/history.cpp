@@ -44,7 +44,7 @@ bool History::modified() const {
 
 std::size_t History::unsavedChanges() const {
   const std::size_t saved = saved_ == kNeverSaved ? 0 : saved_;
-  std::size_t changes = 0;
+  std::size_t changes = saved_ == kNeverSaved ? 1 : 0;  // how it began
   for (std::size_t i = std::min(saved, position_); i < std::max(saved, position_); ++i)
     if (!(entries_[i].document == entries_[i + 1].document)) ++changes;
   return changes;

@@ -416,9 +416,9 @@ void Session::succeed(VerbTask& task, Outcome outcome) {
     stayIn(project->folder, project->on_disk);
     ++revision_;
   } else if (verb_name == "open-recovery") {
-    history_ = History();                   // an empty saved value below it: what was recovered counts as unsaved
     outcome.document.name = project->name;  // it was loaded as the copy's folder
-    history_.push(std::move(outcome.document), text);
+    history_ = History(std::move(outcome.document), text);
+    history_.markUnsaved();
     stayIn(project->saved_in, stateOnDisk(project->saved_in));
     recovered_from_ = project->folder.parent_path();
     ++revision_;

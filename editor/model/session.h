@@ -169,6 +169,7 @@ class Session {
   std::filesystem::path ownFolder() const;
   std::string name() const;
   bool modified() const { return history_.modified(); }
+  std::string lastChange() const { return history_.description(history_.position()); }
   // Rises with every change of the document, for what is derived from it.
   std::uint64_t revision() const { return revision_; }
   std::uint64_t steps() const { return revision_ + noted_; }  // rises with every step, back ones too

@@ -115,7 +115,7 @@ void leave(Editor& editor) {
 void drawUnsaved(Editor& editor) {
   if (!ui::beginModal(editor, "Unsaved changes###unsaved", editor.dialogs.unsaved, 460)) return;
   ui::wrapped(trf("'{}' has unsaved changes. Last change: {}.", editor.session.name(),
-                  trSentence(editor.session.history().undoDescription())));
+                  trSentence(editor.session.lastChange())));
   ui::gap(editor, 6);
   const auto why = editor.session.whyNotSave();
   if (ui::primaryButton("Save###save", why, {editor.px(110), 0})) {
@@ -150,8 +150,7 @@ void drawChangedOnDisk(Editor& editor) {
   if (!ui::beginModal(editor, "Project changed on disk###changed", free && session.changedOnDisk(), 500)) return;
   ui::wrapped(trf("Another program has changed '{}'.", session.name()));
   if (session.modified())
-    ui::wrapped(trf("Reloading discards your unsaved changes. Last change: {}.",
-                    trSentence(session.history().undoDescription())));
+    ui::wrapped(trf("Reloading discards your unsaved changes. Last change: {}.", trSentence(session.lastChange())));
   ui::gap(editor, 6);
   if (ui::primaryButton("Reload###reload", session.whyNot("open-project"), {editor.px(110), 0})) {
     session.open(session.folder());

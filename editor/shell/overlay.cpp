@@ -368,9 +368,32 @@ ImVec2 bannerPlace(const Editor& editor, ImVec2 origin, ImVec2 size, ImVec2 text
   return {at.x, std::max(controls_end - editor.px(kBannerAbove_pt) + gap, origin.y + gap) + editor.px(above_pt)};
 }
 
-float drawBanner(const Editor& editor, ImVec2 origin, ImVec2 size, const ui::Text& words, float above_pt,
-                 ImU32 ground) {
+namespace {
+
+// What is set apart by wide gaps goes to the next line as a whole.
+std::string brokenAtGaps(std::string_view words, float room) {
+  constexpr std::string_view kGap = "   ";
+  std::string text, line;
+  while (!words.empty()) {
+    const auto end = words.find(kGap);
+    const std::string part(words.substr(0, end));
+    const std::string longer = line.empty() ? part : line + std::string(kGap) + part;
+    if (!line.empty() && ImGui::CalcTextSize(longer.c_str()).x > room) {
+      text += line + "\n";
+      line = part;
+    } else {
+      line = longer;
+    }
+    words.remove_prefix(end == std::string_view::npos ? words.size() : end + kGap.size());
+  }
+  return text + line;
+}
+
+}  // namespace
+
+float drawBanner(const Editor& editor, ImVec2 origin, ImVec2 size, const ui::Text& all, float above_pt, ImU32 ground) {
   const float pad = editor.px(kBannerPad_pt), room = size.x - 4 * pad;
+  const std::string words = brokenAtGaps(all.c_str(), room);
   const ImVec2 text = ImGui::CalcTextSize(words.c_str(), nullptr, false, room);
   const ImVec2 at = bannerPlace(editor, origin, size, text, above_pt);
   auto& list = *ImGui::GetWindowDrawList();

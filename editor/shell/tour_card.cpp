@@ -7,6 +7,7 @@
 
 #include "editor/shell/actions.h"
 #include "editor/shell/editor.h"
+#include "editor/shell/overlay.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
@@ -50,7 +51,7 @@ void drawTour(Editor& editor, ImVec2 origin, ImVec2 size) {
   editor.tour.follow(editor);
   if (!editor.tour.active() || !editor.environment()) return;
   const float width = std::min(editor.px(300), size.x - editor.px(20)), height = editor.px(152);
-  ImGui::SetCursorScreenPos({origin.x + editor.px(10), origin.y + ImGui::GetFrameHeight() + editor.px(20)});
+  ImGui::SetCursorScreenPos({origin.x + editor.px(10), controlsCorner(editor, origin).y + editor.px(10)});
   ImGui::PushStyleColor(ImGuiCol_ChildBg, tone::kOverlay);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(editor.px(12), editor.px(8)));
   ImGui::PushStyleVar(ImGuiStyleVar_ChildRounding, editor.px(6));

@@ -229,7 +229,7 @@ const std::array kView = {
            flip<&ViewportState::walkable>,
            whyNoCollision,
            isOn<&ViewportState::walkable>},
-    Action{"walk", "Walk mode (W A S D)", ICON_WALK, {'W'}, walk, whyWalkNot},
+    Action{"walk", "Walk mode", ICON_WALK, {'W'}, walk, whyWalkNot},
     Action{"fly",
            "Fly mode (again: walk)",
            ICON_PLANE,

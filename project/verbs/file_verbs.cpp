@@ -187,7 +187,10 @@ Result<Answered<ConvertAnswer>> runConvert(const Document& document, const Conve
   TRY_ASSIGN(outcome.answer.files, convertCloud(in, options.out, options.as, outcome.report, progress, counted));
   outcome.answer.points = points;
   outcome.answer.bytes = sizeOf(outcome.answer.files);
-  outcome.description = "Exported " + options.out.filename().string();
+  const auto nameOf = [&files = outcome.answer.files](std::size_t i) { return fs::path(files[i]).filename().string(); };
+  const std::size_t count = outcome.answer.files.size();
+  outcome.description = count > 1 ? fmt::format("Exported {} files, {} to {}", count, nameOf(0), nameOf(count - 1))
+                                  : "Exported " + options.out.filename().string();
   return outcome;
 }
 
