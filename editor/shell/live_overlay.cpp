@@ -203,8 +203,9 @@ void livePointChips(Editor& editor) {
                    "The real scan of this walk, with noise and trajectory error"))
       scan.run(editor);
   }
-  beside(editor, ImGui::GetFrameHeight());
+  beside(editor, chipWidth(editor, ICON_CLOSE, 0));
   const auto& drop = *findAction("drop-live-points");
+  drawPlate(editor, ImGui::GetCursorScreenPos(), {chipWidth(editor, ICON_CLOSE, 0), ImGui::GetFrameHeight()});
   if (ui::iconButton(ICON_CLOSE "###drop-live-points", drop.title, whyNot(drop, editor))) drop.run(editor);
 }
 

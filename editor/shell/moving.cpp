@@ -171,8 +171,10 @@ void movingChips(Editor& editor) {
   walkingChips(editor);
   if (editor.held.instrument.empty()) return;
   ImGui::SameLine();
-  const float side = ImGui::GetFrameHeight();
-  drawPlate(editor, ImGui::GetCursorScreenPos(), {2 * side + ImGui::GetStyle().ItemSpacing.x, side});
+  float width = ImGui::GetStyle().ItemSpacing.x;
+  for (const char* id : {"step-out-of-sight", "return-to-instrument"})
+    width += chipWidth(editor, findAction(id)->icon, 0);
+  drawPlate(editor, ImGui::GetCursorScreenPos(), {width, ImGui::GetFrameHeight()});
   actionToolButton(editor, "step-out-of-sight");
   actionToolButton(editor, "return-to-instrument");
   ImGui::NewLine();

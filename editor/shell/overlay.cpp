@@ -147,8 +147,7 @@ void cutChip(Editor& editor) {
 
 float togglesWidth(const Editor& editor) {
   float width = 4 * editor.px(2);
-  for (const char* icon : {ICON_CUBE, ICON_GRID, ICON_WALK, ICON_CUBES, ICON_EYE})
-    width += ImGui::CalcTextSize(icon).x + 2 * ImGui::GetStyle().FramePadding.x;
+  for (const char* icon : {ICON_CUBE, ICON_GRID, ICON_WALK, ICON_CUBES, ICON_EYE}) width += chipWidth(editor, icon, 0);
   return width;
 }
 

@@ -189,7 +189,7 @@ void drawEntry(Editor& editor, const Entry& entry, bool chosen, bool& done) {
   const auto flags = entry.why.empty() ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
   const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - editor.px(8);
   ImGui::SetNextItemWidth(-FLT_MIN);
-  const bool pressed = ImGui::Selectable(("###palette-" + entry.id).c_str(), chosen, flags, {0, editor.px(22)});
+  const bool pressed = ImGui::Selectable(("###palette-" + entry.id).c_str(), chosen, flags);
   ui::tooltip(tr(entry.why));
   ImGui::SameLine(editor.px(16));
   ImGui::BeginDisabled(!entry.why.empty());
@@ -253,6 +253,9 @@ void drawPalette(Editor& editor) {
   state.chosen = std::clamp(state.chosen, 0, last);
   bool done = false;
   ImGui::BeginChild("list", {0, editor.px(340)});
+  // A row reaches half of the space between rows beyond its text, the first one too.
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, editor.px(6)});
+  ImGui::SetCursorPosY(editor.px(3));
   for (int i = 0; i < static_cast<int>(shown.size()); ++i) {
     const auto& entry = shown[static_cast<std::size_t>(i)];
     drawEntry(editor, entry, i == state.chosen, done);
@@ -263,6 +266,7 @@ void drawPalette(Editor& editor) {
     }
   }
   if (shown.empty()) ui::dimText("No matches");
+  ImGui::PopStyleVar();
   ImGui::EndChild();
   if (done) {
     state.open = false;

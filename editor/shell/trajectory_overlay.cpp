@@ -236,11 +236,14 @@ void ribbonChip(Editor& editor) {
   const std::string label = trf("Path: {}", tr(named->name));
   ImGui::NewLine();
   ImGui::SetNextItemWidth(chipWidth(editor, label, 110));
-  if (!ImGui::BeginCombo("###ribbon-colour", label.c_str(), ImGuiComboFlags_NoArrowButton))
-    return ui::tooltip("By what the chosen path is coloured");
-  for (const auto& ribbon : kRibbons)
-    if (ImGui::Selectable(ui::Label(ribbon.name), ribbon.by == choice.by)) choice.by = ribbon.by;
-  ImGui::EndCombo();
+  if (ImGui::BeginCombo("###ribbon-colour", label.c_str(), ImGuiComboFlags_NoArrowButton)) {
+    for (const auto& ribbon : kRibbons)
+      if (ImGui::Selectable(ui::Label(ribbon.name), ribbon.by == choice.by)) choice.by = ribbon.by;
+    ImGui::EndCombo();
+  } else {
+    ui::tooltip("By what the chosen path is coloured");
+  }
+  ImGui::SameLine();  // else the next row would leave one out
 }
 
 // Of a field that is as wide as the chips are.
