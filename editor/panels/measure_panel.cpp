@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cctype>
+#include <string>
+
 #include <imgui.h>
 
 #include "editor/panels/actions.h"
@@ -19,6 +22,13 @@ struct MeasureState {
   std::string of, name;        // the name that the field was filled from
   std::string asked, problem;  // the title of the last task, and why it was refused
 };
+
+// As the buttons have it.
+std::string kindWord(MeasurementKind kind) {
+  std::string word = rowOf(kind).name;
+  word[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(word[0])));
+  return tr(word);
+}
 
 void drawTools(Actions& actions) {
   const float width = ui::shareOfRow(2);
@@ -50,7 +60,7 @@ void drawList(const Model& model, Actions& actions, const Measurements& measurem
   ui::copyTable("measured", [&] {
     TableRows table = {{tr("Name"), tr("Kind"), tr("Result")}};
     for (const auto& m : measurements)
-      table.push_back({m.name, rowOf(m.kind).name, figuresIn(figureText(figuresOf(m)[0]))});
+      table.push_back({m.name, kindWord(m.kind), figuresIn(figureText(figuresOf(m)[0]))});
     return table;
   });
   if (!ImGui::BeginTable("measurements", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
@@ -71,7 +81,7 @@ void drawList(const Model& model, Actions& actions, const Measurements& measurem
     ImGui::SameLine(0, 0);
     ui::fitted(m.name, ImGui::GetContentRegionAvail().x);
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(rowOf(m.kind).name);
+    ImGui::TextUnformatted(kindWord(m.kind).c_str());
     ImGui::TableNextColumn();
     ui::textRightAligned(figuresIn(figureText(figuresOf(m)[0])));
     ImGui::PopID();
