@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cctype>
 #include <string>
 
 #include <imgui.h>
 
+#include "editor/model/option_form.h"
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
 #include "editor/widgets/icons.h"
@@ -24,11 +24,7 @@ struct MeasureState {
 };
 
 // As the buttons have it.
-std::string kindWord(MeasurementKind kind) {
-  std::string word = rowOf(kind).name;
-  word[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(word[0])));
-  return tr(word);
-}
+std::string kindWord(MeasurementKind kind) { return tr(readableOption(rowOf(kind).name)); }
 
 void drawTools(Actions& actions) {
   const float width = ui::shareOfRow(2);
