@@ -23,9 +23,7 @@ void PointWriter::begin(PointBlock& block) {
 }
 
 void PointWriter::beginColumn(const ColumnHits& column) {
-  column_ = column.column();
   hits_ = &column;
-  moving_ = column.moving();
   column_begin_ = size_;
   makeRoom(plan_.settings.rows);
 }
@@ -34,7 +32,7 @@ void PointWriter::beginColumn(const ColumnHits& column) {
 void PointWriter::endColumn() {
   if (!plan_.pattern || plan_.pattern->channels() == 1 || size_ == column_begin_) return;
   const PointBlock& block = *block_;
-  const std::uint32_t first = moving_->firing(0);
+  const std::uint32_t first = hits_->moving()->firing(0);
   order_.assign(plan_.pattern->firingsPerBlock() + 1, 0);
   for (std::size_t i = column_begin_; i < size_; ++i) ++order_[block.column[i] - first + 1];
   for (std::size_t k = 1; k < order_.size(); ++k) order_[k] += order_[k - 1];
@@ -82,7 +80,7 @@ void PointWriter::resize(std::size_t size) {
 
 void PointWriter::write(const ReturnLanes& lanes, std::uint32_t detected) {
   const ScanChannels& channels = plan_.options.channels;
-  if (detected == kAllLanes && moving_ == nullptr && !channels.channel && !channels.returns && !channels.truth)
+  if (detected == kAllLanes && hits_->moving() == nullptr && !channels.channel && !channels.returns && !channels.truth)
     return writeAll(lanes);
   places_.clear();
   for (std::uint32_t left = detected; left != 0; left &= left - 1) places_.push_back({&lanes, std::countr_zero(left)});
@@ -96,7 +94,7 @@ void PointWriter::writeAll(const ReturnLanes& lanes) {
   copy(lanes.x_m, block.x_m), copy(lanes.y_m, block.y_m), copy(lanes.z_m, block.z_m);
   copy(lanes.signal.intensity, block.intensity);
   copy(lanes.row, block.row);
-  std::fill_n(block.column.data() + size_, kReturnLanes, column_);
+  std::fill_n(block.column.data() + size_, kReturnLanes, hits_->column());
   copy(lanes.product, block.product), copy(lanes.material, block.material);
   if (plan_.settings.imaging) copy(lanes.red, block.red), copy(lanes.green, block.green), copy(lanes.blue, block.blue);
   if (plan_.options.channels.time)
@@ -109,14 +107,15 @@ void PointWriter::write(const std::vector<Place>& places) {
   makeRoom(places.size());
   PointBlock& block = *block_;
   const ScanChannels& channels = plan_.options.channels;
+  const MovingColumn* const moving = hits_->moving();
   for (const Place& place : places) {
     const ReturnLanes& lanes = *place.lanes;
     const int k = place.lane;
     const std::size_t i = size_++;
     block.x_m[i] = lanes.x_m[k], block.y_m[i] = lanes.y_m[k], block.z_m[i] = lanes.z_m[k];
     block.intensity[i] = lanes.signal.intensity[k];
-    block.row[i] = moving_ != nullptr ? moving_->channel(lanes.row[k]) : lanes.row[k];
-    block.column[i] = moving_ != nullptr ? moving_->firing(lanes.row[k]) : column_;
+    block.row[i] = moving != nullptr ? moving->channel(lanes.row[k]) : lanes.row[k];
+    block.column[i] = moving != nullptr ? moving->firing(lanes.row[k]) : hits_->column();
     block.product[i] = lanes.product[k], block.material[i] = lanes.material[k];
     if (plan_.settings.imaging)
       block.red[i] = lanes.red[k], block.green[i] = lanes.green[k], block.blue[i] = lanes.blue[k];

@@ -36,9 +36,7 @@ class PointWriter {
   void writeTruth(const ReturnLanes& lanes, int lane, std::size_t i, PointTruth& truth) const;
 
   const ScanPlan& plan_;
-  std::uint32_t column_ = 0;
-  const ColumnHits* hits_ = nullptr;
-  const MovingColumn* moving_ = nullptr;
+  const ColumnHits* hits_ = nullptr;  // of the column that is written
   PointBlock* block_ = nullptr;
   std::size_t size_ = 0, room_ = 0;  // points written, and that the block has entries for
   std::size_t column_begin_ = 0;     // points before this column
