@@ -42,7 +42,7 @@ Result<WalkState> walkedHouse(const Document& document) {
   Progress quiet;
   TRY_ASSIGN(auto scene, RayScene::build(document.environment(), quiet));
   WalkMap map;
-  map.begin(std::move(scene), *document.georeference, carrierOf("hand").limits.height_m);
+  map.begin(std::move(scene), *document.georeference, carrierOfMount("hand").limits.height_m);
   WalkState walk;
   walk.recording = walk.scene = true;
   for (const auto& [x, y] : kWay) {

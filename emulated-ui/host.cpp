@@ -323,7 +323,7 @@ void DeviceHost::start(const Order& order, const Document& document, const fs::p
       TRY_ASSIGN(auto scene, RayScene::build(document.environment(), p));
       return [scene = std::move(scene), g = *document.georeference](DeviceHost& host, const Document&) {
         const auto& moving = host.device_.type().instrument.moving;
-        host.map_.begin(scene, g, carrierOf(moving ? moving->mount : "").limits.height_m);
+        host.map_.begin(scene, g, carrierOfMount(moving ? moving->mount : "").limits.height_m);
         host.device_.sceneDone();
       };
     });

@@ -75,10 +75,7 @@ Pose rounded(const std::vector<Stand>& stands, double time_s, double end_s) {
 
 }  // namespace
 
-const Carrier& carrierOf(const std::string& mount) {
-  const std::string_view id = mount == "body" ? "backpack" : "hand";
-  return *std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == id; });
-}
+const Carrier& carrierOfMount(const std::string& mount) { return *carrierOf(mount == "body" ? "backpack" : "hand"); }
 
 Result<CarriedMotion> motionOf(const WalkedWay& way, const RayScene& scene, const Georeference& georeference,
                                const Carrier& carrier, const std::string& name, std::uint64_t seed) {

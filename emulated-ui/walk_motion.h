@@ -14,7 +14,7 @@
 namespace standpoint {
 
 // What carries a scanner that is mounted so: the hand, or the back where it is worn ("body").
-const Carrier& carrierOf(const std::string& mount);
+const Carrier& carrierOfMount(const std::string& mount);
 
 // The way as a body goes it with a scanner: on the floor of the scene, starts and turns rounded as nobody moves by
 // jerks, gait and shaking of what carries it added, from 0 s on. The same for the same seed and name. An error says at

@@ -70,7 +70,7 @@ Result<ScannedWalk> scanWalk(const Document& document, const ScanOrder& order, c
   trajectory.name = order.project + " " + order.name;
   trajectory.file = fs::path(wanted.file).replace_extension(".way.csv").string();
   trajectory.format = "csv";
-  const Carrier& carrier = carrierOf(wanted.mount);
+  const Carrier& carrier = carrierOfMount(wanted.mount);
   trajectory.carrier = carrier.id;
   TRY_ASSIGN(const auto scene, RayScene::build(document.environment(), progress));
   TRY_ASSIGN(const auto carried, motionOf(walk.way, *scene, georeference, carrier, trajectory.name, wanted.seed));

@@ -87,4 +87,11 @@ inline const std::array<Carrier, 5> kCarriers = {{
      "indoor flight (EuRoC V1_02)"},
 }};
 
+// Null where no carrier has that id.
+inline const Carrier* carrierOf(std::string_view id) {
+  for (const auto& carrier : kCarriers)
+    if (carrier.id == id) return &carrier;
+  return nullptr;
+}
+
 }  // namespace standpoint

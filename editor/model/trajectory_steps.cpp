@@ -18,11 +18,6 @@ constexpr double kOnFloor_m = 0.05;    // a floor there is the one that was poin
 constexpr double kSteepest = 0.7;      // upward part of the normal of a floor
 constexpr double kSamePlace_m = 0.05;  // two waypoints are not nearer than that
 
-const Carrier* carrierOf(const std::string& id) {
-  const auto found = std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == id; });
-  return found == kCarriers.end() ? nullptr : &*found;
-}
-
 CarriedTrajectory laid(const TrajectoryDraft& draft) {
   CarriedTrajectory trajectory;
   trajectory.name = "draft";

@@ -92,7 +92,7 @@ float listHeight(const Model& model, std::size_t rows) {
   return std::min(model.px(26) + ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(rows), model.px(180));
 }
 
-std::string carrierOf(const CarriedTrajectory& trajectory) {
+std::string carriedBy(const CarriedTrajectory& trajectory) {
   return trajectory.file.empty() ? carrierName(trajectory.carrier) : tr("file");
 }
 
@@ -121,7 +121,7 @@ std::string durationOf(const TrajectoryWay* way) {
 
 // What its row has no room for.
 std::string aboutTrajectory(const TrajectoryWay* way, const CarriedTrajectory& trajectory) {
-  std::string text = fmt::format("{}: {}", tr("Carrier"), carrierOf(trajectory));
+  std::string text = fmt::format("{}: {}", tr("Carrier"), carriedBy(trajectory));
   if (isKnown(way))
     text += fmt::format("\n{}: {}\n{}: {}", tr("Length"), lengthOf(way), tr("Duration"), durationOf(way));
   if (way != nullptr && !way->problem.empty()) text += "\n" + way->problem;
@@ -204,9 +204,8 @@ void carrierRow(Actions& actions, TrajectoryEdit& edit, const CarriedTrajectory&
 
 void figureRows(Actions& actions, TrajectoryEdit& edit, const CarriedTrajectory& trajectory,
                 const Georeference& georeference) {
-  const auto own =
-      std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == trajectory.carrier; });
-  const PathLimits limits = own == kCarriers.end() ? PathLimits() : own->limits;
+  const Carrier* const own = carrierOf(trajectory.carrier);
+  const PathLimits limits = own == nullptr ? PathLimits() : own->limits;
   const auto usual_height = trf("usual, {:.2f} m", limits.height_m),
              usual_speed = trf("usual, {:.1f} m/s", limits.speed_mps);
   ui::propertyLabel("Above floor");

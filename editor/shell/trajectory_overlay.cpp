@@ -321,8 +321,7 @@ void trajectoryChips(Editor& editor) {
   if (lays || chosenTrajectory(editor) != nullptr) ribbonChip(editor);
   if (!lays) return;
   auto& draft = editor.view.draft;
-  const auto own =
-      std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == draft.carrier; });
+  const Carrier* const own = carrierOf(draft.carrier);
   ImGui::NewLine();
   const std::string label = ICON_WALK "  " + carrierName(draft.carrier);
   ImGui::SetNextItemWidth(chipWidth(editor, label, 110));

@@ -34,21 +34,15 @@ std::vector<WayWish> wishesOf(const Job& job, const std::shared_ptr<const Georef
   return wishes;
 }
 
-const Carrier* carrierOfWay(const CarriedTrajectory& t) {
-  const auto carrier =
-      std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == t.carrier; });
-  return carrier == kCarriers.end() ? nullptr : &*carrier;
-}
-
 double liftOf(const CarriedTrajectory& t) {
-  const Carrier* const carrier = carrierOfWay(t);
+  const Carrier* const carrier = carrierOf(t.carrier);
   if (!t.file.empty() || t.carrier == "uav" || carrier == nullptr) return 0;
   return t.height_m > 0 ? t.height_m : carrier->limits.height_m;
 }
 
 // As a scan has its operator.
 std::vector<PoseFunctionPtr> limbsOfOperator(const CarriedTrajectory& t, const CarriedMotion& motion) {
-  const Carrier* const carrier = carrierOfWay(t);
+  const Carrier* const carrier = carrierOf(t.carrier);
   if (carrier == nullptr || carrier->gait <= 0) return {};
   PoseFunctionPtr path = motion.path;
   if (!t.file.empty()) {

@@ -74,8 +74,7 @@ Pose scannerOf(const Camera& camera, const std::string& mount) {
 
 const Carrier* carrierOnFoot(const std::string& mount) {
   if (mount != "hand" && mount != "body" && mount != "any") return nullptr;
-  const char* id = mount == "body" ? "backpack" : "hand";
-  return std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == id; });
+  return carrierOf(mount == "body" ? "backpack" : "hand");
 }
 
 void WalkedPoses::add(const WalkMoment& moment) {

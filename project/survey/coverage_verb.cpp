@@ -256,10 +256,9 @@ Result<std::unique_ptr<const PassingBodies>> passingOf(const Document& document,
 
 double eyeHeight_m(const CarriedTrajectory& trajectory) {
   if (trajectory.height_m > 0) return trajectory.height_m;
-  const auto carrier =
-      std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == trajectory.carrier; });
+  const Carrier* const carrier = carrierOf(trajectory.carrier);
   // Of a file or a flight nothing says how high people would carry it.
-  const bool walked = trajectory.file.empty() && carrier != kCarriers.end() && trajectory.carrier != "uav";
+  const bool walked = trajectory.file.empty() && carrier != nullptr && trajectory.carrier != "uav";
   return walked ? carrier->limits.height_m : PathLimits().height_m;
 }
 

@@ -71,17 +71,16 @@ double radiusOf(const Mover& mover) {
 }
 
 // Who carries a scanner along that trajectory, from the movers' 0 s on.
-Result<CrowdObstacle> carrierOf(const Document& document, const std::string& name, double& until_s, Report& report,
-                                Progress& progress) {
+Result<CrowdObstacle> obstacleOf(const Document& document, const std::string& name, double& until_s, Report& report,
+                                 Progress& progress) {
   constexpr const char* kOption = "--gives-way-to";
   const auto& trajectories = document.job->trajectories;
   const auto trajectory = std::find_if(trajectories.begin(), trajectories.end(),
                                        [&](const CarriedTrajectory& t) { return t.name == name; });
   if (trajectory == trajectories.end())
     return failure(ErrorKind::usage, fmt::format("unknown trajectory '{}'", name), kOption);
-  const auto carrier =
-      std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == trajectory->carrier; });
-  if (carrier == kCarriers.end() || carrier->id == "uav")
+  const Carrier* const carrier = carrierOf(trajectory->carrier);
+  if (carrier == nullptr || carrier->id == "uav")
     return failure(ErrorKind::usage, fmt::format("nobody on the floor carries a scanner along '{}'", name), kOption);
   TRY_ASSIGN(const auto carried, carriedMotion(*trajectory, *document.georeference, report, progress));
   const double height = trajectory->height_m > 0 ? trajectory->height_m : carrier->limits.height_m;
@@ -106,7 +105,7 @@ Result<std::vector<CrowdObstacle>> inTheWay(const Document& document, const Move
     obstacles.push_back({std::move(path), radiusOf(mover)});
   }
   for (const std::string& name : options.gives_way_to) {
-    TRY_ASSIGN(auto carrier, carrierOf(document, name, until_s, report, progress));
+    TRY_ASSIGN(auto carrier, obstacleOf(document, name, until_s, report, progress));
     obstacles.push_back(std::move(carrier));
   }
   return obstacles;

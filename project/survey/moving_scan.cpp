@@ -68,9 +68,8 @@ Result<Mounting> mountingFrom(const KeyValues& texts, const char* option) {
 // trajectory was added with a carrier.
 Result<std::optional<ScanOperator>> operatorOf(const CarriedTrajectory& trajectory, const CarriedMotion& carried,
                                                bool on_foot, const ScanVerbOptions& options) {
-  const auto carrier =
-      std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == trajectory.carrier; });
-  if (carrier == kCarriers.end() || carrier->gait <= 0) return std::nullopt;
+  const Carrier* const carrier = carrierOf(trajectory.carrier);
+  if (carrier == nullptr || carrier->gait <= 0) return std::nullopt;
   PoseFunctionPtr path = carried.path;
   if (!trajectory.file.empty() && !on_foot) {
     TRY_ASSIGN(path, wayOnFoot(*carried.truth));

@@ -40,9 +40,8 @@ Result<void> checkTrajectoryName(Job& job, const std::string& name, const char* 
 }
 
 double heightOf(const CarriedTrajectory& t) {
-  const auto carrier =
-      std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == t.carrier; });
-  return t.height_m > 0 || carrier == kCarriers.end() ? t.height_m : carrier->limits.height_m;
+  const Carrier* const carrier = carrierOf(t.carrier);
+  return t.height_m > 0 || carrier == nullptr ? t.height_m : carrier->limits.height_m;
 }
 
 Result<std::vector<Waypoint>> waypointsFrom(const RayScene& scene, const Georeference& g, const CarriedTrajectory& of,

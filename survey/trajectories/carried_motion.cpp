@@ -57,12 +57,6 @@ double walkedLength(const PoseFunction& path) {
   return length;
 }
 
-const Carrier* carrierOf(const CarriedTrajectory& trajectory) {
-  const auto found =
-      std::find_if(kCarriers.begin(), kCarriers.end(), [&](const Carrier& c) { return c.id == trajectory.carrier; });
-  return found == kCarriers.end() ? nullptr : &*found;
-}
-
 Result<CarriedMotion> motionOfFile(const CarriedTrajectory& trajectory, const Georeference& georeference,
                                    Report& report, Progress& progress) {
   const TrajectoryFormat* format = trajectoryFormat(trajectory.format);
@@ -78,7 +72,7 @@ Result<CarriedMotion> motionOfFile(const CarriedTrajectory& trajectory, const Ge
   if (!spline) return failure(spline.error().kind, spline.error().message, trajectory.file);
   CarriedMotion carried;
   carried.path = carried.truth = std::make_shared<const PoseSpline>(*std::move(spline));
-  const Carrier* const carrier = carrierOf(trajectory);
+  const Carrier* const carrier = carrierOf(trajectory.carrier);
   const bool walks = carrier != nullptr && carrier->gait > 0;
   carried.length_m = walks ? walkedLength(*carried.path) : lengthOf(*carried.path);
   return carried;
@@ -194,7 +188,7 @@ Result<std::vector<LoopClosure>> closuresOf(const CarriedMotion& carried, const 
 Result<CarriedMotion> carriedMotion(const CarriedTrajectory& trajectory, const Georeference& georeference,
                                     Report& report, Progress& progress) {
   if (!trajectory.file.empty()) return motionOfFile(trajectory, georeference, report, progress);
-  const Carrier* const carrier = carrierOf(trajectory);
+  const Carrier* const carrier = carrierOf(trajectory.carrier);
   if (carrier == nullptr)
     return failure(ErrorKind::usage, fmt::format("unknown carrier '{}'", trajectory.carrier), trajectory.name);
   PathLimits limits = carrier->limits;

@@ -284,7 +284,7 @@ class OnFootInTheHouse : public testing::Test {
 };
 
 TEST_F(OnFootInTheHouse, ABodyIsNearTheStraightWayAndAtTheHeightOfAHand) {
-  const Carrier& hand = carrierOf("hand");
+  const Carrier& hand = carrierOfMount("hand");
   const double height_m = hand.limits.height_m;
   const auto carried = motionOf(shortWalk(), *scene(), *house().georeference, hand, "w", 1);
   ASSERT_TRUE(carried) << describe(carried.error());
@@ -305,7 +305,7 @@ TEST_F(OnFootInTheHouse, TheMapGrowsByTheWayAlone) {
   walk.recording = true;
   const auto grown = [&](int steps) {
     WalkMap map;
-    map.begin(scene(), *house().georeference, carrierOf("hand").limits.height_m);
+    map.begin(scene(), *house().georeference, carrierOfMount("hand").limits.height_m);
     std::shared_ptr<const SeenMap> seen;
     for (int i = 0; i <= steps; ++i) {
       walk.way = {{4, 1.6, 0}};
@@ -329,7 +329,7 @@ TEST_F(OnFootInTheHouse, ARoomHasACeilingAndTheStreetHasNone) {
     walk.way = {{x_m, y_m, 0}};
     walk.at = {x_m, y_m};
     WalkMap map;
-    map.begin(scene(), *house().georeference, carrierOf("body").limits.height_m);
+    map.begin(scene(), *house().georeference, carrierOfMount("body").limits.height_m);
     return map.grow(walk);
   };
   const auto room = seenFrom(4, 1.6), street = seenFrom(7.5, -12);
@@ -340,7 +340,7 @@ TEST_F(OnFootInTheHouse, ARoomHasACeilingAndTheStreetHasNone) {
 }
 
 TEST_F(OnFootInTheHouse, WhatIsWornIsHigherAndSteadierThanWhatIsHeld) {
-  const Carrier &hand = carrierOf("hand"), &back = carrierOf("body");
+  const Carrier &hand = carrierOfMount("hand"), &back = carrierOfMount("body");
   const auto held = motionOf(shortWalk(), *scene(), *house().georeference, hand, "w", 1);
   const auto worn = motionOf(shortWalk(), *scene(), *house().georeference, back, "w", 1);
   ASSERT_TRUE(held && worn);
@@ -361,7 +361,7 @@ TEST_F(OnFootInTheHouse, AWallIsInTheWayAndADoorIsNot) {
   walk.way = {{4, 1.6, 0}};
   walk.at = {4, 1.6};
   WalkMap map;
-  map.begin(scene(), *house().georeference, carrierOf("hand").limits.height_m);
+  map.begin(scene(), *house().georeference, carrierOfMount("hand").limits.height_m);
   EXPECT_EQ(map.between({4, 1.6}, {4, 6}), "") << "nothing is known before the first look";
   ASSERT_TRUE(map.grow(walk));
   EXPECT_EQ(map.between({4, 1.6}, {5.5, 1.6}), "");
