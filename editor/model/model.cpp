@@ -343,7 +343,10 @@ void Model::chooseWanted() {
   const auto& job = session.document().job;
   const auto name = std::exchange(survey_wanted, {});
   for (std::size_t i = 0; job && !name.empty() && i < job->stations.size(); ++i)
-    if (job->stations[i].name == name) choose({.station = static_cast<int>(i)});
+    if (job->stations[i].name == name) {
+      choose({.station = static_cast<int>(i)});
+      if (std::exchange(view.typed_station, std::nullopt)) view.tool = Tool::select;
+    }
   const auto trajectory = std::exchange(trajectory_wanted, {});
   for (std::size_t i = 0; job && !trajectory.empty() && i < job->trajectories.size(); ++i)
     if (job->trajectories[i].name == trajectory) choose({.trajectory = static_cast<int>(i)});

@@ -152,6 +152,7 @@ struct ViewportState {
   int dragged_station = -1;         // by the pointer
   bool station_drag_begun = false;  // it has left the place where it was taken
   std::optional<RefusedPlace> refused_place;
+  std::optional<Eigen::Vector3d> typed_station;  // centre of a new one by typed numbers, local frame
   std::optional<Eigen::Vector2d> placed_at;  // the pointer, until it leaves the place where it has just set a station
   std::optional<Eigen::Vector3d> row_from;   // where a row of stations begins, on the floor
   RowSteps row{.count = 3, .spacing_m = {}};
@@ -256,6 +257,7 @@ struct Model : Style {
   std::string trajectory_wanted;  // likewise
   bool inspect_wanted = false;    // what was chosen there is to be seen in the Inspector
   bool rename_wanted = false;     // the field of the chosen one's name is to be edited
+  bool typing_wanted = false;     // the numbers of a new station are to be edited
   ChosenMaterial material;
   ScanChoice scan_choice{.instrument = "leica-rtc360"};  // what the next scan is set to
   CarriedScan carried_scan;

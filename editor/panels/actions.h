@@ -64,8 +64,11 @@ class Actions {
   virtual void choose(const SurveyChoice& choice) = 0;
   virtual void inspect(const SurveyChoice& choice) = 0;  // chooses it, and brings the Inspector to the front
   virtual void choose(const ChosenMaterial& material) = 0;
-  virtual void chooseTrajectory(const std::string& name) = 0;  // as soon as it is there
+  virtual void chooseStation(const std::string& name) = 0;     // as soon as it is there
+  virtual void chooseTrajectory(const std::string& name) = 0;  // likewise
   virtual void renameBegun() = 0;
+  virtual void holdNewStation(const Eigen::Vector3d& centre) = 0;  // local frame, instead of under the pointer
+  virtual void typingBegun() = 0;                                  // of its numbers
   virtual void set(const ScanChoice& scan) = 0;
   virtual void set(const CarriedScan& scan) = 0;
   virtual void set(const PathMoment& moment) = 0;

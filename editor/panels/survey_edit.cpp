@@ -27,9 +27,13 @@ void drawAge(const Model& model, Actions& actions, const std::string& age, bool 
 
 }  // namespace
 
+void takeRefusal(SurveyEdit& edit, Actions& actions) {
+  if (edit.asked.empty()) return;
+  if (auto why = actions.refused(edit.asked); !why.empty()) edit.problem = std::move(why), edit.asked.clear();
+}
+
 bool begins(SurveyEdit& edit, const void* of, Actions& actions) {
-  if (!edit.asked.empty())
-    if (auto why = actions.refused(edit.asked); !why.empty()) edit.problem = std::move(why), edit.asked.clear();
+  takeRefusal(edit, actions);
   if (edit.of == of) return false;
   edit = {.of = of};
   return true;
@@ -48,6 +52,19 @@ bool nameRow(const Model& model, Actions& actions, SurveyEdit& edit) {
     actions.renameBegun();
   }
   return ui::textField("###inspected-name", edit.name);
+}
+
+bool placeRows(SurveyEdit& edit, const char* id, bool focus_first) {
+  static constexpr const char* kAxes[] = {"X", "Y", "Z"};
+  bool changed = false;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    ui::propertyLabel(kAxes[i]);
+    if (focus_first && i == 0) ui::focusNext();
+    changed = ui::numberField(fmt::format("{}-{}", id, kAxes[i]).c_str(), edit.at[i],
+                              {.kind = {.unit = "m"}, .decimals = 3}) ||
+              changed;
+  }
+  return changed;
 }
 
 void drawProblem(SurveyEdit& edit) {

@@ -27,10 +27,14 @@ struct SurveyEdit {
 
 // True when the fields are to be filled: another thing, or it has changed.
 bool begins(SurveyEdit& edit, const void* of, Actions& actions);
+// What the verb that was started last refused becomes the problem.
+void takeRefusal(SurveyEdit& edit, Actions& actions);
 // Starts a verb; what it refuses stands below the fields.
 void startEdit(Actions& actions, SurveyEdit& edit, const VerbOptions& options, std::string title);
 // True when the name has become another.
 bool nameRow(const Model& model, Actions& actions, SurveyEdit& edit);
+// X, Y and Z; true when one has become another. `id` begins their names.
+bool placeRows(SurveyEdit& edit, const char* id, bool focus_first = false);
 void drawProblem(SurveyEdit& edit);
 void bringNear(Actions& actions, const Eigen::Vector3d& place);  // local frame
 float columnWidth(int columns);                                  // of so many in a row

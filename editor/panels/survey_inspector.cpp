@@ -12,6 +12,7 @@
 #include "core/units.h"
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
+#include "editor/panels/place_verdict_row.h"
 #include "editor/panels/scan_panel.h"
 #include "editor/panels/survey_edit.h"
 #include "editor/panels/trajectory_inspector.h"
@@ -30,55 +31,17 @@ namespace standpoint {
 
 namespace {
 
-// Of the place where a station stands, kept until that or what is around it is another.
-struct KeptVerdict {
-  std::weak_ptr<const RayScene> scene;
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  bool on_tripod = true;
-  double nearest_m = 0;
-  PlaceVerdict answer;
-};
-
 struct SurveyInspectorState {
   SurveyEdit station, target, underlay;
   KeptVerdict verdict;
   std::set<std::string> free_stations;  // that are held or hang: their places are checked so
 };
 
-const NumberFormat kPlace{.kind = {.unit = "m"}, .decimals = 3};
 const NumberFormat kHeading{.kind = {.unit = "°", .least = -360, .most = 360}, .decimals = 2, .drag = 0.5};
-
-bool placeRows(SurveyEdit& edit) {
-  bool changed = false;
-  static constexpr const char* kAxes[] = {"X", "Y", "Z"};
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    ui::propertyLabel(kAxes[i]);
-    changed = ui::numberField(fmt::format("###inspected-{}", kAxes[i]).c_str(), edit.at[i], kPlace) || changed;
-  }
-  return changed;
-}
 
 bool headingRow(SurveyEdit& edit, const char* help) {
   ui::propertyLabel("Heading");
   return ui::numberField("###inspected-heading", edit.heading_deg, kHeading, help);
-}
-
-// What was said of its place while it was held there.
-void drawPlaceVerdict(const Model& model, SurveyInspectorState& state, const Station& station) {
-  const auto* placement = model.placement.placement();
-  const auto scene = model.picker.scene();
-  if (placement == nullptr || &placement->scene() != scene.get()) return;  // it is being prepared
-  const Eigen::Vector3d& centre = station.true_pose.translation;
-  const bool on_tripod = !state.free_stations.contains(station.name);
-  const auto* instrument = model.instrument(model.scan_choice.instrument);
-  const double nearest_m = instrument != nullptr ? instrument->min_range_m : 0;
-  auto& kept = state.verdict;
-  if (kept.scene.lock() != scene || kept.centre != centre || kept.on_tripod != on_tripod || kept.nearest_m != nearest_m)
-    kept = {scene, centre, on_tripod, nearest_m, judgeStation(*placement, centre, on_tripod, nearest_m)};
-  const auto& found = kept.answer;
-  ui::verdict(found.verdict);
-  ui::wrapped(withVerdictWord(found.verdict, trSentence(found.brief)));
-  if (!found.reason.empty()) ui::dimWrapped(trSentence(found.reason));
 }
 
 // It was let go where it cannot stand.
@@ -137,7 +100,7 @@ void stationFieldRows(const Model& model, SurveyInspectorState& state, Actions& 
   if (nameRow(model, actions, edit))
     startEdit(actions, edit, StationOptions{.rename = station.name, .name = edit.name},
               trf("Rename station {}", station.name));
-  bool moved = placeRows(edit);
+  bool moved = placeRows(edit, "###inspected");
   ui::propertyLabel("Above floor");
   const double before = edit.height_m;
   if (ui::numberField("###inspected-height", edit.height_m,
@@ -174,7 +137,7 @@ void drawStation(const Model& model, PanelStates& states, Actions& actions, cons
     edit.tilt_towards_deg = edit.tilt_deg > 0 ? tilt.towards_rad / kRadPerDeg : 0;
   }
   ui::heading(model, (trf("Station {}", station.name)).c_str());
-  drawPlaceVerdict(model, state, station);
+  drawPlaceVerdict(model, state.verdict, station.true_pose.translation, !state.free_stations.contains(station.name));
   stationFieldRows(model, state, actions, station);
   drawProblem(edit);
   drawRefusal(model, station);
@@ -223,7 +186,7 @@ void drawTarget(const Model& model, SurveyEdit& edit, Actions& actions, const Ta
     if (nameRow(model, actions, edit))
       startEdit(actions, edit, TargetOptions{.rename = target.name, .name = edit.name},
                 trf("Rename target {}", target.name));
-    bool moved = placeRows(edit);
+    bool moved = placeRows(edit, "###inspected");
     if (plate) moved = headingRow(edit, "Direction that it faces, counter-clockwise from the file's X") || moved;
     if (moved) {
       TargetOptions options{.move = target.name};
@@ -281,7 +244,7 @@ void drawUnderlay(const Model& model, SurveyEdit& edit, Actions& actions, const 
       options.rename = underlay.name;
       startEdit(actions, edit, options, trf("Rename underlay {}", underlay.name));
     }
-    bool moved = placeRows(edit);
+    bool moved = placeRows(edit, "###inspected");
     moved = headingRow(edit, "Angle from the file's X axis to the cloud's, counter-clockwise") || moved;
     if (moved) {
       UnderlayOptions options{.move = underlay.name};

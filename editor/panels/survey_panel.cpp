@@ -5,6 +5,7 @@
 #include <imgui.h>
 
 #include "editor/panels/actions.h"
+#include "editor/panels/new_station.h"
 #include "editor/panels/panel.h"
 #include "editor/panels/survey_inspector.h"
 #include "editor/panels/trajectory_inspector.h"
@@ -77,7 +78,7 @@ std::vector<std::string> placeRow(const std::string& name, const Eigen::Vector3d
 void drawStations(const Model& model, Actions& actions, const Job& job) {
   ui::heading(model, trf("Stations  {}", job.stations.size()).c_str());
   if (job.stations.empty()) {
-    ui::dimWrapped("No stations. Choose Add station, then click the floor.");
+    ui::dimWrapped("No stations. Choose Add station, then click the floor or type coordinates.");
     return;
   }
   ui::copyTable("stations", [&] {
@@ -166,6 +167,7 @@ void draw(const Model& model, PanelStates& states, Actions& actions) {
   if (ui::button(ICON_TARGET "  Add target###add-target", why, {beside ? half : -FLT_MIN, 0},
                  "Click in the view to place the target"))
     actions.run("add-target");
+  drawNewStation(model, states, actions);
   drawStations(model, actions, *job);
   if (model.survey.station >= static_cast<int>(job->stations.size()))
     actions.choose(SurveyChoice{-1, model.survey.target, model.survey.underlay});

@@ -20,6 +20,7 @@
 #include "editor/shell/import_preview.h"
 #include "editor/shell/inspect_actions.h"
 #include "editor/shell/moving.h"
+#include "editor/shell/shell.h"
 #include "editor/shell/tour_card.h"
 #include "editor/shell/view_actions.h"
 #include "editor/widgets/icons.h"
@@ -70,6 +71,11 @@ void selectAll(Editor& e) {
   e.selection.set(std::move(all));
 }
 void showWorkspace(Editor& e, Workspace w) { e.workspace = w; }
+void addStation(Editor& e) {
+  e.view.typed_station.reset();
+  e.view.tool = Tool::placeStation;
+  openPanel(e, Workspace::survey, "survey");
+}
 // The verb and the name of what the survey panel has chosen.
 std::pair<const char*, std::string> chosenInSurvey(const Editor& e) {
   const auto& job = e.session.document().job;
@@ -199,9 +205,15 @@ const std::array kOwn = {
            "Add station by clicking the floor",
            ICON_STATION,
            {'T', false, true},
+           addStation,
+           whyStationNot},
+    Action{"add-station-at",
+           "Add station by coordinates",
+           ICON_STATION,
+           {},
            [](Editor& e) {
-             e.view.tool = Tool::placeStation;
-             showWorkspace(e, Workspace::survey);
+             addStation(e);
+             e.typing_wanted = true;
            },
            whyStationNot},
     Action{"add-row",

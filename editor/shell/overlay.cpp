@@ -239,7 +239,9 @@ ui::Text toolHint(const Editor& editor) {
   std::string measuring;
   const char* hint = movingHint(editor);
   switch (view.tool) {
-    case Tool::placeStation: hint = "Click the floor to add a station   Esc to leave"; break;
+    case Tool::placeStation:
+      hint = "Click the floor to add a station, or type its coordinates in Survey   Esc to leave";
+      break;
     case Tool::placeRow:
       hint = editor.view.row_from ? "Click the floor where the row ends   Esc to leave"
                                   : "Click the floor where the row begins   Esc to leave";

@@ -94,8 +94,11 @@ void PanelActions::choose(const SurveyChoice& choice) {
 }
 void PanelActions::inspect(const SurveyChoice& choice) { editor_.choose(choice); }
 void PanelActions::choose(const ChosenMaterial& material) { editor_.material = material; }
+void PanelActions::chooseStation(const std::string& name) { editor_.survey_wanted = name; }
 void PanelActions::chooseTrajectory(const std::string& name) { editor_.trajectory_wanted = name; }
 void PanelActions::renameBegun() { editor_.rename_wanted = false; }
+void PanelActions::holdNewStation(const Eigen::Vector3d& centre) { editor_.view.typed_station = centre; }
+void PanelActions::typingBegun() { editor_.typing_wanted = false; }
 void PanelActions::set(const ScanChoice& scan) { editor_.scan_choice = scan; }
 void PanelActions::set(const CarriedScan& scan) { editor_.carried_scan = scan; }
 void PanelActions::set(const PathMoment& moment) { editor_.path_moment = moment; }

@@ -47,8 +47,11 @@ class PanelActions final : public Actions {
   void choose(const SurveyChoice& choice) override;
   void inspect(const SurveyChoice& choice) override;
   void choose(const ChosenMaterial& material) override;
+  void chooseStation(const std::string& name) override;
   void chooseTrajectory(const std::string& name) override;
   void renameBegun() override;
+  void holdNewStation(const Eigen::Vector3d& centre) override;
+  void typingBegun() override;
   void set(const ScanChoice& scan) override;
   void set(const CarriedScan& scan) override;
   void set(const PathMoment& moment) override;

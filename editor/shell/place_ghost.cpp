@@ -100,6 +100,21 @@ std::vector<FigureRow> figureRows(const Editor& editor, const PlaceForecast& for
   return rows;
 }
 
+// Of a new station whose numbers are typed, while the pointer holds none.
+void drawTypedStation(Editor& editor, const ViewPen& pen, const Vector3d& centre) {
+  const auto* placement = editor.placement.placement();
+  const auto scene = editor.picker.scene();
+  if (placement == nullptr || &placement->scene() != scene.get()) return;
+  const auto below = scene->intersect(centre, -Vector3d::UnitZ(), kRimReach_m);
+  const HeldStation held{"", below ? centre.z() - below->position.z() : kUsualHeight_m, Eigen::Quaterniond::Identity()};
+  const Vector3d floor = centre - Vector3d(0, 0, held.height_m);
+  const auto* instrument = editor.instrument(editor.scan_choice.instrument);
+  const auto verdict = judgeStation(*placement, centre, true, instrument != nullptr ? instrument->min_range_m : 0);
+  drawHeldStation(editor, pen, held, floor, verdict.verdict);
+  if (const auto place = pen.at(centre))
+    pen.verdict({place->x + editor.px(20), place->y + editor.px(16)}, verdict.verdict, trSentence(verdict.brief));
+}
+
 std::string placeTitle(const Editor& editor, const HeldStation& held, const PlaceForecast* forecast) {
   const auto title = held.name.empty() ? tr("New station") : trf("Station {}", held.name);
   const auto scene = editor.picker.scene();
@@ -232,6 +247,8 @@ void drawPlaceGhost(Editor& editor, ImVec2 origin, ImVec2 size) {
   const auto held = heldStation(editor);
   if (!held) {
     editor.place_figures.drop();
+    if (editor.view.tool == Tool::placeStation && editor.view.typed_station)
+      drawTypedStation(editor, pen, *editor.view.typed_station);
     return drawRefused(editor, pen, origin, size);
   }
   auto verdict = verdictUnderPointer(editor, *held);

@@ -90,6 +90,7 @@ void placeStation(Editor& editor, const RayHit& hit) {
   const HeldStation held{"", kUsualHeight_m, Eigen::Quaterniond::Identity()};
   if (const auto verdict = verdictUnderPointer(editor, held); verdict.verdict == Verdict::bad)
     return refusePlace(editor, held, verdict);
+  editor.view.typed_station.reset();
   const auto name = freeStationName(*editor.session.document().job);
   const Eigen::Vector3d p = hit.position + editor.shift_m();
   editor.session.start(StationOptions{.add = name, .on = FloorPlace{p.x(), p.y(), p.z()}}, trf("Add station {}", name));

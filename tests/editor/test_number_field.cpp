@@ -9,8 +9,6 @@
 namespace standpoint {
 namespace {
 
-constexpr int kTab = 258;
-
 // Two fields and a slider on an otherwise empty window.
 class NumberField : public ::testing::Test {
  protected:
@@ -50,7 +48,7 @@ TEST_F(NumberField, TakesOverWithEnterWithTabAndWithAClickElsewhere) {
   gui.key(kKeyEnter);
   EXPECT_EQ(length, 3.05);
   typeInto("###length", "3.4-35cm");
-  gui.key(kTab);
+  gui.key(kKeyTab);
   gui.frames(2);
   EXPECT_DOUBLE_EQ(length, 3.05);
   typeInto("###length", "2,5");
@@ -74,7 +72,7 @@ TEST_F(NumberField, LosesNoDigitWhenItIsOnlyVisited) {
   length = 1.0 / 3;
   ASSERT_TRUE(gui.click("###length"));
   EXPECT_TRUE(edited());
-  gui.key(kTab);
+  gui.key(kKeyTab);
   gui.frames(2);
   gui.key(kKeyEnter);
   gui.frames(2);
@@ -89,7 +87,7 @@ TEST_F(NumberField, KeepsWhatItCannotTakeAndSaysWhy) {
   EXPECT_EQ(length, 1.25);
   EXPECT_GT(bottom, without) << "the reason is below the field";
   ASSERT_TRUE(gui.click("###length"));
-  gui.key(kTab);
+  gui.key(kKeyTab);
   gui.frames(2);
   EXPECT_GT(bottom, without) << "visiting it cures nothing";
   typeInto("###length", "11");
@@ -205,7 +203,7 @@ TEST_F(NumberField, HasTheDecimalSignOfTheLanguageAndReadsEither) {
     gui.frames(2);
     ASSERT_TRUE(gui.click("###length"));
   }
-  gui.key(kTab);
+  gui.key(kKeyTab);
   gui.frames(2);
   EXPECT_EQ(length, 1.0 / 3) << "only visited";
   speak("en");

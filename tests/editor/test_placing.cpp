@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -77,6 +78,56 @@ TEST_F(Placing, AStationThatHasJustBeenAddedIsNotJudgedAgainUntilThePointerLeave
   EXPECT_FALSE(heldStation(editor)) << "it would say: 0 cm from S3";
   gui.moveTo(screenOf({2.5, 6, 0}));
   EXPECT_TRUE(heldStation(editor));
+}
+
+TEST_F(Placing, AStationIsAddedByTypedNumbersWithoutAClickInTheView) {
+  invoke(editor, "add-station-at");
+  gui.frames(4);
+  const Eigen::Vector3d shift = editor.shift_m();
+  gui.type(fmt::format("{}-0.35", 1.85 + shift.x()));  // the first field has the keyboard
+  gui.key(kKeyTab);
+  gui.frames(3);
+  gui.type(fmt::format("{}", 6 + shift.y()));
+  gui.key(kKeyEnter);
+  gui.frames(4);
+  ASSERT_TRUE(editor.view.typed_station) << "the view shows it there";
+  EXPECT_NEAR((*editor.view.typed_station - Eigen::Vector3d(1.5, 6, 1.6)).norm(), 0, 1e-6) << "on the floor there";
+  EXPECT_TRUE(gui.says("Good place"));
+  ASSERT_TRUE(gui.click("###add-typed"));
+  gui.settle();
+  gui.frames(2);
+  ASSERT_EQ(job().stations.size(), 3U);
+  EXPECT_NEAR((job().stations[2].true_pose.translation - Eigen::Vector3d(1.5, 6, 1.6)).norm(), 0, 1e-6);
+  EXPECT_EQ(editor.survey.station, 2);
+  EXPECT_EQ(editor.view.tool, Tool::select);
+}
+
+TEST_F(Placing, NumbersOfANewStationFollowThePointerUntilTheyAreTyped) {
+  invoke(editor, "add-station");
+  gui.moveTo(screenOf({1.5, 6, 0}));
+  gui.frames(2);
+  const Eigen::Vector3d pointed = editor.view.hover->position;
+  ASSERT_TRUE(gui.click("###new-station-Y"));
+  gui.type(fmt::format("{}", 5 + editor.shift_m().y()));
+  gui.key(kKeyEnter);
+  gui.frames(3);
+  ASSERT_TRUE(editor.view.typed_station);
+  EXPECT_NEAR(editor.view.typed_station->x(), pointed.x(), 0.2) << "where the pointer left the view";
+  EXPECT_NEAR(editor.view.typed_station->y(), 5, 1e-6);
+}
+
+TEST_F(Placing, ATypedPlaceThatIsRefusedSaysSoAndAddsNothing) {
+  invoke(editor, "add-station-at");
+  gui.frames(4);
+  gui.type(fmt::format("{}", 0.45 + editor.shift_m().x()));
+  gui.key(kKeyTab);
+  gui.frames(3);
+  gui.type(fmt::format("{}", 2 + editor.shift_m().y()));
+  gui.key(kKeyEnter);
+  gui.frames(4);
+  EXPECT_TRUE(gui.says("cm from wall"));
+  ASSERT_NE(gui.find("###add-typed"), nullptr);
+  EXPECT_TRUE(gui.find("###add-typed")->disabled);
 }
 
 TEST_F(Placing, WordsOverTheViewGoUpWhereThePointerComesNearThem) {

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/panels/new_station.h"
+
+#include <cmath>
+#include <string>
+
+#include <imgui.h>
+
+#include "editor/model/station_steps.h"
+#include "editor/panels/actions.h"
+#include "editor/panels/panel.h"
+#include "editor/panels/place_verdict_row.h"
+#include "editor/panels/survey_edit.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/widgets.h"
+#include "survey/stations/station_places.h"
+#include "survey/stations/storeys.h"
+
+namespace standpoint {
+
+namespace {
+
+struct NewStationState {
+  bool shown = false;
+  SurveyEdit edit;
+  KeptVerdict verdict;
+};
+
+// In the middle of the storey where a survey begins; metres, the frame of the model's file.
+Eigen::Vector3d usualPlace(const Model& model) {
+  const auto storeys = storeysFromGround(*model.environment(), model.shift_m().z());
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  if (!storeys.empty() && !storeys.front().box.empty()) {
+    place = (storeys.front().box.min + storeys.front().box.max) / 2;
+    place.z() = storeys.front().floor_m;
+  }
+  return place + Eigen::Vector3d(0, 0, kUsualHeight_m) + model.shift_m();
+}
+
+// On the floor there that is nearest to the height that it has.
+void putOnFloor(const Model& model, Eigen::Vector3d& at) {
+  const auto scene = model.picker.scene();
+  if (!scene) return;
+  const Eigen::Vector3d shift = model.shift_m();
+  const double wanted = at.z() - shift.z() - kUsualHeight_m;
+  std::optional<double> nearest;
+  for (const double floor : floorsAt(*scene, at.x() - shift.x(), at.y() - shift.y(), kUsualHeight_m))
+    if (!nearest || std::abs(floor - wanted) < std::abs(*nearest - wanted)) nearest = floor;
+  if (nearest) at.z() = *nearest + kUsualHeight_m + shift.z();
+}
+
+}  // namespace
+
+void drawNewStation(const Model& model, PanelStates& states, Actions& actions) {
+  auto& state = states.of<NewStationState>();
+  const auto& view = model.view;
+  if (view.tool != Tool::placeStation) {
+    state.shown = false;
+    return;
+  }
+  auto& edit = state.edit;
+  if (!std::exchange(state.shown, true)) {
+    edit = {};
+    edit.at = usualPlace(model);
+    putOnFloor(model, edit.at);
+  }
+  takeRefusal(edit, actions);
+  const Eigen::Vector3d shift = model.shift_m();
+  if (view.hover && !view.typed_station) edit.at = view.hover->position + shift + Eigen::Vector3d(0, 0, kUsualHeight_m);
+  const auto name = freeStationName(*model.session.document().job);
+  ui::heading(model, trf("New station {}", name).c_str());
+  const Eigen::Vector3d before = edit.at;
+  if (ui::beginProperties("new-station", 0.36F)) {
+    const bool typed = placeRows(edit, "###new-station", model.typing_wanted);
+    if (model.typing_wanted) actions.typingBegun();
+    if (typed && edit.at.z() == before.z()) putOnFloor(model, edit.at);
+    if (typed) actions.holdNewStation(edit.at - shift);
+    ui::endProperties();
+  }
+  drawPlaceVerdict(model, state.verdict, edit.at - shift, true);
+  drawProblem(edit);
+  const auto bad = state.verdict.answer.verdict == Verdict::bad ? state.verdict.answer.brief : std::string();
+  const auto why = bad.empty() ? model.session.whyNot("station") : bad;
+  if (ui::button(trf(ICON_CHECK "  Add {} here###add-typed", name).c_str(), why, {-FLT_MIN, 0},
+                 "Add the station at these coordinates")) {
+    actions.holdNewStation(edit.at - shift);
+    startEdit(actions, edit, StationOptions{.add = name, .at = edit.at}, trf("Add station {}", name));
+    actions.chooseStation(name);
+  }
+}
+
+}  // namespace standpoint
