@@ -184,6 +184,7 @@ void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& de
   // A device that remembers no choice begins in the editor's language; in an exercise in that of the exercise.
   giveLanguage(desk, std::string(spoken()));
   remember(desk, editor);
+  openSomeProject(desk.host->device());
   desk.last = std::chrono::steady_clock::now();
 }
 

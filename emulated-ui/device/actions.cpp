@@ -230,6 +230,15 @@ Result<void> standardArea(Device& device, const std::string&) {
 
 }  // namespace
 
+void openSomeProject(Device& device) {
+  if (device.project() != nullptr) return;
+  const auto& projects = device.state().projects;
+  if (!projects.empty())
+    (void)openProject(device, std::to_string(projects.size() - 1));
+  else if (proposeProject(device, ""))
+    (void)createProject(device, "");
+}
+
 const std::vector<DeviceAction>& sharedActions() {
   static const std::vector<DeviceAction> actions = {
       {"propose_project", proposeProject},

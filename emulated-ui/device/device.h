@@ -168,6 +168,9 @@ const std::vector<TroubleRow>& troubleRows();
 
 const std::vector<FactRow>& sharedFacts();
 const std::vector<DeviceAction>& sharedActions();
+// As of a device that is in use: where no project is open, the last one is, or a new one by the name that the device
+// proposes.
+void openSomeProject(Device& device);
 const std::vector<ListRow>& sharedLists();
 
 }  // namespace standpoint

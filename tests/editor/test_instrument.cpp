@@ -346,7 +346,7 @@ TEST_F(Desk, ScansInAProjectWithoutAName) {
   };
   press("power");
   carryTo(desk, document, document.job->stations[0].name);
-  for (const char* widget : {"job", "new_job", "create"}) press(widget);
+  ASSERT_NE(std::as_const(*desk.host).device().project(), nullptr) << "nobody has to make one first";
   press("settings");
   press("resolution", "12mm");
   press("images", "off");
