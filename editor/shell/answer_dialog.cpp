@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "editor/model/table_text.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
+#include "editor/widgets/icons.h"
 #include "editor/widgets/modal.h"
 #include "editor/widgets/widgets.h"
 #include "editor/words/sentences.h"
@@ -125,21 +127,53 @@ void drawFigures(const json& object) {
     if (!value.is_primitive() && !isRow(value)) drawBranch(readableKey(key), value);
 }
 
+// What was written, where all of it is there: taken out of the figures, which would list it as any other.
+std::vector<std::filesystem::path> takeFiles(json& figures) {
+  std::vector<std::filesystem::path> files;
+  const char* key = !figures.is_object() ? nullptr : figures.contains("files") ? "files" : "file";
+  if (key == nullptr || !figures.contains(key)) return files;
+  const json listed = figures[key].is_array() ? figures[key] : json::array({figures[key]});
+  for (const auto& file : listed) {
+    std::error_code ignored;
+    if (!file.is_string() || !std::filesystem::is_regular_file(file.get<std::string>(), ignored)) return {};
+    files.emplace_back(file.get<std::string>());
+  }
+  if (!files.empty()) figures.erase(key);
+  return files;
+}
+
+// Names, below the folder of all of them.
+void drawFiles(const std::vector<std::filesystem::path>& files) {
+  if (ui::beginProperties("files", 0.36F)) {
+    ui::propertyLabel("Folder");
+    ImGui::AlignTextToFramePadding();
+    ui::fittedMiddle(files.front().parent_path().string(), ImGui::GetContentRegionAvail().x);
+    for (std::size_t i = 0; i < std::min(files.size(), kMostRows); ++i) {
+      ui::propertyLabel(i > 0 ? "" : files.size() > 1 ? "Files" : "File");
+      ImGui::AlignTextToFramePadding();
+      ui::fittedMiddle(files[i].filename().string(), ImGui::GetContentRegionAvail().x);
+    }
+    ui::endProperties();
+  }
+  if (files.size() > kMostRows) ui::dimText(trf("and {} more", files.size() - kMostRows));
+}
+
 // A few lines, all in sight in a small dialog.
-bool isShort(const ShownAnswer& answer) {
+bool isShort(const std::string& text, const json& figures, std::size_t files) {
   constexpr std::size_t kFew = 8, kShortText = 300;
-  const auto& figures = answer.figures;
   const bool flat = figures.is_null() || std::all_of(figures.begin(), figures.end(), [](const json& value) {
                       return value.is_primitive() || isRow(value) || value.empty();
                     });
-  return flat && figures.size() <= kFew && answer.text.size() <= kShortText;
+  return flat && figures.size() + files <= kFew && text.size() <= kShortText;
 }
 
 }  // namespace
 
 void drawAnswer(Editor& editor) {
   auto& answers = editor.session.answers();
-  const bool is_short = !answers.empty() && isShort(answers.front());
+  json figures = answers.empty() ? json() : answers.front().figures;
+  const auto files = takeFiles(figures);
+  const bool is_short = !answers.empty() && isShort(answers.front().text, figures, files.size());
   if (!ui::beginModal(editor, "Result###answer", !answers.empty(), is_short ? 480 : 680, is_short ? 0 : 520)) return;
   const ShownAnswer& shown = answers.front();
   if (editor.fonts.bold != nullptr) ImGui::PushFont(editor.fonts.bold);
@@ -151,7 +185,8 @@ void drawAnswer(Editor& editor) {
     ui::wrapped(linesInWords(shown.text));
     ui::gap(editor, 4);
   }
-  if (shown.figures.is_object() && !shown.figures.empty()) drawFigures(shown.figures);
+  if (!files.empty()) drawFiles(files);
+  if (figures.is_object() && !figures.empty()) drawFigures(figures);
   if (!is_short) ImGui::EndChild();
   const bool close = ui::primaryButton("Close###close-answer", {}, {editor.px(110), 0}) || ui::modalCancelled();
   ImGui::SameLine();
@@ -161,6 +196,11 @@ void drawAnswer(Editor& editor) {
   if (ui::button("Copy table###copy-table", shown.figures.empty() ? "There are no figures" : "", {0, 0},
                  "Fields between tabs, for a spreadsheet"))
     ImGui::SetClipboardText(tableText(shown.figures).c_str());
+  if (!files.empty()) {
+    ImGui::SameLine();
+    if (ui::button(ICON_FOLDER_OPEN "  Show in folder###answer-folder"))
+      editor.folder_opener.open(std::filesystem::absolute(files.front()).parent_path(), editor.wake);
+  }
   if (close) {
     answers.pop_front();
     ImGui::CloseCurrentPopup();

@@ -138,7 +138,8 @@ const Fields<ConvertOptions>& convertFields() {
       {"in", &O::in, "cloud to read", {.positional = true, .required = true, .label = "Points"}},
       {"out",
        &O::out,
-       "cloud to write (.e57, .ptx, .las, .ply, .pcd, .pts, .xyz, .csv)",
+       "cloud to write: .e57, .ptx and .las hold all scans; of .ply, .pcd, .pts, .xyz and .csv each scan gets its own "
+       "file",
        {.positional = true, .required = true, .label = "File"}},
       {"as",
        &O::as,
