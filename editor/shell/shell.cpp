@@ -94,15 +94,42 @@ bool isElsewhere(std::string_view verb) {
          verb.ends_with("-recovery");
 }
 
+// The verbs in the order of the work; what is in no group stands below them.
+struct VerbGroup {
+  const char* title;
+  std::initializer_list<std::string_view> verbs;
+};
+const VerbGroup kVerbGroups[] = {
+    {"Model###group-model", {"add", "optimize", "treat", "collide", "georeference", "bookmark"}},
+    {"Materials###group-materials", {"materials", "verify"}},
+    {"Survey###group-survey", {"station", "target", "trajectory", "mover", "plan", "coverage", "underlay"}},
+    {"Scans###group-scans", {"register", "assess", "measure", "waveform"}},
+    {"Points and datasets###group-points", {"clean", "compare", "dataset", "score"}},
+    {"Files and jobs###group-files", {"info", "locate", "instruments", "run"}},
+};
+
+void verbItem(Editor& editor, const Verb& verb) {
+  const auto why = editor.session.whyNot(verb.name);
+  if (ui::menuItem("", fmt::format("{}…###run-{}", tr(verbTitle(verb.name)), verb.name), nullptr, why))
+    openVerbForm(editor, verb.name);
+  if (why.empty()) ui::tooltip(tr(verb.summary));
+}
+
 void runMenu(Editor& editor) {
-  items(editor, {"add-station", "add-row", "add-trajectory", "add-target", "scan", ""});
-  for (const auto& verb : editor.session.verbs()) {
-    if (isElsewhere(verb.name)) continue;
-    const auto why = editor.session.whyNot(verb.name);
-    if (ui::menuItem("", fmt::format("{}…###run-{}", tr(verbTitle(verb.name)), verb.name), nullptr, why))
-      openVerbForm(editor, verb.name);
-    if (why.empty()) ui::tooltip(tr(verb.summary));
+  items(editor, {"add-station", "add-station-at", "add-row", "add-trajectory", "add-target", "scan", ""});
+  for (const auto& group : kVerbGroups) {
+    if (!ui::beginMenu("", group.title)) continue;
+    for (const auto name : group.verbs)
+      if (const auto* verb = editor.session.verb(name)) verbItem(editor, *verb);
+    ImGui::EndMenu();
   }
+  const auto grouped = [](std::string_view verb) {
+    return std::any_of(std::begin(kVerbGroups), std::end(kVerbGroups), [&](const VerbGroup& group) {
+      return std::find(group.verbs.begin(), group.verbs.end(), verb) != group.verbs.end();
+    });
+  };
+  for (const auto& verb : editor.session.verbs())
+    if (!isElsewhere(verb.name) && !grouped(verb.name)) verbItem(editor, verb);
 }
 
 void submenu(Editor& editor, const char* icon, const char* title, std::initializer_list<const char*> ids) {

@@ -314,11 +314,30 @@ TEST_F(Gui, TheRunMenuSaysWhatEachVerbDoesAndHasNothingTwice) {
   open();
   ASSERT_TRUE(gui.click("Run"));
   gui.frames(2);
+  ASSERT_TRUE(gui.click("###group-model"));
+  gui.frames(3);
   EXPECT_TRUE(gui.says("Optimise the model…"));
   EXPECT_FALSE(gui.says("Optimize"));
   for (const char* elsewhere : {"###run-import", "###run-export", "###run-convert", "###run-scan"})
     EXPECT_EQ(gui.find(elsewhere), nullptr) << elsewhere;
   EXPECT_EQ(verbTitle("measure"), "Measure") << "its name, where that says it";
+}
+
+TEST_F(Gui, TheRunMenuGathersItsVerbsInGroups) {
+  open();
+  ASSERT_TRUE(gui.click("Run"));
+  gui.frames(2);
+  std::vector<std::string> alone;
+  for (const auto& item : itemProbe().items)
+    if (const auto id = item.label.find("###run-"); id != std::string::npos) alone.push_back(item.label.substr(id));
+  EXPECT_EQ(alone, std::vector<std::string>{"###run-demo"}) << "of the test";
+  for (const char* group : {"model", "materials", "survey", "scans", "points", "files"}) {
+    ASSERT_TRUE(gui.click(fmt::format("###group-{}", group))) << group;
+    gui.frames(2);
+    EXPECT_TRUE(std::any_of(itemProbe().items.begin(), itemProbe().items.end(), [](const GuiItem& item) {
+      return item.label.find("###run-") != std::string::npos;
+    })) << group;
+  }
 }
 
 TEST_F(Gui, ShowsTheLabelsOfItsFieldsWholeInALanguageWithLongerWords) {
