@@ -549,9 +549,21 @@ void openVerbForm(Editor& editor, const char* verb) {
   editor.dialogs.verb = {true, verb, form, form.options()};
 }
 
+namespace {
+
+// A sample as it was opened, which is there to be opened again.
+bool isUntouchedSample(const Session& session) {
+  const auto& sources = session.document().sources;
+  const auto isSample = [](const std::filesystem::path& file) { return file.parent_path() == samplesFolder(); };
+  return session.folder().empty() && session.history().size() == 2 && !sources.empty() &&
+         std::all_of(sources.begin(), sources.end(), isSample);
+}
+
+}  // namespace
+
 void whenSaved(Editor& editor, std::function<void()> then) {
   finishRecord(editor);
-  if (!editor.session.modified()) {
+  if (!editor.session.modified() || isUntouchedSample(editor.session)) {
     then();
     return;
   }

@@ -63,6 +63,21 @@ TEST_F(Start, KeepsTheInstrumentAtHandWithoutAModel) {
   EXPECT_FALSE(wantsStartPage(editor));
 }
 
+TEST_F(Start, LeavesASampleThatWasOnlyOpenedWithoutAQuestion) {
+  openSample(editor, "corridor.ifc");
+  gui.settle();
+  ASSERT_FALSE(editor.session.document().sources.empty());
+  bool left = false;
+  whenSaved(editor, [&] { left = true; });
+  EXPECT_TRUE(left);
+  EXPECT_FALSE(editor.dialogs.unsaved);
+  ASSERT_TRUE(editor.session.start("bookmark", {{"add", "Door"}}));
+  gui.settle();
+  ASSERT_EQ(editor.session.history().size(), 3U);
+  whenSaved(editor, [] { FAIL() << "work is lost"; });
+  EXPECT_TRUE(editor.dialogs.unsaved);
+}
+
 TEST_F(Start, SaysOfAPathThatIsGoneThatItIsNotFound) {
   editor.settings.recent = {"/no/such/project"};
   gui.frames(2);
