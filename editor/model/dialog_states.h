@@ -77,6 +77,7 @@ struct DialogStates {
   std::function<void()> after_save;     // once the save that the prompt started has gone well
   std::vector<LeftWork> recovery;       // found at the start, offered one by one
   RecoveryComparison comparison;
+  std::filesystem::path deletes;         // a recovery copy that another press deletes
   std::optional<LeftJob> resume;         // a scan to go on with once its project is open
   nlohmann::json shown_before;           // how that was looked at, to be so again; empty: as usual
   bool bare = false;                     // what a bare start is, is being said

@@ -96,6 +96,7 @@ void drawRecovery(Editor& editor) {
   const auto why = whyNotOpen(editor, left);
   const auto close = [&] {
     found.erase(found.begin());
+    editor.dialogs.deletes.clear();
     editor.dialogs.comparison = {};
     ImGui::CloseCurrentPopup();
   };
@@ -127,10 +128,17 @@ void drawRecovery(Editor& editor) {
     done = true;
     close();
   }
-  if (ImGui::SameLine(), !done && ImGui::Button(ui::Label(copy ? "Delete the copy###delete" : "Forget it###delete"),
-                                                {editor.px(120), 0})) {
-    removeRecovery(left.folder);
-    close();
+  auto& confirmed = editor.dialogs.deletes;  // a press that another dialog was meant to get deletes nothing
+  const bool asked = confirmed == left.folder;
+  const char* const deletes = asked  ? "Press again to delete###delete"
+                              : copy ? "Delete the copy###delete"
+                                     : "Forget it###delete";
+  if (ImGui::SameLine(), !done && ImGui::Button(ui::Label(deletes))) {
+    confirmed = left.folder;
+    if (asked || !copy) {
+      removeRecovery(left.folder);
+      close();
+    }
   }
   ImGui::EndPopup();
 }

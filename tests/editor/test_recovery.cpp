@@ -302,6 +302,26 @@ TEST_F(Recovery, OpensWhatWasLeftAtTheButton) {
   EXPECT_FALSE(editor.session.history().canUndo()) << "nothing of it is taken back by a key";
 }
 
+TEST_F(Recovery, DeletesACopyAtASecondPressOnly) {
+  Progress progress;
+  const auto left = recoveryFolder(root, kGone);
+  ASSERT_TRUE(writeSessionMark(left, {.name = "house", .changes = 1}));
+  ASSERT_TRUE(saveProject(twoStoreyDocument(), left / "copy", progress));
+  Editor editor(verbsWithDemo(), [] {});
+  editor.dialogs.recovery = findLeftWork(root);
+  ASSERT_EQ(editor.dialogs.recovery.size(), 1U);
+  GuiDriver gui(editor);
+  gui.frames(3);
+  ASSERT_TRUE(gui.click("###delete"));
+  gui.frames(2);
+  EXPECT_TRUE(fs::exists(left)) << "the pointer may have been there when the dialog opened";
+  EXPECT_TRUE(gui.says("Press again to delete"));
+  ASSERT_TRUE(gui.click("###delete"));
+  gui.frames(2);
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_TRUE(editor.dialogs.recovery.empty());
+}
+
 TEST_F(Recovery, OfABareStartCanBeTakenBack) {
   Editor editor(verbsWithDemo(), [] {});
   bool as_usual = false;
