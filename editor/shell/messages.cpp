@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "editor/desktop/file_list.h"
 #include "editor/desktop/interface_scale.h"
+#include "editor/desktop/user_folders.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
@@ -249,6 +251,7 @@ void drawLanguages(Editor& editor) {
 
 void drawPreferences(Editor& editor) {
   if (!ui::beginModal(editor, "Preferences###preferences", editor.dialogs.preferences, 460)) return;
+  if (ImGui::IsWindowAppearing()) editor.dialogs.unsaved_bytes = folderSize(unsavedRoot());
   if (ui::beginProperties("preferences", 0.5F)) {
     ui::propertyLabel("Interface size");
     if (ImGui::BeginCombo("###scale", fmt::format("{:.0f} %", editor.settings.user_scale * 100).c_str())) {
@@ -274,6 +277,13 @@ void drawPreferences(Editor& editor) {
     }
     ui::propertyLabel("Recovery copy after every change");
     ui::checkbox("###recovery", &editor.settings.recovery);
+    if (editor.dialogs.unsaved_bytes > 0) {
+      ui::propertyLabel("Scans of unsaved projects");
+      if (ui::button(
+              fmt::format(ICON_FOLDER_OPEN "  {}###unsaved-scans", readableSize(editor.dialogs.unsaved_bytes)).c_str(),
+              {}, {0, 0}, "Show in folder"))
+        editor.folder_opener.open(unsavedRoot(), editor.wake);
+    }
     ui::propertyLabel("Instrument sounds");
     ui::checkbox("###sounds", &editor.settings.sounds);
     ui::endProperties();

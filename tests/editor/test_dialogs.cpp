@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "demo_verbs.h"
+#include "editor/desktop/user_folders.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
 #include "editor/widgets/keyboard.h"
@@ -143,6 +144,41 @@ TEST_F(Dialogs, ExportsUnderTheProjectsNameWhereNothingIsYet) {
   EXPECT_EQ(first, folder.path() / (editor.session.name() + ".glb"));
   std::ofstream(first) << "somebody's";
   EXPECT_NE(offered(), first);
+}
+
+TEST_F(Dialogs, PreferencesSayWhatScansOfUnsavedProjectsTake) {
+  TemporaryFolder folder;
+  setenv("XDG_DATA_HOME", folder.path().c_str(), 1);
+  editor.dialogs.preferences = true;
+  gui.frames(3);
+  EXPECT_EQ(gui.find("###unsaved-scans"), nullptr) << "there are none";
+  editor.dialogs.preferences = false;
+  gui.frames(3);
+  std::filesystem::create_directories(unsavedRoot() / "house" / "scans");
+  std::ofstream(unsavedRoot() / "house" / "scans" / "S1.e57") << std::string(2400000, ' ');
+  editor.dialogs.preferences = true;
+  gui.frames(3);
+  ASSERT_NE(gui.find("###unsaved-scans"), nullptr);
+  EXPECT_TRUE(gui.says("2.4 MB"));
+  unsetenv("XDG_DATA_HOME");
+}
+
+TEST_F(Dialogs, AResultNamesItsFilesBelowTheirFolderAndShowsThatFolder) {
+  open();
+  TemporaryFolder folder;
+  nlohmann::json files = nlohmann::json::array();
+  for (const char* name : {"walk K1.ply", "walk K2.ply"}) {
+    std::ofstream(folder.path() / name) << "ply";
+    files.push_back((folder.path() / name).string());
+  }
+  editor.session.answers().push_back({"Exported 2 files, walk K1.ply to walk K2.ply", "", {{"files", files}}});
+  gui.frames(4);
+  const auto texts = gui.texts();
+  EXPECT_NE(std::find(texts.begin(), texts.end(), "walk K2.ply"), texts.end()) << "without its folder";
+  EXPECT_NE(gui.find("###answer-folder"), nullptr);
+  std::filesystem::remove(folder.path() / "walk K1.ply");
+  gui.frames(2);
+  EXPECT_EQ(gui.find("###answer-folder"), nullptr) << "what is not there is listed as a figure";
 }
 
 TEST_F(Dialogs, AShortResultHasASmallDialogAndEnterSavesAPicture) {
