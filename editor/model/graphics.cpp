@@ -170,6 +170,12 @@ std::string GraphicsPace::change(int steps, double frame_s) {
                    : trf("Graphics raised to {}: {:.0f} frames per second", name, 1 / frame_s);
 }
 
+void GraphicsPace::measured(GraphicsLevel level, double picture_s) {
+  for (std::size_t lower = 0; lower < index(level); ++lower)
+    picture_s = std::max(picture_s, cost_s_[lower].value_or(0));
+  cost_s_[index(level)] = picture_s;
+}
+
 std::optional<GraphicsLevel> GraphicsPace::notMeasured() const {
   for (const auto level : {GraphicsLevel::low, GraphicsLevel::medium, GraphicsLevel::high})
     if (!cost_s_[index(level)]) return level;

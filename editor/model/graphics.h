@@ -62,8 +62,9 @@ class GraphicsPace {
   // a moving camera would cost, as most of the picture was not drawn anew.
   std::string worked(double frame_s);
 
-  // What a picture of the scene costs at a level while the camera moves.
-  void measured(GraphicsLevel level, double picture_s) { cost_s_[static_cast<std::size_t>(level)] = picture_s; }
+  // What a picture of the scene costs at a level while the camera moves. A level draws all that a lower one draws: a
+  // shorter time is that of another moment, and counts as the lower one's.
+  void measured(GraphicsLevel level, double picture_s);
   std::optional<GraphicsLevel> notMeasured() const;
   // One line: what a choice has, and what it costs on this machine if that has been measured.
   std::string about(GraphicsChoice choice) const;

@@ -55,6 +55,15 @@ TEST(GraphicsPace, IsLoweredByAnInstrumentThatWorksSlowlyAndNotRaisedByOneThatWo
   EXPECT_EQ(run(pace, 0.005, 30).size(), 1U) << "whole ones are drawn so quickly, too";
 }
 
+TEST(GraphicsPace, SaysOfNoLevelThatItCostsLessThanALowerOne) {
+  auto pace = paceOf(true);
+  pace.measured(GraphicsLevel::low, 0.020);
+  pace.measured(GraphicsLevel::medium, 0.041);
+  pace.measured(GraphicsLevel::high, 0.038);
+  EXPECT_TRUE(pace.about(GraphicsChoice::high).ends_with("about 41 ms per frame on this computer"))
+      << pace.about(GraphicsChoice::high);
+}
+
 TEST(GraphicsPace, GoesDownStepByStep) {
   auto pace = paceOf(false);
   const auto said = run(pace, 0.1, 30);
