@@ -109,7 +109,7 @@ void drawClasses(const Model& model, float height) {
   });
   if (facts.triangles_of_spaces > 0) {
     const auto others =
-        trf("and {} of spaces and annotations, which no beam meets", groupedDigits(facts.triangles_of_spaces));
+        trf("and {} of spaces and annotations, invisible to scanners", groupedDigits(facts.triangles_of_spaces));
     ui::dimWrapped(others);
     height -= ImGui::GetTextLineHeightWithSpacing();
   }

@@ -215,7 +215,7 @@ std::vector<std::string> sentencesOf(const LeftWork& left) {
   const auto& mark = left.mark;
   std::vector<std::string> said;
   said.push_back(mark.display_lost ? tr("The display was lost.") : tr("The editor closed unexpectedly."));
-  if (!mark.name.empty()) said.push_back(trf("Open project: '{}'.", mark.name));
+  if (!mark.name.empty()) said.push_back(trf("The project '{}' was open.", mark.name));
   if (!left.last_heard.empty()) said.push_back(trf("Last seen at {}.", left.last_heard));
   if (!left.project.empty() && mark.saved_in.empty())
     said.push_back(tr("The project was never saved. A recovery copy of it is available."));

@@ -233,7 +233,7 @@ const std::array kOwn = {
            [](Editor& e) { duplicateStation(e); },
            whyDuplicateNot},
     Action{"look-from-station",
-           "Look from here: step into the selected station's tripod",
+           "Look from the selected station",
            ICON_EYE,
            {'V'},
            [](Editor& e) { lookFromStation(e); },

@@ -241,7 +241,7 @@ void drawLanguages(Editor& editor) {
   auto& chosen = editor.settings.language;
   const auto shown = languages();
   const auto named = std::find_if(shown.begin(), shown.end(), [&](const Language& l) { return chosen == l.code; });
-  const std::string system = tr("As the system");
+  const std::string system = tr("System language");
   if (!ImGui::BeginCombo("###language", named == shown.end() ? system.c_str() : named->name)) return;
   if (ImGui::Selectable((system + "###system").c_str(), chosen.empty())) chooseLanguage(editor, "");
   for (const auto& language : shown)

@@ -234,7 +234,7 @@ ui::Text toolHint(const Editor& editor) {
   if (view.teleport.active())
     return view.teleport.by_key ? "Aim with the pointer, release T or click to stand there   Esc to cancel"
                                 : "Click where to stand   Esc to cancel";
-  if (goesOnByClick(editor)) return "T went to the place under the pointer; click to go on   Alt+Left to go back";
+  if (goesOnByClick(editor)) return "Teleported to the pointer; click to go farther   Alt+Left to go back";
   if (view.tool == Tool::select && looksFromStation(editor)) return "Drag to look around   Alt+Left to go back";
   std::string measuring;
   const char* hint = movingHint(editor);

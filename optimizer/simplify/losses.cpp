@@ -126,8 +126,8 @@ void reportLossless(const Environment& before, const std::vector<MeshJob>& jobs,
     for (const auto& step : jobs[i].steps) flat += step.flat ? step.triangles : 0;
   }
   if (repeated > 0)
-    report.note("lossless", fmt::format("{} of {} meshes are duplicates and share one shape: {} triangles", repeated,
-                                        meshes, repeated_triangles));
+    report.note("lossless", fmt::format("duplicate meshes, stored once: {} of {}, {} triangles", repeated, meshes,
+                                        repeated_triangles));
   if (positions > 0) report.note("lossless", fmt::format("{} duplicate positions merged", positions));
   if (degenerate + again > 0)
     report.note("lossless", fmt::format("{} zero-area and {} duplicate triangles removed", degenerate, again));

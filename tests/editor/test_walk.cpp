@@ -198,7 +198,7 @@ TEST_F(Walking, ATapOfTGoesToThePointerAndAClickAfterItGoesOn) {
   gui.key('T');
   gui.frames(3);
   EXPECT_NEAR((editor.walk.feet() - first).norm(), 0, 0.05) << editor.walk.feet().transpose();
-  EXPECT_TRUE(gui.says("click to go on"));
+  EXPECT_TRUE(gui.says("click to go farther"));
   editor.view.camera.azimuth_rad = std::numbers::pi;  // towards where it came from
   gui.frame();
   gui.moveTo(pixelOf(from));
@@ -207,7 +207,7 @@ TEST_F(Walking, ATapOfTGoesToThePointerAndAClickAfterItGoesOn) {
   EXPECT_NEAR((editor.walk.feet() - from).norm(), 0, 0.05) << editor.walk.feet().transpose();
   EXPECT_TRUE(editor.selection.empty());
   gui.frames(300);  // 5 s later a click is one as ever
-  EXPECT_FALSE(gui.says("click to go on"));
+  EXPECT_FALSE(gui.says("click to go farther"));
   editor.view.camera.azimuth_rad = 0;
   gui.frame();
   gui.moveTo(pixelOf(first));
