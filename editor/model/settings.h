@@ -43,9 +43,9 @@ struct Settings {
   bool recovery = true;               // keep a copy of unsaved work after every change
   GraphicsChoice graphics = GraphicsChoice::automatic;
   Theme theme = Theme::dark;
-  bool sounds = false;           // of instruments
-  bool drag_turns_head = false;  // where one looks around; else what is seen follows the pointer
-  std::string language;          // code of words.h; "": as the user's locale says
+  bool sounds = false;          // of instruments
+  bool drag_turns_head = true;  // where one looks around, as in games; else what is seen follows the pointer
+  std::string language;         // code of words.h; "": as the user's locale says
   bool operator==(const Settings&) const = default;
 
   void remember(const std::filesystem::path& path);

@@ -270,7 +270,7 @@ void drawPreferences(Editor& editor) {
     ui::propertyLabel("Language");
     drawLanguages(editor);
     ui::propertyLabel("Dragging to look around");
-    for (const auto& [turns, name] : {std::pair{false, "Moves the scene"}, {true, "Turns the head"}}) {
+    for (const auto& [turns, name] : {std::pair{true, "Turns the head"}, {false, "Moves the scene"}}) {
       if (ui::radioButton(fmt::format("{}###drag-{}", tr(name), turns ? "head" : "scene").c_str(),
                           editor.settings.drag_turns_head == turns))
         editor.settings.drag_turns_head = turns;

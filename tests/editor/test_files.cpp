@@ -61,7 +61,7 @@ TEST_F(Folder, KeepsSettingsFromOneStartToTheNext) {
   settings.remember("/models/house.ifc");
   settings.areas[1].left = 444;
   settings.window = WindowPlace{-1920, 40, 1700, 950, true};
-  settings.drag_turns_head = true;
+  settings.drag_turns_head = false;
   settings.user_scale = 1.25;
   settings.graphics = GraphicsChoice::medium;
   settings.theme = Theme::light;

@@ -60,7 +60,7 @@ TEST_F(Walking, BeginsOnTheFloorAtEyeHeightAndEndsWithEscape) {
   EXPECT_NEAR((editor.view.camera.eye() - eye).norm(), 0, 1e-6) << "it stays where one walked to";
 }
 
-TEST_F(Walking, ADragMovesTheSceneOrTurnsTheHeadAsChosenInThePreferences) {
+TEST_F(Walking, ADragTurnsTheHeadUnlessThePreferencesMakeItMoveTheScene) {
   walk();
   const auto turnOfDrag = [&] {  // to the left, as a turn to the left
     const auto before = editor.view.camera.forward();
@@ -76,14 +76,14 @@ TEST_F(Walking, ADragMovesTheSceneOrTurnsTheHeadAsChosenInThePreferences) {
     gui.frames(2);
     return before.cross(editor.view.camera.forward()).z();
   };
-  EXPECT_LT(turnOfDrag(), -0.01) << "what is seen follows the pointer";
+  EXPECT_GT(turnOfDrag(), 0.01) << "as in games";
   editor.dialogs.preferences = true;
   gui.frames(3);
-  ASSERT_TRUE(gui.click("###drag-head"));
+  ASSERT_TRUE(gui.click("###drag-scene"));
   editor.dialogs.preferences = false;
   gui.frames(3);
-  EXPECT_TRUE(editor.settings.drag_turns_head);
-  EXPECT_GT(turnOfDrag(), 0.01);
+  EXPECT_FALSE(editor.settings.drag_turns_head);
+  EXPECT_LT(turnOfDrag(), -0.01) << "what is seen follows the pointer";
 }
 
 TEST_F(Walking, TakesTheCutAwayAndThePreviousViewBringsItBack) {
