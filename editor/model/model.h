@@ -54,6 +54,7 @@
 #include "editor/model/walking.h"
 #include "editor/placing/place_figures.h"
 #include "editor/placing/placement_view.h"
+#include "editor/trajectories/bearer_view.h"
 #include "editor/trajectories/carried_scan.h"
 #include "editor/trajectories/path_moment.h"
 #include "editor/trajectories/trajectory_draft.h"
@@ -262,6 +263,8 @@ struct Model : Style {
   ScanChoice scan_choice{.instrument = "leica-rtc360"};  // what the next scan is set to
   CarriedScan carried_scan;
   PathMoment path_moment;
+  BearerView bearer_view;    // while that plays
+  bool left_bearer = false;  // somebody has moved the view since it plays
   SeenLimits seen;
   WallView wall;
   WallChoice wall_choice;

@@ -203,9 +203,15 @@ std::string whyNoMoment(const Model& model) {
   return way->problem;
 }
 
+void showMoment(Model& model, const std::string& trajectory, double after_s) {
+  model.path_moment.trajectory = trajectory;
+  model.path_moment.after_s = after_s;
+  model.path_moment.plays = false;
+}
+
 void moveMoment(Model& model, double by_s) {
   const double seconds = model.trajectory_ways.of(static_cast<std::size_t>(model.survey.trajectory))->seconds;
-  model.path_moment = {chosenTrajectory(model)->name, std::clamp(shownMoment_s(model) + by_s, 0.0, seconds), false};
+  showMoment(model, chosenTrajectory(model)->name, std::clamp(shownMoment_s(model) + by_s, 0.0, seconds));
 }
 
 void playMoments(Model& model) {
@@ -213,7 +219,8 @@ void playMoments(Model& model) {
   const bool plays = model.path_moment.plays && model.path_moment.trajectory == name;
   const double seconds = model.trajectory_ways.of(static_cast<std::size_t>(model.survey.trajectory))->seconds;
   const double from_s = shownMoment_s(model);
-  model.path_moment = {name, !plays && from_s >= seconds ? 0 : from_s, !plays};
+  showMoment(model, name, !plays && from_s >= seconds ? 0 : from_s);
+  model.path_moment.plays = !plays;
 }
 
 void stepMoment(Model& model, double passed_s) {
@@ -226,6 +233,83 @@ void stepMoment(Model& model, double passed_s) {
   if (!moment.plays) return;
   moment.after_s = std::min(shownMoment_s(model) + passed_s, way->seconds);
   moment.plays = moment.after_s < way->seconds;
+}
+
+void followBearer(Model& model, double passed_s) {
+  const PathMoment& moment = model.path_moment;
+  auto& view = model.bearer_view;
+  auto& camera = model.view.camera;
+  if (!moment.plays || !moment.follows) model.left_bearer = false;
+  if (view.active() && view.isMoved(camera)) {
+    view.end();
+    model.left_bearer = moment.plays && moment.follows;
+  }
+  const bool wanted = moment.plays && moment.follows && !model.left_bearer;
+  if (view.active() && !wanted) {
+    view.end();
+    goBackInViews(model);
+  }
+  if (!wanted) return;
+  if (!view.active()) {
+    rememberView(model);
+    stopWalking(model);
+    stopFlying(model);
+    model.visibility.cut_height_m.reset();  // it may go upstairs
+    view.begin(camera);
+  }
+  const auto* way = model.trajectory_ways.of(static_cast<std::size_t>(model.survey.trajectory));
+  view.follow(
+      *way, chosenTrajectory(model)->carrier, moment.after_s, passed_s,
+      [&model, state = model.viewState()](const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+        return model.picker.sees(from, to, state);
+      },
+      camera);
+}
+
+namespace {
+
+// Of the floor that it leads over, as far as that is known; else of the instrument.
+std::vector<Eigen::Vector3d> placesOf(const CarriedTrajectory& trajectory, const TrajectoryWay* way) {
+  std::vector<Eigen::Vector3d> places;
+  for (const auto& waypoint : trajectory.waypoints) places.push_back(waypoint.floor_m);
+  if (way == nullptr) return places;
+  const double lift_m = trajectory.carrier == "uav" ? 0 : carriedHeight_m(trajectory.carrier, trajectory.height_m);
+  for (const auto& sample : way->samples) places.push_back(sample.position_m - Eigen::Vector3d(0, 0, lift_m));
+  return places;
+}
+
+bool isMostlySeen(const Model& model, const std::vector<Eigen::Vector3d>& places) {
+  constexpr double kMostly = 0.8;
+  const Eigen::Vector3d above(0, 0, kOnFloor_m);
+  const auto state = model.viewState();
+  const auto seen = std::count_if(places.begin(), places.end(), [&](const Eigen::Vector3d& p) {
+    return model.picker.sees(model.view.camera.eyeOf(p + above), p + above, state);
+  });
+  return static_cast<double>(seen) >= kMostly * static_cast<double>(places.size());
+}
+
+}  // namespace
+
+void showTrajectory(Model& model, std::size_t trajectory) {
+  constexpr double kFromAbove_rad = 1.1;
+  const auto places =
+      placesOf(model.session.document().job->trajectories[trajectory], model.trajectory_ways.of(trajectory));
+  if (places.empty()) return;
+  rememberView(model);
+  stopWalking(model);
+  stopFlying(model);
+  Bounds around;
+  for (const auto& place : places) around.extend(place);
+  const double highest_m = around.max.z();
+  const Eigen::Vector3d rim(1.5, 1.5, 1);
+  around.extend(Eigen::Vector3d(around.min - rim));
+  around.extend(Eigen::Vector3d(around.max + rim));
+  auto& camera = model.view.camera;
+  camera.elevation_rad = std::max(camera.elevation_rad, kFromAbove_rad);
+  model.bringIntoView(around);
+  auto& cut = model.visibility.cut_height_m;
+  if (cut && *cut < highest_m) cut.reset();
+  if (!isMostlySeen(model, places)) cut = highest_m + kCutAboveFloor_m;
 }
 
 namespace {

@@ -40,10 +40,16 @@ std::string whyNotEndTrajectory(const Model& model);
 void endTrajectory(Model& model);  // adds it to the job
 // The moment of the chosen trajectory at which its instrument is drawn; 0 where it begins.
 double shownMoment_s(const Model& model);
-std::string whyNoMoment(const Model& model);  // why there is none to be chosen
+std::string whyNoMoment(const Model& model);                                   // why there is none to be chosen
+void showMoment(Model& model, const std::string& trajectory, double after_s);  // and plays no more
 void moveMoment(Model& model, double by_s);
 void playMoments(Model& model);                  // from there on, at the end from the beginning, or stops
 void stepMoment(Model& model, double passed_s);  // while they are played; once a frame
+// After that: the camera goes along behind who bears it, until it is moved by hand; and goes back when it has played.
+void followBearer(Model& model, double passed_s);
+// All of a trajectory from above, and cut above its floor where that would be hidden; the view before comes back with
+// Alt+Left.
+void showTrajectory(Model& model, std::size_t trajectory);
 // What is carried along the trajectories as it is drawn, the nearest ones; nothing that the camera is inside of, nor
 // where another one is. `kept`: whether what is so high above its floor is in the picture there.
 std::vector<CarriedInstrument> carriedInstruments(

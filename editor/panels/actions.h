@@ -48,9 +48,12 @@ class Actions {
   virtual void bringIntoView(const Bounds& box) = 0;
   virtual void flyTo(const Eigen::Vector3d& place) = 0;           // on a floor, local frame: looks at it from near
   virtual void showWorstPlace(const Eigen::Vector3d& place) = 0;  // local frame: marks it and brings it into view
-  virtual void goToBookmark(std::size_t bookmark) = 0;            // index into the document's
-  virtual void goToRoom(std::uint32_t product) = 0;               // walks there
-  virtual void goToStorey(std::int32_t node) = 0;                 // likewise; index into Environment::spatial
+  virtual void showTrajectory(std::size_t trajectory) = 0;        // index into the job's: all of it from above
+  virtual void showMoment(const std::string& trajectory, double after_s) = 0;  // where its instrument is drawn
+  virtual void followBearer(bool follows) = 0;          // with the view, while a trajectory is played
+  virtual void goToBookmark(std::size_t bookmark) = 0;  // index into the document's
+  virtual void goToRoom(std::uint32_t product) = 0;     // walks there
+  virtual void goToStorey(std::int32_t node) = 0;       // likewise; index into Environment::spatial
   virtual void colourBy(ColourMode colour) = 0;
   virtual void showSide(ModelSide side) = 0;
   virtual void showReflectanceAt(double wavelength_nm) = 0;
@@ -71,7 +74,6 @@ class Actions {
   virtual void typingBegun() = 0;                                  // of its numbers
   virtual void set(const ScanChoice& scan) = 0;
   virtual void set(const CarriedScan& scan) = 0;
-  virtual void set(const PathMoment& moment) = 0;
   virtual void set(const SeenLimits& limits) = 0;
   virtual void set(const Body& walker) = 0;
   virtual void set(const WallChoice& wall) = 0;

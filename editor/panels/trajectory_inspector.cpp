@@ -96,19 +96,6 @@ std::string carriedBy(const CarriedTrajectory& trajectory) {
   return trajectory.file.empty() ? carrierName(trajectory.carrier) : tr("file");
 }
 
-void bringPathIntoView(const Model& model, Actions& actions, const CarriedTrajectory& trajectory) {
-  Bounds around;
-  if (const auto* way = model.trajectory_ways.of(static_cast<std::size_t>(model.survey.trajectory)))
-    for (const auto& sample : way->samples) around.extend(sample.position_m);
-  for (const auto& waypoint : trajectory.waypoints) around.extend(waypoint.floor_m);
-  if (around.empty()) return;
-  const Eigen::Vector3d rim(1.5, 1.5, 1);
-  const Bounds inner = around;
-  around.extend(inner.min - rim);
-  around.extend(inner.max + rim);
-  actions.bringIntoView(around);
-}
-
 bool isKnown(const TrajectoryWay* way) { return way != nullptr && way->problem.empty(); }
 
 std::string lengthOf(const TrajectoryWay* way) {
@@ -166,7 +153,7 @@ void drawRow(const Model& model, Actions& actions, const CarriedTrajectory& traj
   if (ImGui::Selectable("###trajectory", model.survey.trajectory == i,
                         ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick)) {
     actions.inspect(SurveyChoice{.trajectory = i});
-    if (ImGui::IsMouseDoubleClicked(0)) bringPathIntoView(model, actions, trajectory);
+    if (ImGui::IsMouseDoubleClicked(0)) actions.showTrajectory(static_cast<std::size_t>(i));
   }
   ui::tooltip(aboutTrajectory(way, trajectory));
   ImGui::SameLine(0, 0);
@@ -377,8 +364,9 @@ void drawTrajectoryButtons(const Model& model, Actions& actions, const CarriedTr
     actions.run("scan");
   }
   const float width = columnWidth(3);
-  if (smallButton(ICON_CROSSHAIRS, "Look", "look-trajectory", width, {}, "Frame in view"))
-    bringPathIntoView(model, actions, trajectory);
+  if (smallButton(ICON_CROSSHAIRS, "Look", "look-trajectory", width, {},
+                  "All of it from above; what would hide it is cut away"))
+    actions.showTrajectory(static_cast<std::size_t>(model.survey.trajectory));
   ImGui::SameLine();
   const std::string why_no_export = way != nullptr ? way->problem : std::string();
   if (smallButton(ICON_EXPORT, "Export…", "export-trajectory", width, why_no_export, "Write its poses to a file"))
@@ -399,11 +387,18 @@ void drawMoment(const Model& model, Actions& actions, const CarriedTrajectory& t
     ImGui::BeginDisabled(way == nullptr);
     if (ui::numberSlider("###path-moment", after_s, 0, seconds, format,
                          "When the instrument is drawn along the way. Left and Right step by half a second."))
-      actions.set(PathMoment{trajectory.name, after_s});
+      actions.showMoment(trajectory.name, after_s);
     ImGui::EndDisabled();
     ui::endProperties();
   }
-  actions.button("play-trajectory", model.path_moment.plays ? "Stop" : "Play", -FLT_MIN);
+  const auto& style = ImGui::GetStyle();
+  const float follow = ImGui::GetFrameHeight() + style.ItemInnerSpacing.x + ImGui::CalcTextSize(tr("Follow").c_str()).x;
+  actions.button("play-trajectory", model.path_moment.plays ? "Stop" : "Play",
+                 ImGui::GetContentRegionAvail().x - follow - style.ItemSpacing.x);
+  ImGui::SameLine();
+  bool follows = model.path_moment.follows;
+  if (ui::checkbox("Follow###follow-bearer", &follows)) actions.followBearer(follows);
+  ui::tooltip("While it plays, the view goes along behind the scanner until you move it");
 }
 
 CoverageOptions coverageOf(const Model& model, const CarriedTrajectory& trajectory) {

@@ -101,6 +101,7 @@ EscapeLayer escapeLayer(const Editor& editor) {
   if (const auto* top = topPopup()) return isModal(*top) ? EscapeLayer::modal : EscapeLayer::popup;
   if (editor.preview.isOpen()) return EscapeLayer::preview;
   if (editor.proof) return EscapeLayer::proof;
+  if (editor.bearer_view.active()) return EscapeLayer::play;
   const auto tool = editor.view.tool;
   if (tool == Tool::walk || tool == Tool::fly || editor.walk_ground.preparing() || editor.fieldwork.at_screen)
     return EscapeLayer::walk;
@@ -121,6 +122,7 @@ void closeTopmost(Editor& editor) {
     case EscapeLayer::modal: return ui::askModalToGo(topPopup()->PopupId, false);
     case EscapeLayer::preview: return closePreview(editor);
     case EscapeLayer::proof: return editor.endProof();
+    case EscapeLayer::play: editor.path_moment.plays = false; return;
     case EscapeLayer::tool:
     case EscapeLayer::walk:
     case EscapeLayer::selection:

@@ -6,7 +6,7 @@ namespace standpoint {
 struct Editor;
 
 // What lies over one another, the topmost first: Esc ends one of these and nothing below it.
-enum class EscapeLayer { text, drag, popup, modal, preview, proof, tool, walk, selection, none };
+enum class EscapeLayer { text, drag, popup, modal, preview, proof, play, tool, walk, selection, none };
 
 // The layer that Esc would end now.
 EscapeLayer escapeLayer(const Editor& editor);

@@ -87,6 +87,7 @@ void instrumentChip(Editor& editor) {
   const std::string label =
       chosen == nullptr ? tr("Choose a scanner…") : fmt::format("{} {}", chosen->maker, chosen->model);
   const float width = chipWidth(editor, label, 120);
+  beside(editor, width);
   drawChipGround(editor, width);
   ImGui::SetNextItemWidth(width);
   ImGui::BeginDisabled(scansWalk(editor));
@@ -103,14 +104,17 @@ void instrumentChip(Editor& editor) {
   ImGui::EndDisabled();
 }
 
-void litButton(Editor& editor, const char* id) {
+// As wide while it is on: no other chip comes under the pointer.
+void wordedButton(Editor& editor, const char* id, const char* word) {
   const Action& action = *findAction(id);
-  const bool lit = action.on != nullptr && action.on(editor);
+  const std::string begin = fmt::format("{}  {}", action.icon, tr(word)),
+                    end = fmt::format("{}  {}", ICON_STOP, tr("Stop"));
+  const float width = std::max(chipWidth(editor, begin, 0), chipWidth(editor, end, 0));
   const std::string tip = tr(action.title) + "  (" + shortcutText(action.shortcut) + ")";
-  const char* const icon = lit ? ICON_STOP : action.icon;
-  if (ui::iconButton(fmt::format("{}###tool_{}", icon, id).c_str(), tip.c_str(), whyNot(action, editor), lit))
+  beside(editor, width);
+  if (ui::button(fmt::format("{}###tool_{}", action.on(editor) ? end : begin, id).c_str(), whyNot(action, editor),
+                 {width, 0}, tip.c_str()))
     action.run(editor);
-  ImGui::SameLine();
 }
 
 const char* liveColourName(LiveColour colour) {
@@ -171,11 +175,8 @@ void drawLiveReadout(const Editor& editor, ImVec2 origin, ImVec2 size, float abo
 }
 
 void walkingChips(Editor& editor) {
-  const auto& style = ImGui::GetStyle();
-  drawChipGround(editor, ImGui::CalcTextSize(ICON_CIRCLE).x + style.ItemSpacing.x + ImGui::CalcTextSize(ICON_FEED).x +
-                             4 * style.FramePadding.x);
-  litButton(editor, "record-walk");
-  litButton(editor, "scan-walk");
+  wordedButton(editor, "record-walk", "Record");
+  wordedButton(editor, "scan-walk", "Scan live");
   instrumentChip(editor);
 }
 

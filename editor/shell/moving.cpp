@@ -167,13 +167,12 @@ void movingChips(Editor& editor) {
   ImGui::SameLine();
   if (field("###view-angle", angle, {.kind = kAngle, .decimals = 0, .drag = 0.5}, "Vertical angle of view"))
     editor.walk.setViewAngle(angle, editor.view.camera);
-  ImGui::SameLine();
   walkingChips(editor);
   if (editor.held.instrument.empty()) return;
-  ImGui::SameLine();
   float width = ImGui::GetStyle().ItemSpacing.x;
   for (const char* id : {"step-out-of-sight", "return-to-instrument"})
     width += chipWidth(editor, findAction(id)->icon, 0);
+  beside(editor, width);
   drawPlate(editor, ImGui::GetCursorScreenPos(), {width, ImGui::GetFrameHeight()});
   actionToolButton(editor, "step-out-of-sight");
   actionToolButton(editor, "return-to-instrument");

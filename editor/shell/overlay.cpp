@@ -235,6 +235,7 @@ ui::Text toolHint(const Editor& editor) {
     return view.teleport.by_key ? "Aim with the pointer, release T or click to stand there   Esc to cancel"
                                 : "Click where to stand   Esc to cancel";
   if (goesOnByClick(editor)) return "Teleported to the pointer; click to go farther   Alt+Left to go back";
+  if (editor.bearer_view.active()) return "The view follows the scanner; drag to look around yourself   Esc to stop";
   if (view.tool == Tool::select && looksFromStation(editor)) return "Drag to look around   Alt+Left to go back";
   std::string measuring;
   const char* hint = movingHint(editor);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "editor/model/bookmark_steps.h"
+#include "editor/model/trajectory_steps.h"
 #include "editor/panels/panels.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
@@ -75,6 +76,11 @@ void PanelActions::frameSelection() { editor_.frameSelection(); }
 void PanelActions::bringIntoView(const Bounds& box) { editor_.bringIntoView(box); }
 void PanelActions::flyTo(const Eigen::Vector3d& place) { standpoint::flyTo(editor_, place); }
 void PanelActions::showWorstPlace(const Eigen::Vector3d& place) { standpoint::showWorstPlace(editor_, place); }
+void PanelActions::showTrajectory(std::size_t trajectory) { standpoint::showTrajectory(editor_, trajectory); }
+void PanelActions::showMoment(const std::string& trajectory, double after_s) {
+  standpoint::showMoment(editor_, trajectory, after_s);
+}
+void PanelActions::followBearer(bool follows) { editor_.path_moment.follows = follows; }
 void PanelActions::goToBookmark(std::size_t bookmark) { standpoint::goToBookmark(editor_, bookmark); }
 void PanelActions::goToRoom(std::uint32_t product) { jumpToRoom(editor_, product); }
 void PanelActions::goToStorey(std::int32_t node) { jumpToStorey(editor_, node); }
@@ -101,7 +107,6 @@ void PanelActions::holdNewStation(const Eigen::Vector3d& centre) { editor_.view.
 void PanelActions::typingBegun() { editor_.typing_wanted = false; }
 void PanelActions::set(const ScanChoice& scan) { editor_.scan_choice = scan; }
 void PanelActions::set(const CarriedScan& scan) { editor_.carried_scan = scan; }
-void PanelActions::set(const PathMoment& moment) { editor_.path_moment = moment; }
 void PanelActions::set(const SeenLimits& limits) { editor_.seen = limits; }
 void PanelActions::set(const Body& walker) { editor_.walker = walker; }
 void PanelActions::set(const WallChoice& wall) { editor_.wall_choice = wall; }

@@ -33,6 +33,9 @@ class PanelActions final : public Actions {
   void bringIntoView(const Bounds& box) override;
   void flyTo(const Eigen::Vector3d& place) override;
   void showWorstPlace(const Eigen::Vector3d& place) override;
+  void showTrajectory(std::size_t trajectory) override;
+  void showMoment(const std::string& trajectory, double after_s) override;
+  void followBearer(bool follows) override;
   void goToBookmark(std::size_t bookmark) override;
   void goToRoom(std::uint32_t product) override;
   void goToStorey(std::int32_t node) override;
@@ -54,7 +57,6 @@ class PanelActions final : public Actions {
   void typingBegun() override;
   void set(const ScanChoice& scan) override;
   void set(const CarriedScan& scan) override;
-  void set(const PathMoment& moment) override;
   void set(const SeenLimits& limits) override;
   void set(const Body& walker) override;
   void set(const WallChoice& wall) override;

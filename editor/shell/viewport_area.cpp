@@ -275,11 +275,12 @@ void drawViewport(Editor& editor) {
     view.frame_wanted = false;
     editor.flight.settle(view.camera);
   }
-  if (editor.walk.active() || view.tool == Tool::fly)
+  stepMoment(editor, ImGui::GetIO().DeltaTime);
+  followBearer(editor, ImGui::GetIO().DeltaTime);
+  if (editor.walk.active() || view.tool == Tool::fly || editor.bearer_view.active())
     editor.flight.settle(view.camera);
   else
     editor.flight.step(view.camera, ImGui::GetIO().DeltaTime);
-  stepMoment(editor, ImGui::GetIO().DeltaTime);
   measureGraphics(editor, size);
   if (proves)
     drawTwoClouds(editor, origin, size);

@@ -10,6 +10,7 @@ struct PathMoment {
   std::string trajectory;  // its name
   double after_s = 0;      // since it begins
   bool plays = false;      // it goes on by itself, as fast as it is walked
+  bool follows = true;     // the view goes along while it plays
 };
 
 }  // namespace standpoint

@@ -438,6 +438,38 @@ TEST_F(LiveWalk, HasItsLegendAmongTheChipsWhereNothingElseOfTheViewIs) {
   EXPECT_LT(end.y, window->Pos.y + window->Size.y / 2) << "what is scanned stays in sight";
 }
 
+TEST_F(LiveWalk, ItsButtonsSayInWordsWhatTheyDoAt1280By800InEachLanguage) {
+  ImGui::GetIO().DisplaySize = {1280, 800};
+  walk();
+  const auto* window = ImGui::FindWindowByName("###viewport");
+  for (const char* language : {"en", "de", "uk"}) {
+    chooseLanguage(editor, language);
+    gui.frames(3);
+    const auto *record = gui.find("###tool_record-walk"), *scan = gui.find("###tool_scan-walk"),
+               *scanner = gui.find("###live-instrument");
+    ASSERT_TRUE(record != nullptr && scan != nullptr && scanner != nullptr);
+    EXPECT_THAT(record->label, testing::HasSubstr(tr("Record")));
+    EXPECT_THAT(scan->label, testing::HasSubstr(tr("Scan live")));
+    const ImGuiWindow& view = *window;
+    for (const auto* item : {record, scan, scanner}) {
+      EXPECT_LE(item->rect.Max.x, view.Pos.x + view.Size.x) << language << ": " << item->label;
+      EXPECT_LT(item->rect.Max.y, view.Pos.y + view.Size.y / 4) << language << ": " << item->label;
+    }
+    EXPECT_FALSE(record->rect.Overlaps(scan->rect) || scan->rect.Overlaps(scanner->rect)) << language;
+  }
+}
+
+TEST_F(LiveWalk, TheButtonThatRecordsEndsTheRecordingInItsPlace) {
+  walk();
+  const ImRect before = gui.find("###tool_record-walk")->rect, beside = gui.find("###tool_scan-walk")->rect;
+  ASSERT_TRUE(gui.click("###tool_record-walk"));
+  gui.frames(2);
+  EXPECT_TRUE(editor.recording.record.active());
+  EXPECT_THAT(gui.find("###tool_record-walk")->label, testing::HasSubstr("Stop"));
+  EXPECT_EQ(gui.find("###tool_record-walk")->rect.GetWidth(), before.GetWidth());
+  EXPECT_EQ(gui.find("###tool_scan-walk")->rect.Min.x, beside.Min.x);
+}
+
 TEST_F(LiveWalk, OffersTheRealScanOfTheWalk) {
   EXPECT_EQ(why("scan-walked"), "Scan while walking first");
   walk();

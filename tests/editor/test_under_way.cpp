@@ -243,6 +243,105 @@ TEST_F(UnderWay, IsPlayedToTheEndAndThenFromTheBeginning) {
   EXPECT_FALSE(editor.path_moment.plays);
 }
 
+TEST_F(UnderWay, TheViewGoesAlongWhileItPlaysAndIsWhereItWasAtTheEnd) {
+  add("W1", {{1, 1}, {4.2, 1}, {4.2, 5}});
+  choose(0);
+  editor.visibility.cut_height_m = 1.5;
+  const Camera before = editor.view.camera;
+  ASSERT_TRUE(gui.click("###play-trajectory"));
+  gui.frames(60);
+  EXPECT_FALSE(editor.visibility.cut_height_m) << "it may go upstairs";
+  for (int i = 0; i < 6; ++i) {
+    gui.frames(15);
+    ASSERT_TRUE(editor.path_moment.plays);
+    const Eigen::Vector3d carried = trueAt(shownMoment_s(editor)).translation, eye = editor.view.camera.eye();
+    EXPECT_LT((carried - eye).norm(), 4);
+    EXPECT_GT((carried - eye).norm(), 0.5);
+    EXPECT_GT(editor.view.camera.forward().dot((carried - eye).normalized()), 0.9) << "it is in the middle";
+    EXPECT_TRUE(editor.picker.sees(carried, eye, editor.viewState())) << "no wall is between";
+  }
+  stepMoment(editor, 1000);
+  gui.frames(2);
+  EXPECT_EQ(editor.view.camera, before);
+  EXPECT_EQ(editor.visibility.cut_height_m, 1.5);
+}
+
+TEST_F(UnderWay, ADragTakesTheViewWhileItPlaysOnAndEscEndsBoth) {
+  add("W1", {{1, 1}, {4.2, 1}, {4.2, 5}});
+  choose(0);
+  const Camera before = editor.view.camera;
+  ASSERT_TRUE(gui.click("###play-trajectory"));
+  gui.frames(40);
+  ASSERT_TRUE(editor.bearer_view.active());
+  gui.key(kKeyEscape);
+  gui.frames(2);
+  EXPECT_FALSE(editor.path_moment.plays);
+  EXPECT_EQ(editor.view.camera, before);
+  EXPECT_EQ(editor.survey.trajectory, 0) << "it is still chosen";
+
+  ASSERT_TRUE(gui.click("###play-trajectory"));
+  gui.frames(40);
+  const auto* window = ImGui::FindWindowByName("###viewport");
+  gui.moveTo({window->Pos.x + window->Size.x / 2, window->Pos.y + window->Size.y / 2});
+  gui.frame();
+  ImGui::GetIO().MouseDown[0] = true;
+  gui.frame();
+  for (int i = 0; i < 5; ++i) {
+    ImGui::GetIO().MousePos.x += 12;
+    gui.frame();
+  }
+  ImGui::GetIO().MouseDown[0] = false;
+  gui.frames(2);
+  EXPECT_FALSE(editor.bearer_view.active());
+  EXPECT_TRUE(editor.path_moment.plays);
+  const Camera taken = editor.view.camera;
+  gui.frames(10);
+  EXPECT_EQ(editor.view.camera, taken);
+  goBackInViews(editor);
+  gui.frames(2);
+  EXPECT_EQ(editor.view.camera, before);
+}
+
+TEST_F(UnderWay, TheViewStaysWhereFollowIsSwitchedOff) {
+  add("W1", {{1, 1}, {4.2, 1}, {4.2, 5}});
+  choose(0);
+  const Camera before = editor.view.camera;
+  ASSERT_TRUE(gui.click("###follow-bearer"));
+  gui.frames(2);
+  ASSERT_TRUE(gui.click("###play-trajectory"));
+  gui.frames(40);
+  EXPECT_TRUE(editor.path_moment.plays);
+  EXPECT_EQ(editor.view.camera, before);
+  ASSERT_TRUE(gui.click("###follow-bearer"));
+  gui.frames(40);
+  EXPECT_TRUE(editor.bearer_view.active()) << "while it plays, too";
+}
+
+TEST_F(UnderWay, ALookAtOneShowsAllOfItFromAboveAndCutsWhatHidesIt) {
+  add("W1", {{1, 1}, {4.2, 1}, {4.2, 5}});
+  choose(0);
+  look(editor.view.camera, StandardView::front);
+  const auto before = editor.view.camera;
+  gui.frames(2);
+  ASSERT_TRUE(gui.click("###look-trajectory"));
+  gui.frames(2);
+  const auto& camera = editor.view.camera;
+  EXPECT_GT(camera.elevation_rad, 0.7) << "not edge-on";
+  ASSERT_TRUE(editor.visibility.cut_height_m);
+  EXPECT_NEAR(*editor.visibility.cut_height_m, kCutAboveFloor_m, 0.1);
+  for (const auto& sample : editor.trajectory_ways.of(0)->samples) {
+    const auto pixel = project(camera, sample.position_m, editor.view.size);
+    ASSERT_TRUE(pixel);
+    EXPECT_TRUE((pixel->array() > 0).all() && (pixel->array() < editor.view.size.array()).all());
+  }
+  goBackInViews(editor);
+  EXPECT_EQ(camera, before);
+  EXPECT_FALSE(editor.visibility.cut_height_m);
+  editor.visibility.cut_height_m = 1.0;
+  ASSERT_TRUE(gui.click("###look-trajectory"));
+  EXPECT_EQ(editor.visibility.cut_height_m, 1.0) << "nothing hides it";
+}
+
 TEST_F(UnderWay, WhatIsCutAwayOrLookedOutOfIsNotDrawnNorTwoInOnePlace) {
   add("W1", {{1, 1}, {4.2, 1}});
   add("W2", {{1, 1}, {4.2, 5}}, "trolley");
