@@ -28,7 +28,7 @@ void openDoors(Job& job, const CarriedMotion& carried, const RayScene& scene, bo
   for (const auto& mover : job.movers) moving.insert(mover.products.begin(), mover.products.end());
   for (const auto& obstacle : obstaclesOf(carried, scene)) {
     const auto& product = scene.environment().products[obstacle.product];
-    if (product.ifc_class != "IfcDoor" || !moving.insert(product.id).second) continue;
+    if (!obstacle.closed_door || !moving.insert(product.id).second) continue;
     Mover door;
     door.name = "Door " + product.id;
     door.kind = MoverKind::door;

@@ -183,8 +183,9 @@ void followDraft(Model& model) {
     draft = laid(model.view.draft);
   else
     draft = draggedTrajectory(model);
-  if (draft && scene && document.georeference)
-    model.trajectory_ways.wantDraft({*std::move(draft), document.georeference, scene, {}, knowledge});
+  if (draft && scene && document.georeference && document.job)
+    model.trajectory_ways.wantDraft(
+        {*std::move(draft), document.georeference, scene, {}, knowledge, openedDoors(document.job->movers)});
   else
     model.trajectory_ways.dropDraft();
 }

@@ -8,6 +8,7 @@
 
 #include "core/motion/carriers.h"
 #include "core/units.h"
+#include "editor/model/outliner_rows.h"
 #include "editor/model/shown_holes.h"
 #include "editor/model/trajectory_steps.h"
 #include "editor/panels/actions.h"
@@ -106,15 +107,22 @@ std::string durationOf(const TrajectoryWay* way) {
   return isKnown(way) ? durationText(way->seconds) : way == nullptr ? "…" : "–";
 }
 
+// What it goes through that nobody can open.
+std::size_t wallsOn(const TrajectoryWay* way) {
+  return way == nullptr ? 0 : way->obstacles.size() - way->closedDoors();
+}
+
 // What its row has no room for.
 std::string aboutTrajectory(const TrajectoryWay* way, const CarriedTrajectory& trajectory) {
   std::string text = fmt::format("{}: {}", tr("Carrier"), carriedBy(trajectory));
   if (isKnown(way))
     text += fmt::format("\n{}: {}\n{}: {}", tr("Length"), lengthOf(way), tr("Duration"), durationOf(way));
   if (way != nullptr && !way->problem.empty()) text += "\n" + way->problem;
-  if (way != nullptr && !way->obstacles.empty())
-    text += "\n" + trn("It goes through {} surface", "It goes through {} surfaces", way->obstacles.size(),
-                       way->obstacles.size());
+  if (const std::size_t walls = wallsOn(way); walls > 0)
+    text += "\n" + trn("It goes through {} surface", "It goes through {} surfaces", walls, walls);
+  if (const std::size_t doors = way == nullptr ? 0 : way->closedDoors(); doors > 0)
+    text +=
+        "\n" + trn("A scan finds {} door on its way closed", "A scan finds {} doors on its way closed", doors, doors);
   return text;
 }
 
@@ -146,7 +154,7 @@ FigureColumns columnsBeside(const Model& model, const Job& job) {
 void drawRow(const Model& model, Actions& actions, const CarriedTrajectory& trajectory, int i,
              const FigureColumns& columns) {
   const auto* way = model.trajectory_ways.of(static_cast<std::size_t>(i));
-  const bool troubled = way != nullptr && (!way->problem.empty() || !way->obstacles.empty());
+  const bool troubled = way != nullptr && (!way->problem.empty() || wallsOn(way) > 0);
   ImGui::PushID(i);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
@@ -223,28 +231,60 @@ void drawFacts(const TrajectoryWay* way, const CarriedTrajectory& trajectory) {
   if (!trajectory.file.empty()) ui::property("File", trajectory.file);
 }
 
-// What is wrong with the way, each place to be looked at by a click.
+// The closed doors on the way, or all else that it goes through, each to be looked at by a click.
+void drawPlaces(Actions& actions, const TrajectoryWay& way, bool doors) {
+  constexpr std::size_t kMost = 20;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < way.obstacles.size(); ++i) {
+    const auto& obstacle = way.obstacles[i];
+    if (obstacle.closed_door != doors || ++count > kMost) continue;
+    ImGui::PushID(static_cast<int>(i));
+    if (ImGui::Selectable("###obstacle")) bringNear(actions, obstacle.place_m);
+    ui::tooltip("Frame in view");
+    ImGui::SameLine(0, 0);
+    ImGui::TextColored(colour(doors ? tone::kDim : tone::kWarning), "%s", doors ? ICON_INFO : ICON_WARNING);
+    ImGui::SameLine();
+    ui::fitted(trf("{} after {:.1f} s", withReadableClasses(way.obstacle_products[i]), obstacle.after_s),
+               ImGui::GetContentRegionAvail().x);
+    ImGui::PopID();
+  }
+  if (count > kMost) ui::dimText(trf("and {} more", count - kMost));
+}
+
+// What is wrong with the way.
 void drawTrouble(const Model& model, Actions& actions, const TrajectoryWay& way) {
   if (!way.problem.empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, tone::kBad);
     ui::wrapped(way.problem);
     ImGui::PopStyleColor();
   }
-  if (way.obstacles.empty()) return;
-  ui::heading(model, trf("Goes through  {}", way.obstacles.size()).c_str());
-  constexpr std::size_t kMost = 20;
-  for (std::size_t i = 0; i < std::min(kMost, way.obstacles.size()); ++i) {
-    const auto& obstacle = way.obstacles[i];
-    ImGui::PushID(static_cast<int>(i));
-    if (ImGui::Selectable("###obstacle")) bringNear(actions, obstacle.place_m);
-    ui::tooltip("Frame in view");
-    ImGui::SameLine(0, 0);
-    ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
-    ImGui::SameLine();
-    ui::fitted(trf("{} after {:.1f} s", way.obstacle_products[i], obstacle.after_s), ImGui::GetContentRegionAvail().x);
-    ImGui::PopID();
-  }
-  if (way.obstacles.size() > kMost) ui::dimText(trf("and {} more", way.obstacles.size() - kMost));
+  if (wallsOn(&way) == 0) return;
+  ui::heading(model, trf("Goes through  {}", wallsOn(&way)).c_str());
+  drawPlaces(actions, way, false);
+}
+
+// A mover that has opened them before any scan begins.
+MoverOptions openingOf(const Model& model, const TrajectoryWay& way, const std::string& trajectory) {
+  constexpr double kLongBefore_s = -60;
+  const auto& movers = model.session.document().job->movers;
+  MoverOptions options{.add = trf("Doors of {}", trajectory), .kind = "door", .begin_s = kLongBefore_s};
+  for (int i = 2; std::any_of(movers.begin(), movers.end(), [&](const Mover& m) { return m.name == *options.add; });
+       ++i)
+    options.add = fmt::format("{} {}", trf("Doors of {}", trajectory), i);
+  for (const auto& obstacle : way.obstacles)
+    if (obstacle.closed_door) options.products.push_back(model.environment()->products[obstacle.product].id);
+  return options;
+}
+
+// No fault of the way: who walks there opens them.
+void drawClosedDoors(const Model& model, Actions& actions, const TrajectoryWay& way, const std::string& trajectory) {
+  if (way.closedDoors() == 0) return;
+  ui::heading(model, trf("Closed doors  {}", way.closedDoors()).c_str());
+  ui::dimWrapped("A scan finds them closed, as the model has them.");
+  drawPlaces(actions, way, true);
+  if (ui::button(ICON_WALK "  Open for scans###open-doors", model.session.whyNot("mover"), {-FLT_MIN, 0},
+                 "Adds a mover that holds them open in every scan; undo closes them again"))
+    actions.start(openingOf(model, way, trajectory), trf("Open the doors of {}", trajectory));
 }
 
 std::string waypointLine(const Model& model, const Waypoint& waypoint, std::size_t number) {
@@ -519,6 +559,7 @@ void drawTrajectory(const Model& model, PanelStates& states, Actions& actions, c
   if (way != nullptr) drawTrouble(model, actions, *way);
   drawTrajectoryButtons(model, actions, trajectory, way, why);
   drawMoment(model, actions, trajectory, way);
+  if (way != nullptr) drawClosedDoors(model, actions, *way, trajectory.name);
   drawPathCoverage(model, actions, trajectory, way);
   drawWaypoints(model, edit, actions, trajectory, why);
   drawScans(model, actions, trajectory.scans, [&](const Scan& scan) { return ageText(scan, trajectory); });

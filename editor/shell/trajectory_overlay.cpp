@@ -11,6 +11,7 @@
 #include "core/motion/carriers.h"
 #include "core/units.h"
 #include "editor/colours/colour_scale.h"
+#include "editor/model/outliner_rows.h"
 #include "editor/model/trajectory_steps.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/editor.h"
@@ -140,18 +141,20 @@ void drawRibbon(const Editor& editor, const ViewState& state, const ViewPen& pen
 }
 
 void drawObstacles(const ViewPen& pen, LabelBoard& labels, const TrajectoryWay& way, bool named) {
-  const ImU32 tone = verdictTone(Verdict::bad);
   for (std::size_t i = 0; i < way.obstacles.size(); ++i) {
     const auto at = pen.at(way.obstacles[i].place_m);
     if (!at) continue;
+    const bool opens = way.obstacles[i].closed_door;  // who walks there opens it
+    const ImU32 tone = opens ? ImU32(tone::kText) : verdictTone(Verdict::bad);
+    const char* const icon = opens ? ICON_INFO : ICON_WARNING;
     auto& list = *ImGui::GetWindowDrawList();
     const float r = ImGui::GetFontSize() * 0.5F;
     list.AddCircleFilled(*at, r * 1.25F, IM_COL32(20, 22, 26, 220));
-    const ImVec2 size = ImGui::CalcTextSize(ICON_WARNING);
-    list.AddText({at->x - size.x / 2, at->y - size.y / 2}, tone, ICON_WARNING);
+    const ImVec2 size = ImGui::CalcTextSize(icon);
+    list.AddText({at->x - size.x / 2, at->y - size.y / 2}, tone, icon);
     if (named)
       labels.over({LabelKind::obstacle, i}, *at,
-                  {trf("{} after {:.1f} s", way.obstacle_products[i], way.obstacles[i].after_s),
+                  {trf("{} after {:.1f} s", withReadableClasses(way.obstacle_products[i]), way.obstacles[i].after_s),
                    figures("{:.1f} s", way.obstacles[i].after_s)},
                   tone);
   }

@@ -28,7 +28,7 @@ std::vector<WayWish> wishesOf(const Job& job, const std::shared_ptr<const Georef
                               const std::shared_ptr<const RayScene>& scene, const WayKnowledge& knowledge) {
   std::vector<WayWish> wishes;
   for (const auto& trajectory : job.trajectories) {
-    wishes.push_back({trajectory, georeference, scene, writtenAt(trajectory.file), knowledge});
+    wishes.push_back({trajectory, georeference, scene, writtenAt(trajectory.file), knowledge, openedDoors(job.movers)});
     wishes.back().trajectory.scans.clear();
   }
   return wishes;
@@ -68,14 +68,25 @@ std::vector<double> expectedOf(const TrajectoryWay& way, const CarriedMotion& ca
   return expectedAt(*expected, times);
 }
 
+std::string shortText(const Product& product) {
+  return product.name.empty() || product.ifc_class.empty() ? productText(product)
+                                                           : product.ifc_class + " '" + product.name + "'";
+}
+
 }  // namespace
 
 bool WayWish::operator==(const WayWish& other) const {
   const auto &a = trajectory, &b = other.trajectory;
   return georeference == other.georeference && scene == other.scene && written == other.written &&
-         knowledge == other.knowledge && a.name == b.name && a.carrier == b.carrier && a.height_m == b.height_m &&
-         a.speed_mps == b.speed_mps && a.seed == b.seed && a.file == b.file && a.format == b.format &&
+         knowledge == other.knowledge && opened == other.opened && a.name == b.name && a.carrier == b.carrier &&
+         a.height_m == b.height_m && a.speed_mps == b.speed_mps && a.seed == b.seed && a.file == b.file &&
+         a.format == b.format &&
          std::equal(a.waypoints.begin(), a.waypoints.end(), b.waypoints.begin(), b.waypoints.end(), same);
+}
+
+std::size_t TrajectoryWay::closedDoors() const {
+  return static_cast<std::size_t>(
+      std::count_if(obstacles.begin(), obstacles.end(), [](const PathObstacle& o) { return o.closed_door; }));
 }
 
 TrajectoryWay wayOf(const WayWish& wish, Progress& progress) {
@@ -93,9 +104,9 @@ TrajectoryWay wayOf(const WayWish& wish, Progress& progress) {
   way.lift_m = liftOf(wish.trajectory);
   way.motion = *carried;
   way.limbs = limbsOfOperator(wish.trajectory, *carried);
-  way.obstacles = obstaclesOf(*carried, *wish.scene);
+  way.obstacles = obstaclesOf(*carried, *wish.scene, wish.opened);
   for (const auto& obstacle : way.obstacles)
-    way.obstacle_products.push_back(productText(wish.scene->environment().products[obstacle.product]));
+    way.obstacle_products.push_back(shortText(wish.scene->environment().products[obstacle.product]));
   return way;
 }
 

@@ -23,10 +23,11 @@ struct TrajectoryWay {
   std::vector<double> expected_m;  // of each: how large the error of its position is over all seeds; or none
   double lift_m = 0;  // of the samples above the floor that is walked on; 0: there is none below, as of a flight
   std::vector<PathObstacle> obstacles;
-  std::vector<std::string> obstacle_products;  // of each: "IfcWall #12 'East'"
+  std::vector<std::string> obstacle_products;  // of each: "IfcWall 'East'", "IfcWall #12" of one without a name
   std::string problem;                         // why there is no such way; "" where there is
   CarriedMotion motion;                        // with gait and shaking, too
   std::vector<PoseFunctionPtr> limbs;          // of who walks with it (kLimbs), by its clock; none: nobody does
+  std::size_t closedDoors() const;             // of the obstacles
 };
 
 // How well a trajectory would be known with the instrument and the conditions that are chosen.
@@ -45,6 +46,7 @@ struct WayWish {
   std::shared_ptr<const RayScene> scene;
   std::filesystem::file_time_type written = {};  // of its file
   WayKnowledge knowledge = {};
+  std::vector<std::string> opened = {};  // ids of doors that movers open
   bool operator==(const WayWish& other) const;
 };
 TrajectoryWay wayOf(const WayWish& wish, Progress& progress);

@@ -160,7 +160,8 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
     TRY_ASSIGN(at_hand.preparation, prepareScan(document, nullptr, progress, with_movers, carries));
   }
   const RayScene& scene = *at_hand.preparation->scene;
-  findObstacles(carried, scene, *document.georeference, trajectory.name, report);
+  findObstacles(carried, scene, *document.georeference, trajectory.name,
+                with_movers ? openedDoors(document.job->movers) : std::vector<std::string>(), report);
   progress.stage("Solve " + trajectory.name, 0.1, 0.15);
   TRY_ASSIGN(const auto solved,
              solveMotion(carried, scene, document.job->stations, trajectory.name, solving, progress));

@@ -243,7 +243,7 @@ Result<Answered<TrajectoryAnswer>> runTrajectory(const Document& document, const
     TRY_ASSIGN(const auto scene, RayScene::build(document.environment(), progress));
     TRY_ASSIGN(auto made, options.add ? newTrajectory(*scene, g, options) : changedTrajectory(*scene, g, *at, options));
     TRY_ASSIGN(const auto carried, carriedMotion(made, g, outcome.report, progress));
-    findObstacles(carried, *scene, g, made.name, outcome.report);
+    findObstacles(carried, *scene, g, made.name, openedDoors(job.movers), outcome.report);
     outcome.description = (options.add ? "Added trajectory " : "Changed trajectory ") + made.name;
     if (options.add)
       job.trajectories.push_back(std::move(made));

@@ -16,6 +16,8 @@
 #include "core/portable_math.h"
 #include "core/random.h"
 #include "core/units.h"
+#include "optimizer/walk/door_leaves.h"
+#include "optimizer/walk/doors.h"
 #include "scanners/engine/footprint.h"
 #include "survey/scene/bodies.h"
 #include "survey/trajectories/trajectory_file.h"
@@ -238,7 +240,43 @@ std::vector<PathSample> pathSamples(const CarriedMotion& carried, std::size_t mo
   return samples;
 }
 
-std::vector<PathObstacle> obstaclesOf(const CarriedMotion& carried, const RayScene& scene) {
+namespace {
+
+// The doors among them that have leaves, each where it is met first; those that are opened are not met.
+std::vector<PathObstacle> withDoors(std::vector<PathObstacle> found, const Environment& environment,
+                                    std::span<const std::string> opened) {
+  const auto door_of = doorOf(environment);
+  if (std::none_of(found.begin(), found.end(), [&](const PathObstacle& o) { return door_of[o.product] >= 0; }))
+    return found;
+  std::vector<bool> has_leaf(environment.products.size()), met(environment.products.size());
+  for (const auto& door : doorLeaves(environment).doors) has_leaf[door.product] = true;
+  for (std::size_t i = 0; i < environment.products.size(); ++i)
+    met[i] = std::find(opened.begin(), opened.end(), environment.products[i].id) != opened.end();
+  std::vector<PathObstacle> kept;
+  for (auto& obstacle : found) {
+    const auto door = static_cast<std::size_t>(std::max(door_of[obstacle.product], 0));
+    if (door_of[obstacle.product] >= 0 && has_leaf[door]) {
+      if (met[door]) continue;
+      met[door] = true;
+      obstacle.product = static_cast<std::uint32_t>(door);
+      obstacle.closed_door = true;
+    }
+    kept.push_back(obstacle);
+  }
+  return kept;
+}
+
+}  // namespace
+
+std::vector<std::string> openedDoors(std::span<const Mover> movers) {
+  std::vector<std::string> opened;
+  for (const auto& mover : movers)
+    if (mover.kind == MoverKind::door) opened.insert(opened.end(), mover.products.begin(), mover.products.end());
+  return opened;
+}
+
+std::vector<PathObstacle> obstaclesOf(const CarriedMotion& carried, const RayScene& scene,
+                                      std::span<const std::string> opened) {
   constexpr double kStep_s = 0.1;
   std::vector<PathObstacle> found;
   const double first = carried.path->first_s(), last = carried.path->last_s();
@@ -251,22 +289,27 @@ std::vector<PathObstacle> obstaclesOf(const CarriedMotion& carried, const RaySce
     if (length < 1e-6) continue;
     const auto hit = scene.intersect(before, (here - before) / length, length);
     before = here;
-    if (hit) found.push_back({hit->product, hit->position, time_s - first});
+    if (hit) found.push_back({hit->product, hit->position, time_s - first, false});
   }
-  return found;
+  return withDoors(std::move(found), scene.environment(), opened);
 }
 
 void findObstacles(const CarriedMotion& carried, const RayScene& scene, const Georeference& georeference,
-                   const std::string& name, Report& report) {
+                   const std::string& name, std::span<const std::string> opened, Report& report) {
   constexpr std::size_t kMost = 10;
-  const auto found = obstaclesOf(carried, scene);
-  for (std::size_t i = 0; i < std::min(kMost, found.size()); ++i) {
-    const Eigen::Vector3d at = found[i].place_m + georeference.shift_m;
-    report.warn(name, fmt::format("goes through {} at ({:.2f}, {:.2f}, {:.2f}), after {:.1f} s",
-                                  productText(scene.environment().products[found[i].product]), at.x(), at.y(), at.z(),
-                                  found[i].after_s));
+  std::size_t walls = 0;
+  for (const auto& found : obstaclesOf(carried, scene, opened)) {
+    const std::string product = productText(scene.environment().products[found.product]);
+    const Eigen::Vector3d at = found.place_m + georeference.shift_m;
+    if (found.closed_door)
+      report.note(name, fmt::format("a scan finds {} closed, through which it goes after {:.1f} s; a mover of the kind "
+                                    "'door' opens it",
+                                    product, found.after_s));
+    else if (++walls <= kMost)
+      report.warn(name, fmt::format("goes through {} at ({:.2f}, {:.2f}, {:.2f}), after {:.1f} s", product, at.x(),
+                                    at.y(), at.z(), found.after_s));
   }
-  if (found.size() > kMost) report.warn(name, fmt::format("goes through {} more surfaces", found.size() - kMost));
+  if (walls > kMost) report.warn(name, fmt::format("goes through {} more surfaces", walls - kMost));
 }
 
 Result<SolvedMotion> solveMotion(const CarriedMotion& carried, const RayScene& scene, std::span<const Station> stations,

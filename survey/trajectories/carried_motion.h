@@ -43,16 +43,21 @@ struct PathSample {
 // At even steps of 0.1 s, or longer ones so that they are no more than `most`; the first and the last moment are there.
 std::vector<PathSample> pathSamples(const CarriedMotion& carried, std::size_t most);
 
-// Where the body's centre goes from one side of a surface to the other, within 0.1 s.
+// Where the body's centre goes from one side of a surface to the other, within 0.1 s. A door with a leaf is there once:
+// whoever walks there opens it, but a scan finds it closed.
 struct PathObstacle {
   std::uint32_t product = 0;
   Eigen::Vector3d place_m = Eigen::Vector3d::Zero();  // local frame
   double after_s = 0;                                 // since it begins
+  bool closed_door = false;
 };
-std::vector<PathObstacle> obstaclesOf(const CarriedMotion& carried, const RayScene& scene);
-// The same as warnings of the report. At most ten, and how many more.
+// `opened`: ids of doors that something opens for the scan; they are no obstacles.
+std::vector<PathObstacle> obstaclesOf(const CarriedMotion& carried, const RayScene& scene,
+                                      std::span<const std::string> opened = {});
+std::vector<std::string> openedDoors(std::span<const Mover> movers);
+// The same as warnings of the report, at most ten and how many more, and closed doors as notes.
 void findObstacles(const CarriedMotion& carried, const RayScene& scene, const Georeference& georeference,
-                   const std::string& name, Report& report);
+                   const std::string& name, std::span<const std::string> opened, Report& report);
 
 // How a trajectory is found by what is seen from it.
 struct MotionSolving {

@@ -180,6 +180,43 @@ TEST_F(Trajectories, SayWhereAndWhenTheyGoThroughAWall) {
   itemProbe().listens = false;
 }
 
+TEST_F(Trajectories, ADoorOnTheirWayIsAHintInTheEditorsWordsAndIsOpenedForScans) {
+  invoke(editor, "add-trajectory");
+  gui.frames(2);
+  clickAt({2.5, 1.5, 0});
+  clickAt({2.5, -2, -0.3});
+  gui.key(kKeyEnter);
+  settle();
+  const auto* way = editor.trajectory_ways.of(0);
+  ASSERT_NE(way, nullptr);
+  ASSERT_EQ(way->obstacles.size(), 1U) << "once, though its leaf has two faces";
+  EXPECT_EQ(way->closedDoors(), 1U);
+  const auto said = [&] {
+    itemProbe().texts.clear();
+    itemProbe().listens = true;
+    gui.frames(2);
+    itemProbe().listens = false;
+    return itemProbe().texts;
+  };
+  auto texts = said();
+  EXPECT_THAT(texts, testing::Contains("Closed doors  1"));
+  EXPECT_THAT(texts, testing::Contains(testing::HasSubstr("Door 'Front door' after")));
+  EXPECT_THAT(texts, testing::Not(testing::Contains(testing::HasSubstr("IfcDoor"))));
+  EXPECT_THAT(texts, testing::Not(testing::Contains(testing::HasSubstr("Goes through"))));
+  ASSERT_TRUE(gui.click("###open-doors"));
+  settle();
+  ASSERT_EQ(job().movers.size(), 1U);
+  EXPECT_EQ(job().movers.front().kind, MoverKind::door);
+  EXPECT_LT(job().movers.front().begins_s, 0) << "open when a scan begins";
+  ASSERT_NE(editor.trajectory_ways.of(0), nullptr);
+  EXPECT_TRUE(editor.trajectory_ways.of(0)->obstacles.empty());
+  texts = said();
+  EXPECT_THAT(texts, testing::Not(testing::Contains("Closed doors  1")));
+  editor.session.undo();
+  settle();
+  EXPECT_EQ(editor.trajectory_ways.of(0)->closedDoors(), 1U);
+}
+
 TEST_F(Trajectories, AWaypointIsDraggedInOneStepOfTheHistory) {
   lay();
   const auto before = only().waypoints;

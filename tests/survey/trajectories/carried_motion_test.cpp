@@ -82,6 +82,30 @@ TEST(CarriedMotion, IsAsLongAsTheWayOfWhoWalksWithIt) {
   EXPECT_GT(carriedMotion(walk, local, report, progress)->length_m, 1.1 * read->length_m) << "as the file has it";
 }
 
+TEST(CarriedMotion, MeetsAClosedDoorOnceAsAHintAndNotWhereAMoverOpensIt) {
+  const auto house = withConcrete();
+  addBox(*house, "floor", "IfcSlab", {-1, -2, -0.2}, {6, 2, 0});
+  addBox(*house, "door", "IfcDoor", {2, -0.5, 0}, {2.06, 0.5, 2.1});
+  addBox(*house, "wall", "IfcWall", {4, -2, 0}, {4.2, 2, 2.5});
+  Progress progress;
+  const auto scene = *RayScene::build(house, progress);
+  const auto met = obstaclesOf(alongX(0, 5), *scene);
+  ASSERT_EQ(met.size(), 3U) << "the door once, both faces of the wall";
+  EXPECT_TRUE(met[0].closed_door);
+  EXPECT_NEAR(met[0].place_m.x(), 2, 1e-3);
+  EXPECT_FALSE(met[1].closed_door || met[2].closed_door);
+  Report report;
+  const Georeference local;
+  findObstacles(alongX(0, 3), *scene, local, "W1", {}, report);
+  ASSERT_EQ(report.issues().size(), 1U);
+  EXPECT_EQ(report.issues().front().severity, Severity::note);
+  EXPECT_NE(report.issues().front().message.find("a scan finds IfcDoor"), std::string::npos);
+  Mover mover;
+  mover.kind = MoverKind::door;
+  mover.products = {house->products[met[0].product].id};
+  EXPECT_TRUE(obstaclesOf(alongX(0, 3), *scene, openedDoors(std::vector{mover})).empty());
+}
+
 TEST(CarriedMotion, IsNotHeldByWhatIsBehindAWall) {
   const auto closures = [](bool wall) {
     const auto hall = withConcrete();
