@@ -56,6 +56,16 @@ const Station* stationNear(const Model& model, const Eigen::Vector3d& floor) {
 
 }  // namespace
 
+std::vector<Tripod> tripodsOf(const Model& model) {
+  std::vector<Tripod> tripods;
+  const auto& job = model.session.document().job;
+  if (!job) return tripods;
+  for (const auto& station : job->stations)
+    if (!model.held.carried || station.name != model.held.station)
+      tripods.push_back({footOf(station), station.instrument_height_m});
+  return tripods;
+}
+
 bool instrumentInReach(const Model& model) {
   const auto* station = heldStation(model);
   if (station == nullptr || !model.walk.active()) return false;

@@ -4,10 +4,12 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "core/survey.h"
+#include "editor/walking/tripods_in_way.h"
 
 namespace standpoint {
 
@@ -26,6 +28,8 @@ struct Fieldwork {
 
 constexpr double kPutUpTarget_s = 40;  // our own estimate: a magnet or a small tripod
 
+// Of all stations, but for the one whose instrument somebody carries.
+std::vector<Tripod> tripodsOf(const Model& model);
 // Whoever walks could put a hand on it.
 bool instrumentInReach(const Model& model);
 // The eyes go before its display, else its key, as that is turned now; lookUp() goes back to where one stood.

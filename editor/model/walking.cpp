@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/readable_name.h"
+#include "editor/model/fieldwork.h"
 #include "editor/model/model.h"
 #include "editor/words/words.h"
 #include "optimizer/walk/landing.h"
@@ -267,6 +268,7 @@ void followWalking(Model& model) {
       model.session.errors().push_back({"The walkable surface could not be prepared", std::move(*error)});
   }
   if (model.walk.active() && model.view.tool != Tool::walk) model.walk.stop(model.view.camera);
+  if (model.walk.active()) model.walk.goAmong(tripodsOf(model));
   if (!model.walk.active() && !model.wanted_walk) return;
   if (model.wanted_walk) model.walk_ground.prepare(model.session.document(), model.walker, model.wake);
   const auto ground = model.walk_ground.of(model.session.document(), model.walker);

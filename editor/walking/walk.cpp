@@ -80,7 +80,8 @@ void Walk::go(const WalkKeys& keys, double seconds, Camera& camera) {
     wish.velocity = (right * keys.way.x() + ahead * keys.way.y()).normalized() * speed;
   }
   doors_->follow(feet(), wish.velocity.normalized(), seconds);
-  walker_->alsoMeet(doors_->shut());
+  tripods_in_way_.follow(tripods_, feet(), body_);
+  walker_->alsoMeet(doors_->shut(), tripods_in_way_.obstacles());
   walker_->go(wish, seconds);
   lookFromEyes(camera);
 }

@@ -4,12 +4,15 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "core/units.h"
 #include "editor/camera/camera.h"
 #include "editor/walking/swinging_doors.h"
+#include "editor/walking/tripods_in_way.h"
 #include "editor/walking/walk_ground.h"
 #include "optimizer/walk/start.h"
 #include "optimizer/walk/walker.h"
@@ -37,6 +40,8 @@ class Walk {
   // Whether it walks there, and not between shapes that were computed again since.
   bool isIn(const std::shared_ptr<const WalkedGround>& ground) const { return ground == ground_; }
 
+  // What else stands there, from now on.
+  void goAmong(std::vector<Tripod> tripods) { tripods_ = std::move(tripods); }
   void go(const WalkKeys& keys, double seconds, Camera& camera);
   // Seconds that were walked or stood, of go(): what is walked in them is as fast as it says.
   double clock_s() const { return clock_s_; }
@@ -68,6 +73,8 @@ class Walk {
   std::shared_ptr<const WalkedGround> ground_;
   std::optional<Walker> walker_;
   std::unique_ptr<SwingingDoors> doors_;  // while there is a walker
+  std::vector<Tripod> tripods_;
+  TripodsInWay tripods_in_way_;
   Body body_;
   std::optional<double> chosen_eyes_m_;
   double view_angle_rad_ = kUsualViewAngle_rad;

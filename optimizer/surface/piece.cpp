@@ -20,4 +20,12 @@ Piece prism(const std::vector<Eigen::Vector3d>& bottom, const std::vector<Eigen:
   return piece;
 }
 
+CollisionShape shapeOf(const Piece& piece, std::uint32_t product) {
+  CollisionShape shape{piece.kind, product, {}};
+  for (const auto& p : piece.positions) shape.mesh.positions.push_back(p.cast<float>());
+  shape.mesh.triangles = piece.triangles;
+  shape.mesh.surface_of_triangle.assign(piece.triangles.size(), 0);
+  return shape;
+}
+
 }  // namespace standpoint

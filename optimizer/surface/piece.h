@@ -21,4 +21,6 @@ struct Piece {
 Piece prism(const std::vector<Eigen::Vector3d>& bottom, const std::vector<Eigen::Vector3d>& top,
             CollisionShapeKind kind);
 
+CollisionShape shapeOf(const Piece& piece, std::uint32_t product);
+
 }  // namespace standpoint

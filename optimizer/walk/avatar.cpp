@@ -24,20 +24,26 @@ const Vector3d kStepUp(0, 0, kHighestStep);
 }  // namespace
 
 std::optional<Contact> Avatar::sweep(const Body& body, const Vector3d& from, const Vector3d& to) const {
-  const auto first = obstacles_->sweep(body, from, to);
-  const auto other = others_ != nullptr ? others_->sweep(body, from, to) : std::nullopt;
-  return other && (!first || other->fraction < first->fraction) ? other : first;
+  auto first = obstacles_->sweep(body, from, to);
+  for (const auto* others : others_) {
+    const auto other = others != nullptr ? others->sweep(body, from, to) : std::nullopt;
+    if (other && (!first || other->fraction < first->fraction)) first = other;
+  }
+  return first;
 }
 
 std::optional<Contact> Avatar::overlap(const Body& body, const Vector3d& feet, double depth_m) const {
-  const auto found = obstacles_->overlap(body, feet, depth_m);
-  return found || others_ == nullptr ? found : others_->overlap(body, feet, depth_m);
+  auto found = obstacles_->overlap(body, feet, depth_m);
+  for (const auto* others : others_)
+    if (!found && others != nullptr) found = others->overlap(body, feet, depth_m);
+  return found;
 }
 
 void Avatar::near(const Body& body, const Vector3d& feet, double within_m,
                   const std::function<void(const Contact&, double)>& visit) const {
   obstacles_->near(body, feet, within_m, visit);
-  if (others_ != nullptr) others_->near(body, feet, within_m, visit);
+  for (const auto* others : others_)
+    if (others != nullptr) others->near(body, feet, within_m, visit);
 }
 
 // Under the axis itself, so that nobody floats beside a step.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 
@@ -35,7 +36,7 @@ class Avatar {
   void fall(double down_m);
 
   // What else is in the way, as it stands between two strides; null: nothing. The floor is not among it.
-  void alsoMeet(const Obstacles* others) { others_ = others; }
+  void alsoMeet(const Obstacles* others, const Obstacles* more = nullptr) { others_ = {others, more}; }
 
   const Eigen::Vector3d& feet() const { return feet_; }
   // How high it can be where it is, as far as `most_m`.
@@ -67,7 +68,7 @@ class Avatar {
   void stride(Eigen::Vector2d way_m, bool over_edges);
 
   const Obstacles* obstacles_;
-  const Obstacles* others_ = nullptr;
+  std::array<const Obstacles*, 2> others_{};
   Body body_;
   Eigen::Vector3d feet_ = Eigen::Vector3d::Zero();
   bool on_floor_ = true;

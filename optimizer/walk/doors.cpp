@@ -223,12 +223,7 @@ CollisionShape doorPlate(const Passage& passage, std::uint32_t product) {
                      passage.across * (beside * passage.half_width));
   auto top = bottom;
   for (auto& p : top) p.z() += passage.height;
-  const auto plate = prism(bottom, top, CollisionShapeKind::box);
-  CollisionShape shape{plate.kind, product, {}};
-  for (const auto& p : plate.positions) shape.mesh.positions.push_back(p.cast<float>());
-  shape.mesh.triangles = plate.triangles;
-  shape.mesh.surface_of_triangle.assign(plate.triangles.size(), 0);
-  return shape;
+  return shapeOf(prism(bottom, top, CollisionShapeKind::box), product);
 }
 
 void closeWhatIsOpen(const Environment& environment, const CollideOptions& options, std::vector<CollisionShape>& shapes,

@@ -31,7 +31,7 @@ class Walker {
 
   // Of who walks, from now on; it rises as far as there is room.
   void setHeight(double height_m) { body_.height_m = height_m; }
-  void alsoMeet(const Obstacles* others) { avatar_.alsoMeet(others); }
+  void alsoMeet(const Obstacles* others, const Obstacles* more = nullptr) { avatar_.alsoMeet(others, more); }
 
   Eigen::Vector3d feet() const { return between(before_.feet, now_.feet); }
   Eigen::Vector3d eyes() const { return between(before_.eyes, now_.eyes); }  // up and down without jerks

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -7,6 +8,7 @@
 #include "core/data_folder.h"
 #include "demo_document.h"
 #include "demo_verbs.h"
+#include "editor/model/fieldwork.h"
 #include "editor/panels/outliner_panel.h"
 #include "editor/shell/actions.h"
 #include "editor/widgets/keyboard.h"
@@ -445,6 +447,50 @@ TEST_F(Walking, IsStoppedByADoorThatWasShutByKeyUntilItIsOpened) {
   gui.key('E');
   press('W', 90);
   EXPECT_LT(editor.walk.feet().y(), 0);
+}
+
+TEST_F(Walking, LetsNobodyThroughATripodAndLetsOutWhoeverStandsInOne) {
+  jumpToStation(editor, 0);
+  editor.walk_ground.wait();
+  gui.frames(30);
+  ASSERT_TRUE(editor.walk.active());
+  const Eigen::Vector3d foot(3.2, 2, 0);
+  const auto away = [&] { return (editor.walk.feet() - foot).head<2>().norm(); };
+  const auto nearestOnTheWay = [&](int key, int frames) {
+    double nearest = away();
+    keyboard::change(key, true);
+    for (int i = 0; i < frames; ++i) {
+      gui.frame();
+      nearest = std::min(nearest, away());
+    }
+    keyboard::change(key, false);
+    gui.frames(30);
+    return nearest;
+  };
+  ASSERT_LT(away(), 0.05) << "in the tripod";
+  editor.view.camera.azimuth_rad = std::numbers::pi / 2;  // to the west
+  nearestOnTheWay('W', 60);
+  ASSERT_GT(away(), 0.8) << "and out of it";
+  EXPECT_GT(nearestOnTheWay('S', 120), 0.44) << "backwards into it";
+  editor.held.instrument = "leica-rtc360";
+  editor.held.station = "S1";
+  editor.held.carried = true;
+  nearestOnTheWay('W', 60);
+  EXPECT_LT(nearestOnTheWay('S', 120), 0.2) << "somebody carries it: nothing stands there";
+}
+
+TEST_F(Walking, ATripodThatIsPutUpWhereOneStandsHoldsNobody) {
+  walk();
+  const Eigen::Vector3d feet = editor.walk.feet();
+  const Eigen::Vector3d p = feet + editor.shift_m();
+  ASSERT_TRUE(editor.session.start(StationOptions{.add = "S9", .on = FloorPlace{p.x(), p.y(), p.z()}}, "Add"));
+  gui.settle();
+  gui.frames(3);
+  ASSERT_EQ(tripodsOf(editor).size(), 3U);
+  keyboard::change('W', true);
+  gui.frames(60);
+  keyboard::change('W', false);
+  EXPECT_GT((editor.walk.feet() - feet).head<2>().norm(), 0.8);
 }
 
 TEST_F(Walking, LooksFromAnotherHeightAndAngleOnceTheyAreSet) {

@@ -97,9 +97,9 @@ TEST(CarriedMotion, MeetsAClosedDoorOnceAsAHintAndNotWhereAMoverOpensIt) {
   Report report;
   const Georeference local;
   findObstacles(alongX(0, 3), *scene, local, "W1", {}, report);
-  ASSERT_EQ(report.issues().size(), 1U);
-  EXPECT_EQ(report.issues().front().severity, Severity::note);
-  EXPECT_NE(report.issues().front().message.find("a scan finds IfcDoor"), std::string::npos);
+  ASSERT_EQ(report.issues.size(), 1U);
+  EXPECT_EQ(report.issues.front().severity, Severity::note);
+  EXPECT_NE(report.issues.front().message.find("a scan finds IfcDoor"), std::string::npos);
   Mover mover;
   mover.kind = MoverKind::door;
   mover.products = {house->products[met[0].product].id};
