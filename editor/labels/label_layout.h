@@ -24,6 +24,7 @@ enum class LabelKind {
   waypoint,
   trajectory,
   hole,
+  stair,
   room
 };
 

@@ -2,6 +2,7 @@
 #include "editor/labels/room_labels.h"
 
 #include <algorithm>
+#include <map>
 
 #include "core/readable_name.h"
 #include "optimizer/walk/spaces.h"
@@ -12,12 +13,14 @@ namespace {
 
 constexpr double kAboveFloor_m = 1.0;  // under the cut of a plan, over most furniture
 
+bool isStair(const Product& product) { return product.ifc_class.starts_with("IfcStair"); }
+
 // Boxes of stairs: who looks down sees their steps, which a name on them would hide.
 std::vector<Bounds> stairBoxes(const Environment& environment) {
   std::vector<Bounds> boxes;
   const auto all = productBounds(environment);
   for (std::size_t p = 0; p < all.size(); ++p)
-    if (environment.products[p].ifc_class.starts_with("IfcStair") && !all[p].empty()) boxes.push_back(all[p]);
+    if (isStair(environment.products[p]) && !all[p].empty()) boxes.push_back(all[p]);
   return boxes;
 }
 
@@ -80,12 +83,37 @@ std::vector<RoomLabel> roomLabels(const Environment& environment) {
   return labels;
 }
 
-const std::vector<RoomLabel>& RoomLabels::of(const std::shared_ptr<const Environment>& environment) const {
-  if (environment_ != environment) {
-    environment_ = environment;
-    labels_ = environment ? roomLabels(*environment) : std::vector<RoomLabel>();
+std::vector<StairLabel> stairLabels(const Environment& environment) {
+  constexpr double kLeastRise_m = 1;
+  const auto boxes = productBounds(environment);
+  std::map<std::uint32_t, Bounds> stairs;  // by the product that is the whole stair
+  for (std::uint32_t p = 0; p < boxes.size(); ++p) {
+    if (!isStair(environment.products[p]) || boxes[p].empty()) continue;
+    const std::int32_t whole = environment.products[p].whole;
+    const bool is_part = whole >= 0 && isStair(environment.products[static_cast<std::size_t>(whole)]);
+    stairs[is_part ? static_cast<std::uint32_t>(whole) : p].extend(boxes[p]);
   }
+  std::vector<StairLabel> labels;
+  for (const auto& [product, box] : stairs)
+    if (box.max.z() - box.min.z() > kLeastRise_m) labels.push_back({product, box});
+  return labels;
+}
+
+void RoomLabels::follow(const std::shared_ptr<const Environment>& environment) const {
+  if (environment_ == environment) return;
+  environment_ = environment;
+  labels_ = environment ? roomLabels(*environment) : std::vector<RoomLabel>();
+  stairs_ = environment ? stairLabels(*environment) : std::vector<StairLabel>();
+}
+
+const std::vector<RoomLabel>& RoomLabels::of(const std::shared_ptr<const Environment>& environment) const {
+  follow(environment);
   return labels_;
+}
+
+const std::vector<StairLabel>& RoomLabels::stairsOf(const std::shared_ptr<const Environment>& environment) const {
+  follow(environment);
+  return stairs_;
 }
 
 }  // namespace standpoint

@@ -24,14 +24,25 @@ struct RoomLabel {
 // Of all spaces that have geometry and are not excluded, the largest first.
 std::vector<RoomLabel> roomLabels(const Environment& environment);
 
+// A stair with all its flights, as whoever walks is told of it.
+struct StairLabel {
+  std::uint32_t product = 0;
+  Bounds box;  // local frame
+};
+// Those that lead up by half a storey or more.
+std::vector<StairLabel> stairLabels(const Environment& environment);
+
 // Those of one environment, made when first asked for.
 class RoomLabels {
  public:
   const std::vector<RoomLabel>& of(const std::shared_ptr<const Environment>& environment) const;
+  const std::vector<StairLabel>& stairsOf(const std::shared_ptr<const Environment>& environment) const;
 
  private:
+  void follow(const std::shared_ptr<const Environment>& environment) const;
   mutable std::shared_ptr<const Environment> environment_;
   mutable std::vector<RoomLabel> labels_;
+  mutable std::vector<StairLabel> stairs_;
 };
 
 }  // namespace standpoint

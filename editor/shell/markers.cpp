@@ -143,6 +143,55 @@ void drawRoomNames(Editor& editor, Pen& pen, const ViewState& state) {
   }
 }
 
+// Where the straight way from outside meets the box; nothing from inside, or where it misses.
+std::optional<Eigen::Vector3d> entryOf(const Bounds& box, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  double enters = 0, leaves = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double way = to[axis] - from[axis];
+    if (std::abs(way) < 1e-9) {
+      if (from[axis] < box.min[axis] || from[axis] > box.max[axis]) return std::nullopt;
+      continue;
+    }
+    const double low = (box.min[axis] - from[axis]) / way, high = (box.max[axis] - from[axis]) / way;
+    enters = std::max(enters, std::min(low, high));
+    leaves = std::min(leaves, std::max(low, high));
+  }
+  if (enters <= 0 || enters >= leaves) return std::nullopt;
+  return from + enters * (to - from);
+}
+
+// The storey that begins there; null: none does.
+const StoreyLevel* storeyAt(const Editor& editor, double height_m) {
+  constexpr double kNear_m = 1;
+  const auto& storeys = editor.storeys();
+  const auto nearest = std::min_element(storeys.begin(), storeys.end(), [&](const auto& a, const auto& b) {
+    return std::abs(a.elevation_m - height_m) < std::abs(b.elevation_m - height_m);
+  });
+  return nearest != storeys.end() && std::abs(nearest->elevation_m - height_m) < kNear_m ? &*nearest : nullptr;
+}
+
+// Where a stair leads from the storey of whoever walks, as long as he sees it and is not on it.
+void drawStairNames(Editor& editor, Pen& pen, const ViewState& state) {
+  constexpr double kFarthest_m = 15, kChest_m = 1.2, kBefore_m = 0.05;
+  if (!editor.walk.active() || !editor.view.room_names || editor.cloud()) return;
+  const Eigen::Vector3d eye = editor.view.camera.eye(), feet = editor.walk.feet();
+  for (const auto& stair : editor.room_labels.stairsOf(editor.session.document().imported)) {
+    const double low = stair.box.min.z(), high = stair.box.max.z();
+    const bool up = feet.z() < (low + high) / 2;
+    const auto* storey = storeyAt(editor, up ? high : low);
+    if (storey == nullptr || feet.z() < low - kChest_m || feet.z() > high + kChest_m) continue;
+    Eigen::Vector3d anchor = (stair.box.min + stair.box.max) / 2;
+    anchor.z() = std::clamp(feet.z() + kChest_m, low, high);
+    const auto entry = entryOf(stair.box, eye, anchor);
+    if (!entry || (*entry - eye).norm() > kFarthest_m) continue;
+    const Eigen::Vector3d before = *entry - kBefore_m * (*entry - eye).normalized();
+    const auto place = pen.at(anchor);
+    const auto& name = editor.environment()->spatial[static_cast<std::size_t>(storey->node)].name;
+    if (place && !name.empty() && editor.picker.sees(eye, before, state))
+      pen.labels.around({LabelKind::stair, stair.product}, *place, {trf("Stair to {}", name)}, tone::kText);
+  }
+}
+
 // Where a handheld scanner shall be carried.
 void drawWay(const Editor& editor, Pen& pen) {
   std::optional<Eigen::Vector3d> before;
@@ -229,6 +278,7 @@ void drawMarkers(Editor& editor, ImVec2 origin, LabelBoard& labels) {
   drawStations(editor, pen, state);
   drawTargets(editor, pen, state);
   drawRoomNames(editor, pen, state);
+  drawStairNames(editor, pen, state);
   drawWorstPlace(editor, pen);
   if (editor.view.labels) nameHoles(editor, state, origin, labels);
   list.PopClipRect();

@@ -197,8 +197,9 @@ const char* movingHint(const Editor& editor) {
            "sphere   Esc to leave";
   return editor.walk.doorInReach(editor.view.camera) ? "E to open or close the door   W A S D to walk, drag to look, "
                                                        "Shift to run, T to teleport to the pointer   Esc to leave"
-                                                     : "W A S D to walk, drag to look, Shift to run, C to crouch, T to "
-                                                       "teleport to the pointer, B: sphere   Esc to leave";
+                                                     : "W A S D to walk, drag to look, Shift to run, C to crouch   T "
+                                                       "to teleport to the pointer, Ctrl+G to go to a room or "
+                                                       "upstairs   Esc to leave";
 }
 
 float drawMovingLine(const Editor& editor, ImVec2 origin, ImVec2 size, float above_pt) {

@@ -228,6 +228,32 @@ TEST(RoomLabels, StandBesideTheStairOfTheirRoom) {
   EXPECT_GT(std::max(std::abs(p.x() - before.x()), std::abs(p.y() - before.y())), 0.6) << p.transpose();
 }
 
+TEST(StairLabels, AreOneForAllFlightsOfAStairAndNoneForAFewSteps) {
+  Environment e;
+  e.surfaces.resize(1);
+  const auto add = [&](const char* ifc_class, std::int32_t whole, float low, float high) {
+    Mesh mesh;
+    mesh.positions = {{0, 0, low}, {1, 0, low}, {1, 1, high}};
+    mesh.triangles = {{0, 1, 2}};
+    mesh.surface_of_triangle = {0};
+    Product product;
+    product.ifc_class = ifc_class;
+    product.whole = whole;
+    e.products.push_back(product);
+    e.meshes.push_back(std::make_shared<const Mesh>(mesh));
+    const auto index = static_cast<std::uint32_t>(e.products.size() - 1);
+    e.instances.push_back({index, index, Eigen::Affine3d::Identity()});
+  };
+  add("IfcStair", -1, 0, 0.1F);
+  add("IfcStairFlight", 0, 0, 1.4F);
+  add("IfcStairFlight", 0, 1.4F, 2.8F);
+  add("IfcStair", -1, 0, 0.5F);
+  const auto labels = stairLabels(e);
+  ASSERT_EQ(labels.size(), 1U);
+  EXPECT_EQ(labels[0].product, 0U);
+  EXPECT_NEAR(labels[0].box.max.z(), 2.8, 1e-6);
+}
+
 class Plan : public ::testing::Test {
  protected:
   void SetUp() override {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/data_folder.h"
@@ -491,6 +492,27 @@ TEST_F(Walking, ATripodThatIsPutUpWhereOneStandsHoldsNobody) {
   gui.frames(60);
   keyboard::change('W', false);
   EXPECT_GT((editor.walk.feet() - feet).head<2>().norm(), 0.8);
+}
+
+TEST_F(Walking, SaysWhereTheStairLeadsThatIsInSightAndHowElseOneGetsUpstairs) {
+  jumpToStation(editor, 1);
+  editor.walk_ground.wait();
+  gui.frames(30);
+  ASSERT_TRUE(editor.walk.active());
+  const auto said = [&](double azimuth_rad) {
+    editor.view.camera.azimuth_rad = azimuth_rad;
+    gui.frames(3);
+    itemProbe().texts.clear();
+    itemProbe().listens = true;
+    gui.frames(2);
+    itemProbe().listens = false;
+    return itemProbe().texts;
+  };
+  EXPECT_THAT(said(0), testing::Contains("Stair to Upper floor"));
+  EXPECT_THAT(said(0), testing::Contains(testing::HasSubstr("Ctrl+G to go to a room or upstairs")));
+  EXPECT_THAT(said(std::numbers::pi), testing::Not(testing::Contains("Stair to Upper floor")));
+  editor.view.room_names = false;
+  EXPECT_THAT(said(0), testing::Not(testing::Contains(testing::HasSubstr("Stair to"))));
 }
 
 TEST_F(Walking, LooksFromAnotherHeightAndAngleOnceTheyAreSet) {
