@@ -8,6 +8,7 @@
 
 #include "editor/instrument/desk.h"
 #include "editor/shell/dialogs.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
@@ -69,11 +70,11 @@ void list(InstrumentDesk& desk, Editor& editor) {
   if (ui::beginProperties("exercise")) {
     ui::propertyLabel("Guidance");
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::BeginCombo("##guidance", kGuidance[static_cast<std::size_t>(desk.guidance)].name)) {
+    if (ui::beginDropDown("##guidance", kGuidance[static_cast<std::size_t>(desk.guidance)].name)) {
       for (std::size_t i = 0; i < kGuidance.size(); ++i)
-        if (ImGui::Selectable(kGuidance[i].name, static_cast<std::size_t>(desk.guidance) == i))
+        if (ui::choice(kGuidance[i].name, static_cast<std::size_t>(desk.guidance) == i))
           desk.guidance = static_cast<Guidance>(i);
-      ImGui::EndCombo();
+      ui::endDropDown();
     }
     ui::propertyLabel("Student");
     ImGui::SetNextItemWidth(-1);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "editor/instrument/desk.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/widgets.h"
 
@@ -30,11 +31,11 @@ void stationChoice(InstrumentDesk& desk, const Document& document) {
   const auto& now = desk.shown()->state().around.station;
   ui::propertyLabel("Station");
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::BeginCombo("##station", now.empty() ? tr("not set up").c_str() : now.c_str())) {
+  if (ui::beginDropDown("##station", now.empty() ? tr("not set up").c_str() : now.c_str())) {
     if (document.job)
       for (const auto& s : document.job->stations)
-        if (ImGui::Selectable(s.name.c_str(), s.name == now)) carryTo(desk, document, s.name);
-    ImGui::EndCombo();
+        if (ui::choice(s.name.c_str(), s.name == now)) carryTo(desk, document, s.name);
+    ui::endDropDown();
   }
 }
 

@@ -12,6 +12,7 @@
 #include "editor/instrument/desk.h"
 #include "editor/instrument/speaker.h"
 #include "editor/instrument/ticker.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/widgets.h"
 
@@ -171,10 +172,10 @@ class InstrumentPanel {
     ui::tooltip(why);
     ImGui::SetNextItemWidth(-1);
     ImGui::BeginDisabled(!why.empty());
-    const bool open = ImGui::BeginCombo(id, now.c_str());
+    const bool open = ui::beginDropDown(id, now.c_str());
     if (open) {
       rows();
-      ImGui::EndCombo();
+      ui::endDropDown();
     }
     ImGui::EndDisabled();
     if (!open) ui::tooltip(why);
@@ -186,21 +187,20 @@ class InstrumentPanel {
     const auto& type = desk_.shown()->type();
     lockedCombo("Device", "##device", type.definition.title, why, [&] {
       for (const auto& device : emulatedDevices())
-        if (ImGui::Selectable(device.title().c_str(), &device == desk_.device))
-          wanted_ = &device, wanted_instrument_.clear();
+        if (ui::choice(device.title().c_str(), &device == desk_.device)) wanted_ = &device, wanted_instrument_.clear();
     });
     if (desk_.scanners.size() > 1)
       lockedCombo("Scanner", "##scanner", type.instrument.maker + " " + type.instrument.model, why, [&] {
         for (const auto& [id, title] : desk_.scanners)
-          if (ImGui::Selectable((title + "###" + id).c_str(), id == type.instrument.id))
+          if (ui::choice((title + "###" + id).c_str(), id == type.instrument.id))
             wanted_ = desk_.device, wanted_instrument_ = id;
       });
     ui::propertyLabel("Clock");
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::BeginCombo("##clock", clockName(desk_.time_factor).c_str())) {
+    if (ui::beginDropDown("##clock", clockName(desk_.time_factor).c_str())) {
       for (const double factor : kClockFactors)
-        if (ImGui::Selectable(clockName(factor).c_str(), factor == desk_.time_factor)) desk_.time_factor = factor;
-      ImGui::EndCombo();
+        if (ui::choice(clockName(factor).c_str(), factor == desk_.time_factor)) desk_.time_factor = factor;
+      ui::endDropDown();
     }
     ui::endProperties();
   }

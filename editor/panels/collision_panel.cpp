@@ -7,6 +7,7 @@
 
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
@@ -166,11 +167,11 @@ void draw(const Model& model, CollisionState& state, Actions& actions) {
     ui::propertyLabel("Doors");
     auto doors = static_cast<int>(state.doors);
     const std::array<std::string, 3> states = {tr("open"), tr("closed"), tr("individual")};
-    if (ImGui::BeginCombo("###doors", states[static_cast<std::size_t>(doors)].c_str())) {
+    if (ui::beginDropDown("###doors", states[static_cast<std::size_t>(doors)].c_str())) {
       for (int i = 0; i < 3; ++i)
-        if (ImGui::Selectable(states[static_cast<std::size_t>(i)].c_str(), i == doors))
+        if (ui::choice(states[static_cast<std::size_t>(i)].c_str(), i == doors))
           state.doors = static_cast<DoorState>(i);
-      ImGui::EndCombo();
+      ui::endDropDown();
     }
     ui::endProperties();
   }

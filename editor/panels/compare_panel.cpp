@@ -7,6 +7,7 @@
 
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
@@ -50,24 +51,24 @@ void chooseCloud(float width, Actions& actions, const char* id, const std::vecto
   ImGui::SetNextItemWidth(width);
   const auto name = nameOf(clouds, part);
   const float room = width - ImGui::GetFrameHeight() - 2 * ImGui::GetStyle().FramePadding.x;  // beside its arrow
-  const bool open = ImGui::BeginCombo(id, ui::fittingMiddle(name, room).c_str());
+  const bool open = ui::beginDropDown(id, ui::fittingMiddle(name, room).c_str());
   if (!open) {
     ui::tooltip(name);
     return;
   }
   for (std::size_t i = 0; i < clouds.size(); ++i)
     if (const auto offered = partOf(clouds, clouds[i]);
-        ImGui::Selectable((clouds[i].label + "###" + id + std::to_string(i)).c_str(), part == offered))
+        ui::choice((clouds[i].label + "###" + id + std::to_string(i)).c_str(), part == offered))
       part = offered;
   ImGui::Separator();
-  if (ImGui::Selectable(ui::Label("Another file…")))
+  if (ui::choice(ui::Label("Another file…")))
     actions.askForFile(FileDialogState::Purpose::openFile, "Choose a point cloud", "Choose",
                        {".e57", ".las", ".laz", ".ply", ".pcd", ".ptx", ".pts", ".xyz"}, "",
                        [&states, is_a](Actions&, const std::filesystem::path& chosen) {
                          auto& state = states.of<CompareState>();
                          (is_a ? state.a : state.b) = {chosen, {}};
                        });
-  ImGui::EndCombo();
+  ui::endDropDown();
 }
 
 std::string whyNotCompare(const Model& model, const CompareState& state) {

@@ -9,6 +9,7 @@
 #include <imgui_stdlib.h>
 
 #include "editor/panels/actions.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/job_progress.h"
 #include "editor/widgets/theme.h"
@@ -34,10 +35,10 @@ bool choose(const char* id, const std::array<ImportChoice, N>& choices, std::str
   const auto chosen =
       std::find_if(choices.begin(), choices.end(), [&](const ImportChoice& c) { return value == c.value; });
   bool changed = false;
-  if (!ImGui::BeginCombo(id, tr(chosen == choices.end() ? value.c_str() : chosen->label).c_str())) return false;
+  if (!ui::beginDropDown(id, tr(chosen == choices.end() ? value.c_str() : chosen->label).c_str())) return false;
   for (const auto& c : choices)
-    if (ImGui::Selectable(ui::Label(c.label), value == c.value)) value = c.value, changed = true;
-  ImGui::EndCombo();
+    if (ui::choice(ui::Label(c.label), value == c.value)) value = c.value, changed = true;
+  ui::endDropDown();
   return changed;
 }
 

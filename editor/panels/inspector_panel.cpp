@@ -16,6 +16,7 @@
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
 #include "editor/panels/survey_inspector.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
@@ -205,7 +206,7 @@ void drawAssign(const Model& model, InspectorState& state, Actions& actions, con
       ImGui::OpenPopupEx(ImHashStr("##ComboPopup", 0, ImGui::GetID("###assign")));
   }
   ImGui::SetNextItemWidth(-FLT_MIN);
-  if (!ImGui::BeginCombo("###assign", current.c_str(), ImGuiComboFlags_HeightLargest)) return;
+  if (!ui::beginDropDown("###assign", current.c_str(), ImGuiComboFlags_HeightLargest)) return;
   const auto& catalogue = model.catalogue();
   auto& filter = state.material_filter;
   const bool appears = ImGui::IsWindowAppearing();
@@ -227,7 +228,7 @@ void drawAssign(const Model& model, InspectorState& state, Actions& actions, con
   for (const auto* material : listed) {
     ui::swatch(model, materialColour(material));
     ImGui::SameLine();
-    if (ImGui::Selectable((tr(material->label) + "###" + material->id).c_str())) {
+    if (ui::choice((tr(material->label) + "###" + material->id).c_str())) {
       assign(model, actions, *material);
       ImGui::CloseCurrentPopup();
     }
@@ -237,7 +238,7 @@ void drawAssign(const Model& model, InspectorState& state, Actions& actions, con
   else if (listed.empty())
     ui::dimText("No matches");
   ImGui::EndChild();
-  ImGui::EndCombo();
+  ui::endDropDown();
 }
 
 void drawPhysics(const PhysicalMaterial& m) {

@@ -11,6 +11,7 @@
 #include "core/units.h"
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
@@ -175,16 +176,16 @@ void chooseEngine(std::string& engine) {
   const auto choices = engineChoices();
   const auto chosen =
       std::find_if(choices.begin(), choices.end(), [&](const EngineChoice& choice) { return choice.id == engine; });
-  const bool open = ImGui::BeginCombo("###engine", tr(chosen->title).c_str());
+  const bool open = ui::beginDropDown("###engine", tr(chosen->title).c_str());
   if (!open) {
     ui::tooltip(chosen->help);
     return;
   }
   for (const auto& choice : choices) {
-    if (ImGui::Selectable(ui::Label(choice.title), engine == choice.id)) engine = choice.id;
+    if (ui::choice(ui::Label(choice.title), engine == choice.id)) engine = choice.id;
     ui::tooltip(choice.help);
   }
-  ImGui::EndCombo();
+  ui::endDropDown();
 }
 
 void draw(const Model& model, OptimiseState& state, Actions& actions) {

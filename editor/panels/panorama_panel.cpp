@@ -7,6 +7,7 @@
 
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/job_progress.h"
 #include "editor/widgets/theme.h"
@@ -46,12 +47,12 @@ void chooseCloud(const Model& model, Actions& actions) {
   const auto clouds = inspectedClouds(model.session.document());
   const auto& read = model.panorama.result();
   ImGui::SetNextItemWidth(std::min(model.px(260), 0.36F * ImGui::GetWindowWidth()));
-  if (!ImGui::BeginCombo("###panorama-scan", (read ? read->request.cloud : tr("Choose a scan")).c_str())) return;
+  if (!ui::beginDropDown("###panorama-scan", (read ? read->request.cloud : tr("Choose a scan")).c_str())) return;
   for (std::size_t i = 0; i < clouds.size(); ++i)
-    if (ImGui::Selectable((clouds[i].label + "###panorama" + std::to_string(i)).c_str(),
-                          read && read->request.file == clouds[i].file))
+    if (ui::choice((clouds[i].label + "###panorama" + std::to_string(i)).c_str(),
+                   read && read->request.file == clouds[i].file))
       actions.showPanorama(clouds[i], {});
-  ImGui::EndCombo();
+  ui::endDropDown();
 }
 
 std::string nameOf(const Panorama& panorama, std::size_t scan) {
@@ -67,11 +68,11 @@ void chooseScanOfFile(const Model& model, Actions& actions, const PanoramaRead& 
   if (cloud == nullptr) return;
   ImGui::SameLine();
   ImGui::SetNextItemWidth(std::min(model.px(160), 0.2F * ImGui::GetWindowWidth()));
-  if (!ImGui::BeginCombo("###panorama-scan-of-file", nameOf(panorama, panorama.scan).c_str())) return;
+  if (!ui::beginDropDown("###panorama-scan-of-file", nameOf(panorama, panorama.scan).c_str())) return;
   for (std::size_t i = 0; i < panorama.scans.size(); ++i)
-    if (ImGui::Selectable((nameOf(panorama, i) + "###scan-of-file" + std::to_string(i)).c_str(), i == panorama.scan))
+    if (ui::choice((nameOf(panorama, i) + "###scan-of-file" + std::to_string(i)).c_str(), i == panorama.scan))
       actions.showPanorama(*cloud, i);
-  ImGui::EndCombo();
+  ui::endDropDown();
 }
 
 void chooseChannel(const Panorama& panorama, PanoramaState& state) {

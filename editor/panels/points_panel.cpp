@@ -11,6 +11,7 @@
 #include "core/units.h"
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
@@ -32,16 +33,16 @@ std::string whyNotBy(const Model& model, ColourBy colour) {
 void drawColour(const Model& model, Actions& actions) {
   ui::propertyLabel("Colour by");
   ImGui::SetNextItemWidth(-1);
-  if (!ImGui::BeginCombo("###points-by", tr(rowOf(model.view.points_by).name).c_str(), ImGuiComboFlags_HeightLarge))
+  if (!ui::beginDropDown("###points-by", tr(rowOf(model.view.points_by).name).c_str(), ImGuiComboFlags_HeightLarge))
     return;
   for (const auto& row : coloursBy()) {
     const auto why = whyNotBy(model, row.colour);
     ImGui::BeginDisabled(!why.empty());
-    if (ImGui::Selectable(ui::Label(row.name), model.view.points_by == row.colour)) actions.colourPointsBy(row.colour);
+    if (ui::choice(ui::Label(row.name), model.view.points_by == row.colour)) actions.colourPointsBy(row.colour);
     ImGui::EndDisabled();
     ui::tooltip(why);
   }
-  ImGui::EndCombo();
+  ui::endDropDown();
 }
 
 // A scan with the ways to look at it.

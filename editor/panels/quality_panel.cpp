@@ -8,6 +8,7 @@
 
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/verdict_sign.h"
@@ -31,10 +32,10 @@ void drawProfile(QualityState& state) {
   ui::propertyLabel("Limits for");
   ImGui::SetNextItemWidth(-1);
   const auto chosen = std::find_if(all.begin(), all.end(), [&](const auto& c) { return c.value == state.profile; });
-  if (ImGui::BeginCombo("###profile", tr(chosen->name).c_str())) {
+  if (ui::beginDropDown("###profile", tr(chosen->name).c_str())) {
     for (const auto& choice : all)
-      if (ImGui::Selectable(ui::Label(choice.name), choice.value == state.profile)) state.profile = choice.value;
-    ImGui::EndCombo();
+      if (ui::choice(ui::Label(choice.name), choice.value == state.profile)) state.profile = choice.value;
+    ui::endDropDown();
   }
   ui::tooltip("Level of accuracy: the limits in millimetres scale with it");
   ui::endProperties();

@@ -12,6 +12,7 @@
 #include "editor/panels/actions.h"
 #include "editor/panels/scan_panel.h"
 #include "editor/trajectories/carried_scan.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
@@ -41,14 +42,14 @@ void drawQuality(ScanChoice& asked) {
       std::find_if(kItems.begin(), kItems.end(), [&](const Item& item) { return item.quality == asked.quality; });
   if (!ui::beginProperties("quality", 0.36F)) return;
   ui::propertyLabel("Quality");
-  const bool open = ImGui::BeginCombo("###scan-quality", tr(chosen->label).c_str());
+  const bool open = ui::beginDropDown("###scan-quality", tr(chosen->label).c_str());
   if (!open) ui::tooltip(chosen->help);
   if (open) {
     for (const Item& item : kItems) {
-      if (ImGui::Selectable(tr(item.label).c_str(), item.quality == asked.quality)) asked.quality = item.quality;
+      if (ui::choice(tr(item.label).c_str(), item.quality == asked.quality)) asked.quality = item.quality;
       ui::tooltip(item.help);
     }
-    ImGui::EndCombo();
+    ui::endDropDown();
   }
   ui::endProperties();
 }
@@ -99,10 +100,10 @@ constexpr std::array kDeskews = {Named<Deskew>{Deskew::pulse, "by the pose of ea
 template <class T, std::size_t kCount>
 void drawNamed(const char* id, T& value, const std::array<Named<T>, kCount>& all) {
   const auto chosen = std::find_if(all.begin(), all.end(), [&](const auto& n) { return n.value == value; });
-  if (!ImGui::BeginCombo(id, tr(chosen->name).c_str())) return;
+  if (!ui::beginDropDown(id, tr(chosen->name).c_str())) return;
   for (const auto& named : all)
-    if (ImGui::Selectable(ui::Label(named.name), named.value == value)) value = named.value;
-  ImGui::EndCombo();
+    if (ui::choice(ui::Label(named.name), named.value == value)) value = named.value;
+  ui::endDropDown();
 }
 
 void drawTrajectoryError(CarriedScan& carried) {
@@ -180,13 +181,13 @@ void drawPanorama(ScanChoice& asked, const Instrument& instrument, const ScanSet
   ui::propertyLabel("Panorama size");
   const auto own = instrument.camera.columns;
   const std::string as_delivered = trf("{}, native", sizeText(own));
-  if (ImGui::BeginCombo("###panorama-size", asked.panorama_columns == 0 ? as_delivered.c_str()
+  if (ui::beginDropDown("###panorama-size", asked.panorama_columns == 0 ? as_delivered.c_str()
                                                                         : sizeText(asked.panorama_columns).c_str())) {
-    if (ImGui::Selectable(as_delivered.c_str(), asked.panorama_columns == 0)) asked.panorama_columns = 0;
+    if (ui::choice(as_delivered.c_str(), asked.panorama_columns == 0)) asked.panorama_columns = 0;
     for (const std::uint32_t columns : {16384U, 8192U, 4096U, 2048U, 1024U})
-      if (columns < own && ImGui::Selectable(sizeText(columns).c_str(), asked.panorama_columns == columns))
+      if (columns < own && ui::choice(sizeText(columns).c_str(), asked.panorama_columns == columns))
         asked.panorama_columns = columns;
-    ImGui::EndCombo();
+    ui::endDropDown();
   }
   ui::tooltip("A quarter of the pixels, a quarter of the time");
 }

@@ -16,6 +16,7 @@
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
 #include "editor/panels/scan_conditions.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
@@ -52,20 +53,20 @@ const Instrument* chosenInstrument(const Model& model, ScanChoice& asked, bool c
 // The instrument decides whether stations or a trajectory are scanned.
 void drawInstrumentChoice(const Model& model, ScanChoice& standing, CarriedScan& carried, const Instrument& chosen) {
   ui::propertyLabel("Instrument");
-  if (!ImGui::BeginCombo("###instrument", fmt::format("{} {}", chosen.maker, chosen.model).c_str(),
+  if (!ui::beginDropDown("###instrument", fmt::format("{} {}", chosen.maker, chosen.model).c_str(),
                          ImGuiComboFlags_HeightLargest))
     return;
   for (const bool moving : {false, true}) {
     ui::dimText(moving ? "Carried along a trajectory" : "On a tripod at stations");
     for (const auto& i : model.catalogue().instruments) {
       if (i.moving.has_value() != moving) continue;
-      if (!ImGui::Selectable(fmt::format("  {} {}###{}", i.maker, i.model, i.id).c_str(), i.id == chosen.id)) continue;
+      if (!ui::choice(fmt::format("  {} {}###{}", i.maker, i.model, i.id).c_str(), i.id == chosen.id)) continue;
       carried.wanted = moving;
       chooseInstrument(moving ? carried.choice : standing, i);
     }
   }
   listBrokenInstruments(model);
-  ImGui::EndCombo();
+  ui::endDropDown();
 }
 
 // A setting that is a number within bounds.
@@ -109,12 +110,12 @@ void drawSetting(ScanChoice& asked, const Instrument& instrument, const Instrume
   ImGui::PushID(setting.key.c_str());
   if (setting.choices.empty()) {
     if (drawNumber(setting, value->second) && isAreaEdge(setting.key)) scanArea(asked, instrument);
-  } else if (ImGui::BeginCombo("###value", shown.c_str())) {
+  } else if (ui::beginDropDown("###value", shown.c_str())) {
     for (const auto& choice : setting.choices)
-      if (ImGui::Selectable(fmt::format("{}###{}", figuresIn(tr(choice.label)), choice.value).c_str(),
-                            choice.value == value->second))
+      if (ui::choice(fmt::format("{}###{}", figuresIn(tr(choice.label)), choice.value).c_str(),
+                     choice.value == value->second))
         value->second = choice.value;
-    ImGui::EndCombo();
+    ui::endDropDown();
   }
   ImGui::PopID();
 }
@@ -133,12 +134,12 @@ void drawOutput(const Model& model, ScanState& state, Actions& actions,
   state.format = std::clamp(state.format, 0, std::max(0, static_cast<int>(formats.size()) - 1));
   ui::propertyLabel("Format");
   const auto* chosen = formats.empty() ? nullptr : formats[static_cast<std::size_t>(state.format)];
-  const bool open = ImGui::BeginCombo("###format", chosen == nullptr ? "" : chosen->extension);
+  const bool open = ui::beginDropDown("###format", chosen == nullptr ? "" : chosen->extension);
   if (!open && chosen != nullptr) ui::tooltip(chosen->description);  // too long for the field
   if (open) {
     for (int i = 0; i < static_cast<int>(formats.size()); ++i)
-      if (ImGui::Selectable(formats[static_cast<std::size_t>(i)]->description, i == state.format)) state.format = i;
-    ImGui::EndCombo();
+      if (ui::choice(formats[static_cast<std::size_t>(i)]->description, i == state.format)) state.format = i;
+    ui::endDropDown();
   }
   ui::propertyLabel("Folder");
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x);
@@ -161,18 +162,18 @@ std::string stationsText(const Model& model, const ScanState& state) {
 
 void drawStationChoice(const Model& model, ScanState& state, Actions& actions) {
   ui::propertyLabel("Stations");
-  if (!ImGui::BeginCombo("###stations",
+  if (!ui::beginDropDown("###stations",
                          stationsText(model, state) == "all" ? tr("All").c_str() : stationsText(model, state).c_str()))
     return;
-  if (ImGui::Selectable(ui::Label("All"), state.all_stations)) state.all_stations = true;
+  if (ui::choice(ui::Label("All"), state.all_stations)) state.all_stations = true;
   const auto& stations = model.session.document().job->stations;
   for (int i = 0; i < static_cast<int>(stations.size()); ++i)
-    if (ImGui::Selectable(fmt::format("{}###station{}", stations[static_cast<std::size_t>(i)].name, i).c_str(),
-                          !state.all_stations && model.survey.station == i)) {
+    if (ui::choice(fmt::format("{}###station{}", stations[static_cast<std::size_t>(i)].name, i).c_str(),
+                   !state.all_stations && model.survey.station == i)) {
       state.all_stations = false;
       actions.choose(SurveyChoice{i, model.survey.target, model.survey.underlay});
     }
-  ImGui::EndCombo();
+  ui::endDropDown();
 }
 
 // Index into the job: the chosen one, or the only one there is; nothing: none, or it is not clear which.
@@ -187,15 +188,15 @@ void drawTrajectoryChoice(const Model& model, Actions& actions) {
   ui::propertyLabel("Trajectory");
   const auto& trajectories = model.session.document().job->trajectories;
   const auto wanted = trajectoryWanted(model);
-  if (!ImGui::BeginCombo("###along", wanted                 ? trajectories[*wanted].name.c_str()
+  if (!ui::beginDropDown("###along", wanted                 ? trajectories[*wanted].name.c_str()
                                      : trajectories.empty() ? tr("none").c_str()
                                                             : tr("Choose…").c_str()))
     return;
   for (std::size_t i = 0; i < trajectories.size(); ++i)
-    if (ImGui::Selectable(fmt::format("{}###along{}", trajectories[i].name, i).c_str(), wanted == i))
+    if (ui::choice(fmt::format("{}###along{}", trajectories[i].name, i).c_str(), wanted == i))
       actions.choose(SurveyChoice{.trajectory = static_cast<int>(i)});
   if (trajectories.empty()) ui::dimText("Add a trajectory in the Survey panel first");
-  ImGui::EndCombo();
+  ui::endDropDown();
 }
 
 std::vector<std::size_t> stationsWanted(const Model& model, const ScanState& state) {

@@ -16,6 +16,7 @@
 #include "editor/panels/scan_panel.h"
 #include "editor/panels/survey_edit.h"
 #include "editor/panels/trajectory_inspector.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
@@ -80,13 +81,13 @@ bool standRow(std::set<std::string>& free_stations, const std::string& station) 
   const bool free = free_stations.contains(station);
   bool changed = false;
   ui::propertyLabel("Stand");
-  if (ImGui::BeginCombo("###inspected-stand", tr(kStands[static_cast<int>(free)]).c_str())) {
+  if (ui::beginDropDown("###inspected-stand", tr(kStands[static_cast<int>(free)]).c_str())) {
     for (const bool offered : {false, true})
-      if (ImGui::Selectable(ui::Label(kStands[static_cast<int>(offered)]), offered == free) && offered != free) {
+      if (ui::choice(ui::Label(kStands[static_cast<int>(offered)]), offered == free) && offered != free) {
         changed = true;
         offered ? void(free_stations.insert(station)) : void(free_stations.erase(station));
       }
-    ImGui::EndCombo();
+    ui::endDropDown();
   }
   ui::tooltip("Free: suspended or handheld. Only its clearance is checked.");
   return changed;

@@ -14,6 +14,7 @@
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
 #include "editor/panels/survey_edit.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
@@ -184,17 +185,17 @@ void drawRow(const Model& model, Actions& actions, const CarriedTrajectory& traj
 void carrierRow(Actions& actions, TrajectoryEdit& edit, const CarriedTrajectory& trajectory,
                 const Georeference& georeference) {
   ui::propertyLabel("Carrier");
-  if (!ImGui::BeginCombo("###carrier", carrierName(trajectory.carrier).c_str())) return;
+  if (!ui::beginDropDown("###carrier", carrierName(trajectory.carrier).c_str())) return;
   for (const auto& carrier : kCarriers)
-    if (ImGui::Selectable((tr(std::string(carrier.name)) + "###carrier-" + std::string(carrier.id)).c_str(),
-                          carrier.id == trajectory.carrier) &&
+    if (ui::choice((tr(std::string(carrier.name)) + "###carrier-" + std::string(carrier.id)).c_str(),
+                   carrier.id == trajectory.carrier) &&
         carrier.id != trajectory.carrier) {
       CarriedTrajectory changed = trajectory;
       changed.carrier = carrier.id;
       startEdit(actions, edit.common, changeTo(changed, georeference),
                 trf("Change carrier of trajectory {}", trajectory.name));
     }
-  ImGui::EndCombo();
+  ui::endDropDown();
 }
 
 void figureRows(Actions& actions, TrajectoryEdit& edit, const CarriedTrajectory& trajectory,

@@ -9,6 +9,7 @@
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
 #include "editor/panels/scan_panel.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
@@ -40,23 +41,23 @@ void chooseUnderlay(const Model& model, VerifyState& state) {
       std::any_of(underlays.begin(), underlays.end(), [&](const auto& u) { return u->name == state.underlay; });
   if (!there) state.underlay = underlays.front()->name;
   ImGui::SetNextItemWidth(-1);
-  if (!ImGui::BeginCombo("###underlay", state.underlay.c_str())) return;
+  if (!ui::beginDropDown("###underlay", state.underlay.c_str())) return;
   for (const auto& u : underlays)
-    if (ImGui::Selectable(u->name.c_str(), u->name == state.underlay)) state.underlay = u->name;
-  ImGui::EndCombo();
+    if (ui::choice(u->name.c_str(), u->name == state.underlay)) state.underlay = u->name;
+  ui::endDropDown();
 }
 
 void chooseInstrument(const Model& model, VerifyState& state) {
   const char* as_said = "Instrument from the point cloud";
   ImGui::SetNextItemWidth(-1);
-  if (!ImGui::BeginCombo("###instrument", state.instrument.empty() ? as_said : state.instrument.c_str())) return;
-  if (ImGui::Selectable(as_said, state.instrument.empty())) state.instrument.clear();
+  if (!ui::beginDropDown("###instrument", state.instrument.empty() ? as_said : state.instrument.c_str())) return;
+  if (ui::choice(as_said, state.instrument.empty())) state.instrument.clear();
   for (const auto& i : model.catalogue().instruments)
-    if (ImGui::Selectable(fmt::format("{} {}  ({:.0f} nm)###{}", i.maker, i.model, i.wavelength_nm, i.id).c_str(),
-                          i.id == state.instrument))
+    if (ui::choice(fmt::format("{} {}  ({:.0f} nm)###{}", i.maker, i.model, i.wavelength_nm, i.id).c_str(),
+                   i.id == state.instrument))
       state.instrument = i.id;
   listBrokenInstruments(model);
-  ImGui::EndCombo();
+  ui::endDropDown();
 }
 
 void drawVerifyButtons(const Model& model, VerifyState& state, Actions& actions) {

@@ -7,6 +7,7 @@
 #include "core/units.h"
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
@@ -27,12 +28,12 @@ void drawChoice(const Model& model, Actions& actions) {
   if (ui::beginProperties("wall-choice", 0.42F)) {
     ui::propertyLabel("Cloud");
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::BeginCombo("###wall-cloud", (chosen ? chosen->label : tr("none")).c_str())) {
+    if (ui::beginDropDown("###wall-cloud", (chosen ? chosen->label : tr("none")).c_str())) {
       for (std::size_t i = 0; i < clouds.size(); ++i)
-        if (ImGui::Selectable((clouds[i].label + "###cloud" + std::to_string(i)).c_str(),
-                              chosen && chosen->file == clouds[i].file))
+        if (ui::choice((clouds[i].label + "###cloud" + std::to_string(i)).c_str(),
+                       chosen && chosen->file == clouds[i].file))
           choice.cloud = clouds[i].file;
-      ImGui::EndCombo();
+      ui::endDropDown();
     }
     ui::tooltip("All of its points near the picked place are used, not only those shown");
     ui::propertyLabel("Radius");

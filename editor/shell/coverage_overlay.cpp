@@ -9,6 +9,7 @@
 #include "editor/shell/editor.h"
 #include "editor/shell/expected_overlay.h"
 #include "editor/shell/overlay.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
@@ -146,12 +147,12 @@ void coverageChips(Editor& editor) {
   const std::string made = tr("Completed scans");
   const auto label = fmt::format("{}  {}", ICON_STATION, editor.view.coverage_made ? made : planned);
   ImGui::SetNextItemWidth(chipWidth(editor, label, 166));
-  if (!ImGui::BeginCombo("###coverage-of", label.c_str(), ImGuiComboFlags_NoArrowButton)) return;
-  if (ImGui::Selectable(planned.c_str(), !editor.view.coverage_made)) editor.view.coverage_made = false;
+  if (!ui::beginDropDown("###coverage-of", label.c_str(), ImGuiComboFlags_NoArrowButton)) return;
+  if (ui::choice(planned.c_str(), !editor.view.coverage_made)) editor.view.coverage_made = false;
   ui::tooltip("All stations, with the instrument and settings of the Scan panel");
-  if (ImGui::Selectable(made.c_str(), editor.view.coverage_made)) editor.view.coverage_made = true;
+  if (ui::choice(made.c_str(), editor.view.coverage_made)) editor.view.coverage_made = true;
   ui::tooltip("Stations that have been scanned, with the instrument and settings of the last scan");
-  ImGui::EndCombo();
+  ui::endDropDown();
 }
 
 }  // namespace standpoint

@@ -11,6 +11,7 @@
 #include "core/units.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/overlay.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
@@ -246,12 +247,12 @@ void expectedChips(Editor& editor) {
   ImGui::NewLine();
   const auto label = fmt::format("{}  {}", ICON_TABLET, instrument != nullptr ? instrument->model : tr("Instrument"));
   ImGui::SetNextItemWidth(chipWidth(editor, label, 166));
-  if (ImGui::BeginCombo("###probe-instrument", label.c_str(), ImGuiComboFlags_NoArrowButton)) {
+  if (ui::beginDropDown("###probe-instrument", label.c_str(), ImGuiComboFlags_NoArrowButton)) {
     for (const auto& i : editor.catalogue().instruments)
-      if (ImGui::Selectable(fmt::format("{} {}, {:.0f} nm###{}", i.maker, i.model, i.wavelength_nm, i.id).c_str(),
-                            i.id == probe.instrument))
+      if (ui::choice(fmt::format("{} {}, {:.0f} nm###{}", i.maker, i.model, i.wavelength_nm, i.id).c_str(),
+                     i.id == probe.instrument))
         probe.instrument = i.id;
-    ImGui::EndCombo();
+    ui::endDropDown();
   }
   ImGui::SameLine();
   if (ImGui::GetCursorScreenPos().x + editor.px(128) > overlayEnd(editor)) ImGui::NewLine();
@@ -264,18 +265,18 @@ void expectedChips(Editor& editor) {
   ImGui::SetNextItemWidth(editor.px(128));
   const auto standing = std::find_if(job->stations.begin(), job->stations.end(),
                                      [&](const Station& s) { return probe.position == s.true_pose.translation; });
-  if (!ImGui::BeginCombo(
+  if (!ui::beginDropDown(
           "###probe-place",
           fmt::format("{}  {}", ICON_STATION, standing != job->stations.end() ? standing->name : tr("Drag the dot"))
               .c_str(),
           ImGuiComboFlags_NoArrowButton))
     return;
   for (const auto& s : job->stations)
-    if (ImGui::Selectable(s.name.c_str())) {
+    if (ui::choice(s.name.c_str())) {
       probe.position = s.true_pose.translation;
       probe.height_m = s.instrument_height_m;
     }
-  ImGui::EndCombo();
+  ui::endDropDown();
 }
 
 }  // namespace standpoint

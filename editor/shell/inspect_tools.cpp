@@ -4,6 +4,7 @@
 #include "editor/shell/editor.h"
 #include "editor/shell/label_board.h"
 #include "editor/shell/view_pen.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keyboard.h"
 #include "editor/widgets/theme.h"
@@ -154,7 +155,9 @@ void followInspectTools(Editor& editor, ImVec2 origin, bool hovered) {
       ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId))
     return;
   auto& points = view.measuring.points;
-  if ((keyboard::pressed(kKeyEnter) || keyboard::pressed(kKeyPadEnter)) && isEnough(view.measuring)) finish(editor);
+  if ((keyboard::pressed(kKeyEnter) || keyboard::pressed(kKeyPadEnter)) && !ui::dropDownIsOpen() &&
+      isEnough(view.measuring))
+    finish(editor);
   if (keyboard::pressed(kKeyBackspace) && !points.empty()) points.pop_back();
 }
 

@@ -16,6 +16,7 @@
 #include "editor/shell/editor.h"
 #include "editor/shell/overlay.h"
 #include "editor/shell/view_pen.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
@@ -91,13 +92,13 @@ void instrumentChip(Editor& editor) {
   drawChipGround(editor, width);
   ImGui::SetNextItemWidth(width);
   ImGui::BeginDisabled(scansWalk(editor));
-  if (ImGui::BeginCombo("###live-instrument", label.c_str(),
+  if (ui::beginDropDown("###live-instrument", label.c_str(),
                         ImGuiComboFlags_NoArrowButton | ImGuiComboFlags_HeightLarge)) {
     for (const auto& i : editor.catalogue().instruments)
       if (i.moving && carrierOnFoot(i.moving->mount) != nullptr &&
-          ImGui::Selectable(fmt::format("{} {}###live-{}", i.maker, i.model, i.id).c_str(), chosen == &i))
+          ui::choice(fmt::format("{} {}###live-{}", i.maker, i.model, i.id).c_str(), chosen == &i))
         chooseInstrument(editor.carried_scan.choice, i);
-    ImGui::EndCombo();
+    ui::endDropDown();
   } else {
     ui::tooltip("Scanner to carry");
   }
@@ -186,10 +187,10 @@ void livePointChips(Editor& editor) {
   if (!editor.walk.active()) ImGui::NewLine();
   const std::string colours = ICON_PAINT "  " + tr(liveColourName(live.colour()));
   ImGui::SetNextItemWidth(chipWidth(editor, colours, 120));
-  if (ImGui::BeginCombo("###live-colour", colours.c_str(), ImGuiComboFlags_NoArrowButton)) {
+  if (ui::beginDropDown("###live-colour", colours.c_str(), ImGuiComboFlags_NoArrowButton)) {
     for (const auto colour : {LiveColour::height, LiveColour::range})
-      if (ImGui::Selectable(ui::Label(liveColourName(colour)), live.colour() == colour)) live.colourBy(colour);
-    ImGui::EndCombo();
+      if (ui::choice(ui::Label(liveColourName(colour)), live.colour() == colour)) live.colourBy(colour);
+    ui::endDropDown();
   } else {
     ui::tooltip("By what live points are coloured");
   }

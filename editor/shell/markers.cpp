@@ -12,6 +12,7 @@
 #include "editor/shell/live_overlay.h"
 #include "editor/shell/overlay.h"
 #include "editor/shell/trajectory_overlay.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
@@ -255,12 +256,12 @@ void targetChip(Editor& editor) {
   const std::string label = ICON_TARGET "  " + tr(chosenArticle(editor, *kinds).label);
   ImGui::NewLine();
   ImGui::SetNextItemWidth(chipWidth(editor, label, 150));
-  const bool open = ImGui::BeginCombo("###target-article", label.c_str(), ImGuiComboFlags_NoArrowButton);
+  const bool open = ui::beginDropDown("###target-article", label.c_str(), ImGuiComboFlags_NoArrowButton);
   if (!open) return ui::tooltip("Kind of target that the next click puts up");
   for (std::size_t i = 0; i < kinds->articles.size(); ++i)
-    if (ImGui::Selectable(ui::Label(kinds->articles[i].label.c_str()), i == editor.view.target_article))
+    if (ui::choice(ui::Label(kinds->articles[i].label.c_str()), i == editor.view.target_article))
       editor.view.target_article = i;
-  ImGui::EndCombo();
+  ui::endDropDown();
 }
 
 void drawMarkers(Editor& editor, ImVec2 origin, LabelBoard& labels) {

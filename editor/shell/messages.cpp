@@ -17,6 +17,7 @@
 #include "editor/shell/graphics_choice.h"
 #include "editor/shell/place_ghost.h"
 #include "editor/shell/recovery_dialogs.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/modal.h"
 #include "editor/widgets/theme.h"
@@ -242,11 +243,11 @@ void drawLanguages(Editor& editor) {
   const auto shown = languages();
   const auto named = std::find_if(shown.begin(), shown.end(), [&](const Language& l) { return chosen == l.code; });
   const std::string system = tr("System language");
-  if (!ImGui::BeginCombo("###language", named == shown.end() ? system.c_str() : named->name)) return;
-  if (ImGui::Selectable((system + "###system").c_str(), chosen.empty())) chooseLanguage(editor, "");
+  if (!ui::beginDropDown("###language", named == shown.end() ? system.c_str() : named->name)) return;
+  if (ui::choice((system + "###system").c_str(), chosen.empty())) chooseLanguage(editor, "");
   for (const auto& language : shown)
-    if (ImGui::Selectable(language.name, chosen == language.code)) chooseLanguage(editor, language.code);
-  ImGui::EndCombo();
+    if (ui::choice(language.name, chosen == language.code)) chooseLanguage(editor, language.code);
+  ui::endDropDown();
 }
 
 void drawPreferences(Editor& editor) {
@@ -254,11 +255,11 @@ void drawPreferences(Editor& editor) {
   if (ImGui::IsWindowAppearing()) editor.dialogs.unsaved_bytes = folderSize(unsavedRoot());
   if (ui::beginProperties("preferences", 0.5F)) {
     ui::propertyLabel("Interface size");
-    if (ImGui::BeginCombo("###scale", fmt::format("{:.0f} %", editor.settings.user_scale * 100).c_str())) {
+    if (ui::beginDropDown("###scale", fmt::format("{:.0f} %", editor.settings.user_scale * 100).c_str())) {
       for (const double size : kUserScales)
-        if (ImGui::Selectable(fmt::format("{:.0f} %", size * 100).c_str(), editor.settings.user_scale == size))
+        if (ui::choice(fmt::format("{:.0f} %", size * 100).c_str(), editor.settings.user_scale == size))
           editor.settings.user_scale = size;
-      ImGui::EndCombo();
+      ui::endDropDown();
     }
     ui::propertyLabel("Theme");
     for (const auto& [theme, name] : {std::pair{Theme::dark, "Dark"}, {Theme::light, "Light"}}) {

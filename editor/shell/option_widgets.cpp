@@ -11,6 +11,7 @@
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/widgets.h"
@@ -31,10 +32,10 @@ void drawNumber(OptionField& field) {
 }
 
 void drawChoice(OptionField& field) {
-  if (!ImGui::BeginCombo("###value", field.text.c_str())) return;
+  if (!ui::beginDropDown("###value", field.text.c_str())) return;
   for (const char* choice : field.parameter->choices)
-    if (ImGui::Selectable(choice, field.text == choice)) field.text = choice;
-  ImGui::EndCombo();
+    if (ui::choice(choice, field.text == choice)) field.text = choice;
+  ui::endDropDown();
 }
 
 void browse(Editor& editor, const OptionField& field) {
@@ -88,12 +89,12 @@ void drawCloudPath(Editor& editor, OptionField& field) {
   for (const auto& f : files)
     if (f.file == field.text) shown = f.names + "   " + shown;
   ImGui::SetNextItemWidth(-(ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x));
-  if (ImGui::BeginCombo("###value", shown.c_str())) {
+  if (ui::beginDropDown("###value", shown.c_str())) {
     for (std::size_t i = 0; i < files.size(); ++i)
-      if (ImGui::Selectable(fmt::format("{}   {}###{}", files[i].names, files[i].file.filename().string(), i).c_str(),
-                            files[i].file == field.text))
+      if (ui::choice(fmt::format("{}   {}###{}", files[i].names, files[i].file.filename().string(), i).c_str(),
+                     files[i].file == field.text))
         field.text = files[i].file.string();
-    ImGui::EndCombo();
+    ui::endDropDown();
   }
   ui::tooltip(field.text);
   ImGui::SameLine();

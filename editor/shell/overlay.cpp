@@ -19,6 +19,7 @@
 #include "editor/shell/row_overlay.h"
 #include "editor/shell/teleport.h"
 #include "editor/shell/trajectory_overlay.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
@@ -50,15 +51,15 @@ const char* colourName(ColourMode mode) {
 void colourChip(Editor& editor) {
   const auto label = fmt::format("{}  {}", ICON_PAINT, tr(colourName(editor.view.colour)));
   ImGui::SetNextItemWidth(chipWidth(editor, label, 152));
-  if (!ImGui::BeginCombo("###colour", label.c_str(), ImGuiComboFlags_NoArrowButton)) return;
+  if (!ui::beginDropDown("###colour", label.c_str(), ImGuiComboFlags_NoArrowButton)) return;
   for (const auto mode : {ColourMode::model, ColourMode::material, ColourMode::reflectance, ColourMode::confidence,
                           ColourMode::expected_intensity, ColourMode::expected_noise, ColourMode::expected_fate,
                           ColourMode::coverage, ColourMode::coverage_spacing, ColourMode::coverage_incidence})
-    if (ImGui::Selectable(ui::Label(colourName(mode)), editor.view.colour == mode)) editor.view.colour = mode;
+    if (ui::choice(ui::Label(colourName(mode)), editor.view.colour == mode)) editor.view.colour = mode;
   if (editor.session.document().simplified &&
-      ImGui::Selectable(ui::Label(colourName(ColourMode::deviation)), editor.view.colour == ColourMode::deviation))
+      ui::choice(ui::Label(colourName(ColourMode::deviation)), editor.view.colour == ColourMode::deviation))
     editor.view.colour = ColourMode::deviation;
-  ImGui::EndCombo();
+  ui::endDropDown();
 }
 
 // Those of the emulated scanners, and where the libraries begin.
@@ -66,11 +67,11 @@ void wavelengthChip(Editor& editor) {
   if (editor.view.colour != ColourMode::reflectance) return;
   beside(editor, editor.px(90));
   ImGui::SetNextItemWidth(editor.px(90));
-  if (!ImGui::BeginCombo("###wavelength", fmt::format("{:.0f} nm", editor.view.wavelength_nm).c_str())) return;
+  if (!ui::beginDropDown("###wavelength", fmt::format("{:.0f} nm", editor.view.wavelength_nm).c_str())) return;
   for (const double wavelength : {532.0, 660.0, 785.0, 830.0, 905.0, 1064.0, 1550.0})
-    if (ImGui::Selectable(fmt::format("{:.0f} nm", wavelength).c_str(), editor.view.wavelength_nm == wavelength))
+    if (ui::choice(fmt::format("{:.0f} nm", wavelength).c_str(), editor.view.wavelength_nm == wavelength))
       editor.view.wavelength_nm = wavelength;
-  ImGui::EndCombo();
+  ui::endDropDown();
 }
 
 const char* sideName(ModelSide side) {
@@ -88,10 +89,10 @@ void sideChip(Editor& editor) {
   const float width = chipWidth(editor, label, 112);
   beside(editor, width);
   ImGui::SetNextItemWidth(width);
-  if (!ImGui::BeginCombo("###side", label.c_str(), ImGuiComboFlags_NoArrowButton)) return;
+  if (!ui::beginDropDown("###side", label.c_str(), ImGuiComboFlags_NoArrowButton)) return;
   for (const auto side : {ModelSide::lighter, ModelSide::original, ModelSide::both})
-    if (ImGui::Selectable(ui::Label(sideName(side)), editor.view.side == side)) editor.view.side = side;
-  ImGui::EndCombo();
+    if (ui::choice(ui::Label(sideName(side)), editor.view.side == side)) editor.view.side = side;
+  ui::endDropDown();
 }
 
 std::string storeyName(const Editor& editor, const StoreyLevel& level) {
@@ -113,13 +114,13 @@ void cutChip(Editor& editor) {
   const float width = chipWidth(editor, label, 96);
   beside(editor, width);
   ImGui::SetNextItemWidth(width);
-  if (ImGui::BeginCombo("###cut", label.c_str(), ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton)) {
-    if (ImGui::Selectable(ui::Label("No cut"), !cut)) cut.reset();
+  if (ui::beginDropDown("###cut", label.c_str(), ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton)) {
+    if (ui::choice(ui::Label("No cut"), !cut)) cut.reset();
     std::optional<double> wanted;
     const auto& storeys = editor.storeys();
     for (std::size_t i = storeys.size(); i-- > 0;) {
       const double height = storeys[i].elevation_m + kCutAboveFloor_m;
-      if (ImGui::Selectable(
+      if (ui::choice(
               figures("{}   {:+.2f} m###storey{}", storeyName(editor, storeys[i]), storeys[i].elevation_m + shift, i)
                   .c_str(),
               cut && std::abs(*cut - height) < 1e-6))
@@ -132,9 +133,9 @@ void cutChip(Editor& editor) {
     }
     if (storeys.empty()) {
       const Bounds all = editor.visibleBounds();
-      if (!all.empty() && ImGui::Selectable(ui::Label("Half height"))) cut = (all.min.z() + all.max.z()) / 2;
+      if (!all.empty() && ui::choice(ui::Label("Half height"))) cut = (all.min.z() + all.max.z()) / 2;
     }
-    ImGui::EndCombo();
+    ui::endDropDown();
   }
   if (!cut) return;
   beside(editor, editor.px(90));

@@ -12,6 +12,7 @@
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/marks_picture.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keyboard.h"
 #include "editor/widgets/modal.h"
@@ -151,27 +152,26 @@ void drawKinds(ShotDialog& dialog) {
 void drawSize(ShotDialog& dialog) {
   ui::propertyLabel("Size");
   const auto current = fmt::format("{:.0f} × {:.0f}", dialog.width, dialog.height);
-  if (!ImGui::BeginCombo("###shot-size", current.c_str())) return;
+  if (!ui::beginDropDown("###shot-size", current.c_str())) return;
   const auto& sizes = dialog.kind == ShotKind::panorama ? kPanoramaSizes : kSizes;
   for (const auto& size : sizes)
-    if (ImGui::Selectable(size.name, size.width == static_cast<int>(dialog.width))) {
+    if (ui::choice(size.name, size.width == static_cast<int>(dialog.width))) {
       dialog.width = size.width;
       dialog.height = size.height;
     }
-  ImGui::EndCombo();
+  ui::endDropDown();
 }
 
 void drawFrom(const Editor& editor, ShotDialog& dialog) {
   ui::propertyLabel("From");
   auto& station = dialog.place.station;
   const auto nameOf = [](const std::string& s) { return s.empty() ? tr("The view") : trf("Station {}", s); };
-  if (!ImGui::BeginCombo("###shot-from", nameOf(station).c_str())) return;
-  if (ImGui::Selectable(ui::Label("The view###from-view"), station.empty())) station.clear();
+  if (!ui::beginDropDown("###shot-from", nameOf(station).c_str())) return;
+  if (ui::choice(ui::Label("The view###from-view"), station.empty())) station.clear();
   if (const auto& job = editor.session.document().job)
     for (const auto& s : job->stations)
-      if (ImGui::Selectable(fmt::format("{}###from-{}", nameOf(s.name), s.name).c_str(), s.name == station))
-        station = s.name;
-  ImGui::EndCombo();
+      if (ui::choice(fmt::format("{}###from-{}", nameOf(s.name), s.name).c_str(), s.name == station)) station = s.name;
+  ui::endDropDown();
 }
 
 void drawFields(const Editor& editor, ShotDialog& dialog) {
@@ -236,6 +236,7 @@ void askForFileThenBegin(Editor& editor) {
 // In the dialog itself: not in a field, which takes over what was typed, nor in an open list.
 bool enterPressed() {
   return (keyboard::pressed(kKeyEnter) || keyboard::pressed(kKeyPadEnter)) && !ImGui::GetIO().WantTextInput &&
+         !ui::dropDownIsOpen() &&
          ImGui::IsWindowFocused(ImGuiFocusedFlags_ChildWindows | ImGuiFocusedFlags_NoPopupHierarchy);
 }
 

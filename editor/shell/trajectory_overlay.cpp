@@ -18,6 +18,7 @@
 #include "editor/shell/label_board.h"
 #include "editor/shell/overlay.h"
 #include "editor/shell/view_pen.h"
+#include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
@@ -239,10 +240,10 @@ void ribbonChip(Editor& editor) {
   const std::string label = trf("Path: {}", tr(named->name));
   ImGui::NewLine();
   ImGui::SetNextItemWidth(chipWidth(editor, label, 110));
-  if (ImGui::BeginCombo("###ribbon-colour", label.c_str(), ImGuiComboFlags_NoArrowButton)) {
+  if (ui::beginDropDown("###ribbon-colour", label.c_str(), ImGuiComboFlags_NoArrowButton)) {
     for (const auto& ribbon : kRibbons)
-      if (ImGui::Selectable(ui::Label(ribbon.name), ribbon.by == choice.by)) choice.by = ribbon.by;
-    ImGui::EndCombo();
+      if (ui::choice(ui::Label(ribbon.name), ribbon.by == choice.by)) choice.by = ribbon.by;
+    ui::endDropDown();
   } else {
     ui::tooltip("By what the chosen path is coloured");
   }
@@ -328,12 +329,12 @@ void trajectoryChips(Editor& editor) {
   ImGui::NewLine();
   const std::string label = ICON_WALK "  " + carrierName(draft.carrier);
   ImGui::SetNextItemWidth(chipWidth(editor, label, 110));
-  if (ImGui::BeginCombo("###draft-carrier", label.c_str(), ImGuiComboFlags_NoArrowButton)) {
+  if (ui::beginDropDown("###draft-carrier", label.c_str(), ImGuiComboFlags_NoArrowButton)) {
     for (const auto& carrier : kCarriers)
-      if (ImGui::Selectable((tr(std::string(carrier.name)) + "###draft-" + std::string(carrier.id)).c_str(),
-                            carrier.id == draft.carrier))
+      if (ui::choice((tr(std::string(carrier.name)) + "###draft-" + std::string(carrier.id)).c_str(),
+                     carrier.id == draft.carrier))
         draft.carrier = carrier.id;
-    ImGui::EndCombo();
+    ui::endDropDown();
   } else {
     ui::tooltip("What carries the scanner: pace, gait and shaking follow from it");
   }

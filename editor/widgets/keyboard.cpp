@@ -30,7 +30,7 @@ constexpr struct {
                 {ImGuiKey_PageUp, 266},
                 {ImGuiKey_PageDown, 267},
                 {ImGuiKey_Home, kKeyHome},
-                {ImGuiKey_End, 269},
+                {ImGuiKey_End, kKeyEnd},
                 {ImGuiKey_Insert, 260},
                 {ImGuiKey_Delete, kKeyDelete},
                 {ImGuiKey_Backspace, kKeyBackspace},

@@ -213,8 +213,6 @@ TEST_F(Dialogs, AShortResultHasASmallDialogAndEnterSavesAPicture) {
   gui.key(kKeyEnter);
   gui.frames(3);
   EXPECT_FALSE(editor.dialogs.file.open) << "it belongs to the open list";
-  gui.key(kKeyEscape);
-  gui.frames(2);
   EXPECT_TRUE(editor.shots.open);
   gui.key(kKeyEnter);
   gui.frames(3);
