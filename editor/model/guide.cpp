@@ -21,11 +21,12 @@ using State = GuideStep::State;
 constexpr std::uint64_t kLightModel_triangles = 100'000;
 
 GuideStep environmentStep(const Model& model) {
-  GuideStep step{Workspace::environment, "Environment", State::open, "No model", "Import a model", "inspector"};
+  GuideStep step{Workspace::environment, "Environment", State::open, "No model",
+                 "Import a model",       "inspector",   "import"};
   const auto& document = model.session.document();
   if (!document.imported) return step;
   step.state = State::done;
-  step.advice = "";
+  step.advice = step.command = "";
   if (!document.hasModel()) {
     step.status = trn("{} point cloud, no model", "{} point clouds, no model", document.underlays.size(),
                       document.underlays.size());
@@ -41,6 +42,7 @@ GuideStep environmentStep(const Model& model) {
     step.state = State::attention;
     step.status += trf("; {} lost on import", losses);
     step.advice = "Read the log";
+    step.tab = "log";
   }
   return step;
 }
@@ -49,12 +51,12 @@ GuideStep environmentStep(const Model& model) {
 GuideStep needsModel(GuideStep step) {
   step.state = State::optional;
   step.status = "Needs a model";
-  step.advice = "";
+  step.advice = step.command = "";
   return step;
 }
 
 GuideStep optimiseStep(const Model& model) {
-  GuideStep step{Workspace::optimise, "Optimise", State::optional, "", "Choose a budget", "optimise"};
+  GuideStep step{Workspace::optimise, "Optimise", State::optional, "", "Choose a budget", "optimise", "choose-budget"};
   const auto& document = model.session.document();
   if (!document.imported) return step;
   if (!document.hasModel()) return needsModel(std::move(step));
@@ -63,19 +65,20 @@ GuideStep optimiseStep(const Model& model) {
     step.state = State::done;
     step.status = trf("{} of {} triangles", groupedDigits(sceneTriangleCount(*document.simplified->environment)),
                       groupedDigits(triangles));
-    step.advice = "";
+    step.advice = step.command = "";
   } else if (triangles > kLightModel_triangles) {
     step.state = State::attention;
     step.status = trf("{} triangles, no budget", groupedDigits(triangles));
   } else {
     step.status = "The model is already light";
-    step.advice = "";
+    step.advice = step.command = "";
   }
   return step;
 }
 
 GuideStep materialStep(const Model& model) {
-  GuideStep step{Workspace::materials, "Materials", State::open, "Not assigned", "Assign materials", "material"};
+  GuideStep step{Workspace::materials, "Materials", State::open,      "Not assigned",
+                 "Assign materials",   "material",  "assign-by-rules"};
   if (const auto& d = model.session.document(); d.imported && !d.hasModel()) return needsModel(std::move(step));
   const auto& document = model.session.document();
   if (!document.materials) return step;
@@ -87,6 +90,8 @@ GuideStep materialStep(const Model& model) {
   step.status =
       open > 0 ? trn("{} open warning", "{} open warnings", static_cast<std::size_t>(open), open) : tr("Assigned");
   step.advice = open > 0 ? "Review open findings" : "";
+  step.tab = open > 0 ? "findings" : step.tab;
+  step.command = "";
   return step;
 }
 
@@ -102,7 +107,7 @@ GuideStep georeferenceStep(const Model& model) {
 }
 
 GuideStep surveyStep(const Model& model) {
-  GuideStep step{Workspace::survey, "Survey", State::open, "No stations", "Add a station", "scan"};
+  GuideStep step{Workspace::survey, "Survey", State::open, "No stations", "Add a station", "scan", "add-station"};
   if (const auto& d = model.session.document(); d.imported && !d.hasModel()) return needsModel(std::move(step));
   const auto& job = model.session.document().job;
   if (!job || job->stations.empty()) return step;
@@ -110,7 +115,8 @@ GuideStep surveyStep(const Model& model) {
       std::count_if(job->stations.begin(), job->stations.end(), [](const Station& s) { return s.scans.empty(); });
   step.status = trn("{} station", "{} stations", job->stations.size(), job->stations.size());
   step.state = unscanned > 0 ? State::open : State::done;
-  step.advice = unscanned > 0 ? "Scan" : "";
+  step.advice = unscanned > 0 ? "Scan…" : "";
+  step.command = unscanned > 0 ? "scan" : "";
   if (unscanned > 0) step.status += trf(", {} not scanned", unscanned);
   return step;
 }
@@ -121,7 +127,7 @@ GuideStep instrumentStep(const Model&) {
 }
 
 GuideStep inspectStep(const Model& model) {
-  GuideStep step{Workspace::inspect, "Inspect", State::open, "Not assessed", "Assess the survey", "quality"};
+  GuideStep step{Workspace::inspect, "Inspect", State::open, "Not assessed", "Assess the survey", "quality", "assess"};
   if (const auto& d = model.session.document(); d.imported && !d.hasModel()) {
     step = {Workspace::inspect, "Inspect", State::optional, "Colour, measure and cut the points", "", "points"};
     return step;

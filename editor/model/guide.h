@@ -20,7 +20,7 @@ struct GuideStep {
   std::string status;        // one line: "12 of 130 products without a material"
   const char* advice = "";   // what to do about it, as the text of a button; empty: nothing
   const char* tab = "";      // of the panel where it is done
-  const char* command = "";  // that the advice runs there (shell/actions.h); empty: none
+  const char* command = "";  // that the advice runs there (shell/actions.h); empty: none, it is read there
 };
 
 // One for each workspace, in the order of the work.

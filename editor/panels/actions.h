@@ -109,6 +109,7 @@ class Actions {
   // The shell's own. A file is chosen frames later, when these actions are no longer there.
   using WhenChosen = std::function<void(Actions& later, const std::filesystem::path& chosen)>;
   virtual void open(Workspace workspace, const char* panel) = 0;
+  virtual void take(const GuideStep& step) = 0;      // does what it advises, or leads to where it is chosen
   virtual bool offers(const char* panel) const = 0;  // this workspace has it
   virtual void growBottom(float points) = 0;         // the lower area, to this height; it can be pulled lower again
   virtual void run(const char* command) = 0;         // of those that menus and keys have

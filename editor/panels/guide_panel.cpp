@@ -62,10 +62,8 @@ void drawGuidePanel(const Model& model, PanelStates&, Actions& actions) {
     drawStep(model, actions, steps[i], is_next, static_cast<int>(i));
     if (!is_next || *steps[i].advice == 0) continue;
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + model.px(28));
-    if (ui::primaryButton(fmt::format("{}###guide-next", tr(steps[i].advice)).c_str(), {}, {-model.px(6), 0})) {
-      actions.open(steps[i].workspace, steps[i].tab);
-      if (*steps[i].command != 0) actions.run(steps[i].command);
-    }
+    if (ui::primaryButton(fmt::format("{}###guide-next", tr(steps[i].advice)).c_str(), {}, {-model.px(6), 0}))
+      actions.take(steps[i]);
     ui::gap(model, 4);
   }
   if (!next) ui::dimWrapped("All steps are done. Export the environment, or hand over the survey report.");

@@ -49,8 +49,7 @@ void drawCoverage(const Model& model, const MaterialReport& report) {
 void drawMaterialButtons(const Model& model, Actions& actions) {
   const auto why = model.session.whyNot("materials");
   const float width = ui::shareOfRow(2);
-  if (ui::primaryButton(ICON_MAGIC "  Assign by rules###assign-rules", why, {width, 0}))
-    actions.start(MaterialsOptions{}, "Assign materials by rules");
+  if (ui::primaryButton(ICON_MAGIC "  Assign by rules###assign-rules", why, {width, 0})) actions.run("assign-by-rules");
   ImGui::SameLine();
   if (ui::button(ICON_FILE "  Rules file…###rules-file", why, {width, 0}, "Use custom assignment rules"))
     actions.askForFile(FileDialogState::Purpose::openFile, "Assignment rules", "Use", {".json"}, "",

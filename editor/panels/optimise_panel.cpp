@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -210,6 +211,7 @@ void draw(const Model& model, OptimiseState& state, Actions& actions) {
     ui::propertyLabel(" ");
     double triangles = static_cast<double>(budget);
     ImGui::SetNextItemWidth(-FLT_MIN);
+    if (std::exchange(state.budget_wanted, false)) ui::focusNext();
     if (ui::numberField("###budget-triangles", triangles,
                         {.kind = {.unit = "triangles", .least = 1, .most = static_cast<double>(before)}, .decimals = 0},
                         "Triangles that the whole model may have"))

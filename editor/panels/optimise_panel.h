@@ -16,6 +16,7 @@ struct OptimiseState {
   bool by_view = false;  // what walkers see weighs more
   bool live = false;     // the view follows the sliders
   std::string engine = SimplificationRequest().engine;
+  bool budget_wanted = false;  // its field is to be edited
 };
 
 }  // namespace standpoint

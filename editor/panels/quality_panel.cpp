@@ -20,12 +20,6 @@ namespace standpoint {
 
 namespace {
 
-std::string whyNotAssess(const Model& model) {
-  const auto& stations = model.session.document().job->stations;
-  const bool any = std::any_of(stations.begin(), stations.end(), [](const Station& s) { return !s.scans.empty(); });
-  return any ? model.session.whyNot("assess") : "Scan from a station first";
-}
-
 void drawProfile(QualityState& state) {
   const auto all = choices(QualityProfile{});
   if (!ui::beginProperties("limits", 0.40F)) return;
@@ -149,7 +143,7 @@ void draw(const Model& model, QualityState& state, Actions& actions) {
   }
   drawProfile(state);
   if (ui::primaryButton(ICON_CHECK_CIRCLE "  Assess scans###assess", whyNotAssess(model), {-FLT_MIN, model.px(28)}))
-    if (actions.start(AssessOptions{.profile = state.profile}, "Assess the scans")) state.shown_row.reset();
+    assess(state, actions);
   const auto* last = model.session.lastOf("assess");
   const auto* answer = last == nullptr ? nullptr : answerAs<AssessAnswer>(last->answer);
   if (answer == nullptr) {
@@ -165,6 +159,17 @@ void draw(const Model& model, QualityState& state, Actions& actions) {
 }
 
 }  // namespace
+
+std::string whyNotAssess(const Model& model) {
+  const auto& job = model.session.document().job;
+  const bool any = job && std::any_of(job->stations.begin(), job->stations.end(),
+                                      [](const Station& station) { return !station.scans.empty(); });
+  return any ? model.session.whyNot("assess") : "Scan from a station first";
+}
+
+void assess(QualityState& state, Actions& actions) {
+  if (actions.start(AssessOptions{.profile = state.profile}, "Assess the scans")) state.shown_row.reset();
+}
 
 std::optional<std::size_t> worstRow(const std::vector<AssessRow>& rows) {
   for (const auto verdict : {Verdict::bad, Verdict::warn})

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "project/survey/assess_verb.h"
@@ -17,6 +18,9 @@ struct QualityState {
   std::optional<std::size_t> shown_row;  // of the answer: whose worst place was gone to last
 };
 
+// "" when there is something to assess, and it can begin.
+std::string whyNotAssess(const Model& model);
+void assess(QualityState& state, Actions& actions);
 // The row to be looked at first: a bad one before one to check, in their order; none without a place to go to.
 std::optional<std::size_t> worstRow(const std::vector<AssessRow>& rows);
 // Goes to the worst place of a row, and lights it up in the table.

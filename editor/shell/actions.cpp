@@ -13,6 +13,7 @@
 #include "editor/model/trajectory_steps.h"
 #include "editor/model/walk_recording_steps.h"
 #include "editor/panels/inspector_panel.h"
+#include "editor/panels/optimise_panel.h"
 #include "editor/panels/panels.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
@@ -20,6 +21,7 @@
 #include "editor/shell/import_preview.h"
 #include "editor/shell/inspect_actions.h"
 #include "editor/shell/moving.h"
+#include "editor/shell/panel_actions.h"
 #include "editor/shell/shell.h"
 #include "editor/shell/tour_card.h"
 #include "editor/shell/view_actions.h"
@@ -27,6 +29,7 @@
 #include "editor/widgets/keyboard.h"
 #include "editor/widgets/widgets.h"
 #include "editor/words/sentences.h"
+#include "project/materials/materials_verb.h"
 #include "project/survey/measure_verb.h"
 #include "project/survey/survey_verbs.h"
 
@@ -144,6 +147,14 @@ void assignMaterial(Editor& e) {
 std::string whyAssignNot(const Editor& e) {
   if (auto why = whyNoModel(e); !why.empty()) return why;
   return e.selection.empty() ? "Select products in the view first" : e.session.whyNot("materials");
+}
+void assignByRules(Editor& e) { PanelActions(e).start(MaterialsOptions{}, "Assign materials by rules"); }
+// Its field in the Optimise panel is opened.
+void chooseBudget(Editor& e) {
+  openPanel(e, Workspace::optimise, "optimise");
+  auto& state = e.panels.of<OptimiseState>();
+  state.only_lossless = false;
+  state.budget_wanted = true;
 }
 std::string whyPaintNot(const Editor& e) {
   if (auto why = whyNoModel(e); !why.empty()) return why;
@@ -338,6 +349,13 @@ const std::array kOwn = {
            {kKeyDelete},
            removeChosen,
            whyRemoveNot},
+    Action{"choose-budget", "Choose a budget of triangles", ICON_COMPRESS, {}, chooseBudget, whyNoModel},
+    Action{"assign-by-rules",
+           "Assign materials by rules",
+           ICON_MAGIC,
+           {},
+           assignByRules,
+           [](const Editor& e) { return e.session.whyNot("materials"); }},
     Action{"assign-material", "Assign material to selection…", ICON_PAINT, {}, assignMaterial, whyAssignNot},
     Action{"take-material",
            "Pick material from a surface",

@@ -68,6 +68,11 @@ void pickWall(Editor& e) {
   e.wanted_tab[1] = "wall";
 }
 
+void assessScans(Editor& e) {
+  PanelActions actions(e);
+  assess(e.panels.of<QualityState>(), actions);
+}
+
 std::string whyNoWorstPlace(const Editor& e) {
   const auto* answer = e.session.lastAnswer<AssessAnswer>("assess");
   if (answer == nullptr) return "Assess the survey first";
@@ -126,6 +131,12 @@ const std::array kInspectActions = {
            [](Editor& e) { e.view.measurements = !e.view.measurements; },
            nullptr,
            [](const Editor& e) { return e.view.measurements; }},
+    Action{"assess",
+           "Assess the scans",
+           ICON_CHECK_CIRCLE,
+           {},
+           assessScans,
+           [](const Editor& e) { return whyNotAssess(e); }},
     Action{"worst-place", "Go to the worst place", ICON_CROSSHAIRS, {}, goToWorstPlace, whyNoWorstPlace},
     Action{"pick-wall", "Measure a wall: plane, noise, roughness", ICON_CROSSHAIRS, {'N'}, pickWall, whyWallNot},
     Action{"points-by-natural",

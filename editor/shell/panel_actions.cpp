@@ -160,6 +160,7 @@ void PanelActions::setOverrides(const ImportOverrides& overrides, bool read_agai
 void PanelActions::selectInPreview(std::uint32_t product) { editor_.preview_selection.set(product); }
 
 void PanelActions::open(Workspace workspace, const char* panel) { openPanel(editor_, workspace, panel); }
+void PanelActions::take(const GuideStep& step) { takeStep(editor_, step); }
 bool PanelActions::offers(const char* panel) const { return areaOf(panel, editor_.workspace) != Area::none; }
 void PanelActions::growBottom(float points) {
   if (points > editor_.settings.sizesIn(editor_.workspace).bottom)

@@ -86,6 +86,7 @@ class PanelActions final : public Actions {
   void selectInPreview(std::uint32_t product) override;
 
   void open(Workspace workspace, const char* panel) override;
+  void take(const GuideStep& step) override;
   bool offers(const char* panel) const override;
   void growBottom(float points) override;
   void run(const char* command) override;

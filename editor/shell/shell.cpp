@@ -494,6 +494,11 @@ void openPanel(Editor& editor, Workspace workspace, std::string_view panel) {
     editor.wanted_tab[static_cast<std::size_t>(area)] = panel;
 }
 
+void takeStep(Editor& editor, const GuideStep& step) {
+  openPanel(editor, step.workspace, step.tab);
+  if (*step.command != 0) invoke(editor, step.command);
+}
+
 void drawShell(Editor& editor) {
   editor.update();
   editor.followClip(editor.view.clip.face < 0 && !ImGui::IsAnyItemActive());

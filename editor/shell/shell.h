@@ -8,6 +8,7 @@
 namespace standpoint {
 
 struct Editor;
+struct GuideStep;
 
 // One frame of the whole interface, between ImGui::NewFrame and ImGui::Render.
 void drawShell(Editor& editor);
@@ -21,5 +22,7 @@ void drawViewport(Editor& editor);
 
 // Goes to a workspace and brings a panel of it to the front.
 void openPanel(Editor& editor, Workspace workspace, std::string_view panel);
+// Does what the step advises, where it is done.
+void takeStep(Editor& editor, const GuideStep& step);
 
 }  // namespace standpoint

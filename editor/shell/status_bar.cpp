@@ -71,7 +71,7 @@ bool drawRunningTask(Editor& editor) {
   return true;
 }
 
-// At the right of the status bar; a click leads there.
+// At the right of the status bar.
 void drawNextStep(Editor& editor) {
   const auto& steps = editor.guide.of(editor);
   const auto next = nextStep(steps);
@@ -81,10 +81,7 @@ void drawNextStep(Editor& editor) {
   ImGui::SameLine(std::max(0.0F, ImGui::GetWindowWidth() - width - editor.px(10)));
   ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0, 0, 0, 0));
   ImGui::PushStyleColor(ImGuiCol_Text, tone::kLink);
-  if (ImGui::Button((text + "###next-step").c_str())) {
-    openPanel(editor, steps[*next].workspace, steps[*next].tab);
-    if (*steps[*next].command != 0) invoke(editor, steps[*next].command);
-  }
+  if (ImGui::Button((text + "###next-step").c_str())) takeStep(editor, steps[*next]);
   ImGui::PopStyleColor(2);
   ui::tooltip(fmt::format("{}: {}", tr(steps[*next].title), tr(steps[*next].status)));
 }

@@ -5,9 +5,14 @@
 #include <gtest/gtest.h>
 
 #include "demo_verbs.h"
+#include "editor/panels/optimise_panel.h"
 #include "editor/panels/panels.h"
 #include "editor/shell/actions.h"
+#include "editor/shell/shell.h"
+#include "editor/widgets/keyboard.h"
 #include "item_probe.h"
+#include "project/survey/assess_verb.h"
+#include "tests/temporary_folder.h"
 
 namespace standpoint {
 namespace {
@@ -22,6 +27,7 @@ class GuideTest : public ::testing::Test {
     gui.frames(2);
   }
   const GuideStep& step(Workspace workspace) { return editor.guide.of(editor)[static_cast<std::size_t>(workspace)]; }
+  TemporaryFolder folder;
   Editor editor{verbsWithDemo(), [] {}};
   GuiDriver gui{editor};
 };
@@ -77,6 +83,63 @@ TEST_F(GuideTest, OpensThePanelOfTheNextStepFromTheStatusBar) {
   gui.frames(2);
   EXPECT_EQ(editor.workspace, Workspace::materials);
   EXPECT_NE(gui.find("###material"), nullptr);
+}
+
+TEST_F(GuideTest, DoesAtOnceWhatItAdvisesWhereNothingHasToBeChosen) {
+  open();
+  ASSERT_EQ(step(Workspace::materials).advice, std::string("Assign materials"));
+  ASSERT_TRUE(gui.click("###next-step"));
+  gui.settle();
+  ASSERT_NE(editor.session.lastOf("materials"), nullptr);
+  EXPECT_NE(step(Workspace::materials).state, State::open);
+}
+
+TEST_F(GuideTest, BeginsTheAssessmentThatItAdvises) {
+  open();
+  ASSERT_TRUE(editor.session.start(ScanVerbOptions{.instrument = "faro-focus-s350",
+                                                   .settings = {{"resolution", "1/20"}, {"quality", "4x"}},
+                                                   .ideal = true,
+                                                   .output = folder / "scan.e57"}));
+  gui.settle();
+  const auto& assess = step(Workspace::inspect);
+  ASSERT_EQ(assess.advice, std::string("Assess the survey"));
+  editor.workspace = Workspace::environment;
+  takeStep(editor, assess);
+  ASSERT_FALSE(editor.session.running().empty()) << "a job with progress and cancel";
+  gui.frames(2);
+  EXPECT_NE(gui.find("###cancel-task"), nullptr);
+  EXPECT_EQ(editor.workspace, Workspace::inspect);
+  gui.settle();
+  EXPECT_NE(editor.session.lastAnswer<AssessAnswer>("assess"), nullptr);
+}
+
+TEST_F(GuideTest, LeadsToTheFieldOfWhatHasToBeChosen) {
+  open();
+  editor.panels.of<OptimiseState>().only_lossless = true;
+  ASSERT_TRUE(invoke(editor, "choose-budget"));
+  gui.frames(4);
+  EXPECT_EQ(editor.workspace, Workspace::optimise);
+  ASSERT_TRUE(ImGui::GetIO().WantTextInput);
+  gui.type("100");
+  gui.key(kKeyEnter);
+  const auto triangles = static_cast<double>(sceneTriangleCount(*editor.session.document().imported));
+  EXPECT_NEAR(editor.panels.of<OptimiseState>().budget_fraction, 100 / triangles, 1e-9);
+}
+
+// So that none only opens a panel and looks as if nothing had happened.
+TEST_F(GuideTest, AdvisesNothingThatItsButtonDoesNotDo) {
+  const auto check = [&] {
+    for (const auto& s : editor.guide.of(editor)) {
+      if (*s.advice == 0) {
+        EXPECT_STREQ(s.command, "") << s.title;
+      } else if (s.state == State::open) {
+        EXPECT_NE(findAction(s.command), nullptr) << s.advice;
+      }
+    }
+  };
+  check();
+  open();
+  check();
 }
 
 TEST_F(GuideTest, NamesAPanelOfItsWorkspaceForEachStep) {
