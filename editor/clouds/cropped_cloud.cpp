@@ -13,15 +13,20 @@ class CropSink final : public PointSink {
  public:
   CropSink(const CropShape& shape, const Eigen::Vector3d& shift_m, std::uint64_t most)
       : shape_(shape), shift_m_(shift_m), most_(most), maker_(shift_m) {}
-  void stand(const Pose& local_from_scanner) { pose_ = local_from_scanner; }
+  void expect(const PosedScan& scan) { expected_ = scan; }
   Result<void> begin(const ScanHeader& header) override {
+    left_out_ = !expected_.scan.empty() && header.name != expected_.scan;
+    if (left_out_) return {};
     ScanHeader posed = header;
-    posed.file_from_scanner = pose_;
-    posed.file_from_scanner.translation += shift_m_;
+    if (expected_.local_from_scanner) {
+      posed.file_from_scanner = *expected_.local_from_scanner;
+      posed.file_from_scanner.translation += shift_m_;
+    }
     maker_.begin(posed);
     return {};
   }
   Result<void> write(const PointBlock& block) override {
+    if (left_out_) return {};
     for (std::size_t i = 0; i < block.size(); ++i) {
       const Eigen::Vector3d place = maker_.place_m(block, i);
       if (!shape_.keeps(place - shift_m_) || inside_++ % step_ != 0) continue;
@@ -51,7 +56,8 @@ class CropSink final : public PointSink {
   Eigen::Vector3d shift_m_;
   std::uint64_t most_, inside_ = 0, step_ = 1;
   CloudPointMaker maker_;
-  Pose pose_;
+  PosedScan expected_;
+  bool left_out_ = false;  // the scan that is being read
   std::vector<CloudPoint> points_;
 };
 
@@ -75,7 +81,7 @@ Result<Cloud> croppedCloud(std::span<const PosedScan> scans, const CropShape& sh
   for (const auto& scan : scans) {
     const CloudFormat* format = readableCloudFormat(scan.file);
     if (format == nullptr) return failure(ErrorKind::unusable, "unsupported point-cloud format", scan.file.string());
-    sink.stand(scan.local_from_scanner);
+    sink.expect(scan);
     TRY(format->read(scan.file, sink, progress));
   }
   Cloud cloud = sink.cloud();

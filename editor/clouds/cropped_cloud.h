@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "core/progress.h"
 #include "core/result.h"
@@ -16,7 +17,8 @@ namespace standpoint {
 // A scan that is looked at from where it stands here, whatever pose its file has.
 struct PosedScan {
   std::filesystem::path file;
-  Pose local_from_scanner;
+  std::optional<Pose> local_from_scanner;  // nothing: where its file has it
+  std::string scan = {};                   // of a file that holds several, that of this name; "": all
 };
 
 // What is kept of scans: a ball, or the slice of it between two planes that lie `half_slice_m` before and behind its

@@ -93,7 +93,7 @@ std::unique_ptr<Task<MistakeView::Side>> MistakeView::read(const ProofPlace& pla
         std::vector<PosedScan> posed;
         for (const auto& scan : *scans) {
           posed.push_back({scan.file, scan.local_from_scanner});
-          posed.back().local_from_scanner.translation += beside;
+          posed.back().local_from_scanner->translation += beside;
         }
         TRY_ASSIGN(auto cloud, croppedCloud(posed, crop, shift_m, kMostOfAPlace, progress));
         TRY_ASSIGN(const auto figure, figureAt(place, *scans, progress));

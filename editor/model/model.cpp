@@ -201,6 +201,8 @@ void Model::update() {
     opener->forget();
   }
   followCloud();
+  place_points.poll();
+  if (!view.worst_place) place_points.drop();
   if (session.revision() != seen_revision_) {
     seen_revision_ = session.revision();
     view.refused_place.reset();
@@ -435,6 +437,7 @@ ViewState Model::viewState() const {
   state.underlays.insert(state.underlays.end(), growing.begin(), growing.end());
   const auto& walked = recording.live.shown();
   state.underlays.insert(state.underlays.end(), walked.begin(), walked.end());
+  if (const auto& around = place_points.shown(); around && view.place_points) state.underlays.push_back(*around);
   state.quick_points = recording.live.active();
   if (document.job && !visibility.alone()) {
     // Of one that stands on a storey which is cut open, all is shown.

@@ -18,6 +18,7 @@
 #include "editor/clouds/cloud.h"
 #include "editor/clouds/cloud_loader.h"
 #include "editor/clouds/live_cloud.h"
+#include "editor/clouds/place_points.h"
 #include "editor/clouds/underlay_view.h"
 #include "editor/desktop/desktop_opener.h"
 #include "editor/inspect/clip_box.h"
@@ -109,6 +110,13 @@ struct ViewBeforeStation {
   std::optional<double> cut_height_m;
 };
 
+// Of a figure.
+struct MarkedPlace {
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  // local frame
+  std::string what;                              // "Incidence 87°", as it is shown
+  std::vector<std::string> stations = {};        // whose scans it is of; none: of all
+};
+
 // What of the scene is cut away around a box or a section.
 struct ClipState {
   std::optional<ClipBox> box;
@@ -165,7 +173,8 @@ struct ViewportState {
   std::optional<HandledStation> handled_station;    // the chosen one, as its handle was dragged
   std::optional<ViewBeforeStation> before_station;  // while the camera is where an instrument is
   std::optional<Eigen::Vector3d> flown_to;          // a place that was to be looked at from near
-  std::optional<Eigen::Vector3d> worst_place;       // of a figure of the quality, marked until the next click
+  std::optional<MarkedPlace> worst_place;           // of a figure of the quality, marked until the next click
+  bool place_points = true;                         // those that were measured around it are drawn, too
   bool frame_wanted = false;
 };
 
@@ -243,6 +252,7 @@ struct Model : Style {
   DeviationView deviation;
   KeptCoverage coverage;
   HolesInSight holes_in_sight;
+  PlacePoints place_points;
   ExpectedView expected;
   ScanOutlookView scan_outlook;
   ScanReadiness scan_readiness;

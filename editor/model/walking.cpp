@@ -28,8 +28,11 @@ constexpr double kHighestStorey_m = 6;  // of the uppermost one
 constexpr double kLookDown_rad = 0.25, kNearest_m = 0.6, kFarthest_m = 3.5, kBeforeWall_m = 0.2, kOffSurface_m = 0.02;
 
 ViewHistory::View viewNow(const Model& model) {
-  return {model.view.camera, model.walk.active() ? std::optional(model.walk.feet()) : std::nullopt,
-          model.visibility.cut_height_m, std::nullopt};
+  return {model.view.camera,
+          model.walk.active() ? std::optional(model.walk.feet()) : std::nullopt,
+          model.visibility.cut_height_m,
+          std::nullopt,
+          {}};
 }
 
 void walkFrom(Model& model, WalkPlace place, bool jumps = false) {
@@ -190,28 +193,88 @@ double surroundings_m(const Model& model, const Eigen::Vector3d& place) {
   return nearest == rooms.end() ? kUsual_m : std::clamp(std::sqrt(nearest->floor_area_m2) / 2, kLeast_m, kMost_m);
 }
 
+// The newest scan of each station that is meant.
+std::vector<PosedScan> scansOf(const Model& model, const MarkedPlace& place) {
+  const auto clouds = inspectedClouds(model.session.document());
+  std::vector<PosedScan> scans;
+  int last = -1;
+  for (const auto& cloud : clouds) {
+    const auto& wanted = place.stations;
+    const bool meant = wanted.empty() || std::find(wanted.begin(), wanted.end(), cloud.scan) != wanted.end();
+    if (cloud.station < 0 || cloud.station == last || !meant) continue;
+    last = cloud.station;
+    const bool shared = std::any_of(clouds.begin(), clouds.end(), [&](const InspectedCloud& other) {
+      return other.file == cloud.file && other.station != cloud.station;
+    });
+    scans.push_back({cloud.file, std::nullopt, shared ? cloud.scan : std::string()});
+  }
+  return scans;
+}
+
+// So high over the floor below a place that it is seen from above; none where a storey's slab or more lies over it.
+std::optional<double> cutOver(const Model& model, const Eigen::Vector3d& place) {
+  constexpr double kOver_m = 0.15, kSlab_m = 0.35;
+  const auto& storeys = model.storeys();
+  const auto above = std::find_if(storeys.begin(), storeys.end(),
+                                  [&](const StoreyLevel& s) { return s.elevation_m > place.z() + kStoreySill; });
+  const double floor = above == storeys.begin() ? place.z() : std::prev(above)->elevation_m;
+  const double height = std::max(floor + kCutAboveFloor_m, place.z() + kOver_m);
+  if (above != storeys.end() && height > above->elevation_m - kSlab_m) return std::nullopt;
+  return height;
+}
+
+// The first direction, from the one that is looked in already, from which nothing hides the place; false: there is
+// none.
+bool lookFromAbove(Model& model, const Eigen::Vector3d& place, const Bounds& around) {
+  constexpr int kDirections = 12;
+  constexpr double kElevations_rad[] = {0.75, 1.0, 1.25};
+  const auto cut = cutOver(model, place);
+  if (!cut) return false;
+  auto& camera = model.view.camera;
+  const Camera before = camera;
+  const auto cut_before = std::exchange(model.visibility.cut_height_m, cut);
+  const auto state = model.viewState();
+  camera.orthographic = false;
+  camera.view_angle_rad = Camera().view_angle_rad;
+  for (const double elevation_rad : kElevations_rad)
+    for (int i = 0; i < kDirections; ++i) {
+      const int aside = (i + 1) / 2 * (i % 2 == 0 ? 1 : -1);
+      camera.elevation_rad = elevation_rad;
+      camera.azimuth_rad = before.azimuth_rad + 2 * std::numbers::pi * aside / kDirections;
+      model.bringIntoView(around);
+      if (model.picker.sees(camera.eye(), place - kOffSurface_m * camera.forward(), state)) return true;
+    }
+  camera = before;
+  model.visibility.cut_height_m = cut_before;
+  return false;
+}
+
 }  // namespace
 
-void showWorstPlace(Model& model, const Eigen::Vector3d& place) {
-  rememberView(model);
-  model.view.worst_place = place;
-  auto& cut = model.visibility.cut_height_m;
-  if (cut && place.z() > *cut) cut.reset();
-  auto& camera = model.view.camera;
-  if (looksStraightDown(camera)) {
-    look(camera, StandardView::corner);
-    camera.orthographic = false;
+void showWorstPlace(Model& model, MarkedPlace place) {
+  auto before = viewNow(model);
+  if (const auto& cloud = model.cloud()) {
+    before.clouds = cloud->files.empty() ? std::vector{cloud->file} : cloud->files;
+    if (model.session.document().hasModel()) model.showClouds({});
   }
-  const Eigen::Vector3d half = Eigen::Vector3d::Constant(surroundings_m(model, place));
-  Bounds around;
-  around.extend(place - half);
-  around.extend(place + half);
-  model.bringIntoView(around);
-  const Eigen::Vector3d before = place - kOffSurface_m * camera.forward();
-  if (model.picker.sees(camera.eye(), before, model.viewState())) return;
+  model.views.push(before);
   stopWalking(model);
   stopFlying(model);
+  const Eigen::Vector3d at = place.at;
+  const double reach_m = surroundings_m(model, at);
+  Bounds around;
+  around.extend(at - Eigen::Vector3d::Constant(reach_m));
+  around.extend(at + Eigen::Vector3d::Constant(reach_m));
+  model.place_points.start({scansOf(model, place), at, 1.5 * reach_m, model.shift_m()}, model.wake);
+  model.view.worst_place = std::move(place);
+  if (lookFromAbove(model, at, around)) return;
+  auto& cut = model.visibility.cut_height_m;
+  if (cut && at.z() > *cut) cut.reset();
+  auto& camera = model.view.camera;
+  if (looksStraightDown(camera)) look(camera, StandardView::corner);
   camera.orthographic = false;
+  model.bringIntoView(around);
+  if (model.picker.sees(camera.eye(), at - kOffSurface_m * camera.forward(), model.viewState())) return;
   camera.view_angle_rad = Walk::kUsualViewAngle_rad;
   backAway(model, camera, {kLookDown_rad, 0.0, -kLookDown_rad, 2.5 * kLookDown_rad, -2.5 * kLookDown_rad});
 }
@@ -239,6 +302,7 @@ void stopWalking(Model& model) {
 void goBackInViews(Model& model) {
   const auto view = model.views.back();
   if (!view) return;
+  model.view.worst_place.reset();
   stopFlying(model);
   const auto ground = view->feet ? model.walk_ground.of(model.session.document(), model.walker) : nullptr;
   if (ground && model.walk.start(ground, model.walker, {*view->feet, {}}, model.view.camera))
@@ -247,6 +311,7 @@ void goBackInViews(Model& model) {
     stopWalking(model);
   model.view.camera = view->camera;
   model.visibility.cut_height_m = view->cut_height_m;
+  if (!view->clouds.empty()) model.showClouds(view->clouds);
 }
 
 bool canUndoJump(const Model& model) { return model.walk.active() && model.views.endsInJump(model.session.steps()); }

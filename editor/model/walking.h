@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@
 namespace standpoint {
 
 struct Model;
+struct MarkedPlace;
 
 // Where to walk from, once the ground is there.
 using WalkPlace = std::function<Result<StartPlace>(const WalkedGround&)>;
@@ -26,7 +28,8 @@ class ViewHistory {
     Camera camera;
     std::optional<Eigen::Vector3d> feet;  // of whoever walked there
     std::optional<double> cut_height_m;
-    std::optional<std::uint64_t> jumped_at;  // steps of the session when a teleport or a jump left this view
+    std::optional<std::uint64_t> jumped_at;          // steps of the session when a teleport or a jump left this view
+    std::vector<std::filesystem::path> clouds = {};  // that gave way to the model when this view was left
   };
   void push(const View& view);
   std::optional<View> back();
@@ -62,9 +65,10 @@ void rememberView(Model& model);  // for Alt+Left
 void walkFromEye(Model& model, const Eigen::Vector3d& eye, const Camera& camera);
 // From near and indoors, from where most is free around it; the view before comes back with Alt+Left.
 void flyTo(Model& model, const Eigen::Vector3d& place);
-// A worst place (local frame) is marked and brought into view: out of a plan, which does not show how high it is, and
-// out from behind a cut.
-void showWorstPlace(Model& model, const Eigen::Vector3d& place);
+// A worst place is marked and brought into view: in the model, from above and aslant with what lies over its room cut
+// away, or from within where it would not be seen so. What was measured around it is drawn over the model. The view
+// before comes back with Alt+Left.
+void showWorstPlace(Model& model, MarkedPlace place);
 void goBackInViews(Model& model);
 bool canUndoJump(const Model& model);  // by goBackInViews()
 // Until the ground is there and the place is chosen, whoever wants to walk or jump can still give it up.

@@ -46,9 +46,9 @@ class Actions {
   // The view.
   virtual void frameSelection() = 0;
   virtual void bringIntoView(const Bounds& box) = 0;
-  virtual void flyTo(const Eigen::Vector3d& place) = 0;           // on a floor, local frame: looks at it from near
-  virtual void showWorstPlace(const Eigen::Vector3d& place) = 0;  // local frame: marks it and brings it into view
-  virtual void showTrajectory(std::size_t trajectory) = 0;        // index into the job's: all of it from above
+  virtual void flyTo(const Eigen::Vector3d& place) = 0;     // on a floor, local frame: looks at it from near
+  virtual void showWorstPlace(MarkedPlace place) = 0;       // marks it and brings it into view
+  virtual void showTrajectory(std::size_t trajectory) = 0;  // index into the job's: all of it from above
   virtual void showMoment(const std::string& trajectory, double after_s) = 0;  // where its instrument is drawn
   virtual void followBearer(bool follows) = 0;          // with the view, while a trajectory is played
   virtual void goToBookmark(std::size_t bookmark) = 0;  // index into the document's

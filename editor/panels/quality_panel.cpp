@@ -41,11 +41,14 @@ void goTo(const Model& model, Actions& actions, const AssessPlace& place) {
   actions.select({});
   for (std::uint32_t p = 0; place.product && p < products.size(); ++p)
     if (products[p].id == place.product->id) actions.reveal(p);
-  if (place.at) actions.showWorstPlace(*place.at - model.shift_m());
+  if (place.at)
+    actions.showWorstPlace(
+        {*place.at - model.shift_m(), place.what.empty() ? tr("Worst place") : trSentence(place.what), place.stations});
 }
 
 std::string placeText(const AssessPlace& place) {
   std::string text = tr("Go to the worst place");
+  if (!place.what.empty()) text += "\n" + trSentence(place.what);
   if (!place.stations.empty()) text += fmt::format("\n{}", fmt::join(place.stations, " – "));
   if (const auto& p = place.product)
     text += fmt::format("\n{} {}", tr(readableClass(p->ifc_class)), p->name.empty() ? p->id : p->name);
@@ -182,7 +185,6 @@ void goToRow(const Model& model, QualityState& state, Actions& actions, std::siz
   const auto* answer = model.session.lastAnswer<AssessAnswer>("assess");
   if (answer == nullptr || row >= answer->rows.size() || !answer->rows[row].worst) return;
   state.shown_row = row;
-  if (answer->rows[row].id == "coverage") actions.showScans({});  // where no point is, the model is what can be seen
   goTo(model, actions, *answer->rows[row].worst);
 }
 

@@ -241,11 +241,12 @@ void drawPreview(Editor& editor, Pen& pen) {
 
 void drawWorstPlace(const Editor& editor, Pen& pen) {
   if (!editor.view.worst_place) return;
-  const auto place = pen.at(*editor.view.worst_place);
+  const auto& worst = *editor.view.worst_place;
+  const auto place = pen.at(worst.at);
   if (!place) return;
   pen.circle(*place, 12, IM_COL32(20, 22, 26, 60), tone::kWarning);
   pen.circle(*place, 2, tone::kWarning, IM_COL32(20, 22, 26, 255));
-  pen.labels.over({LabelKind::worst_place, 0}, *place, {tr("Worst place")}, tone::kText);
+  pen.labels.over({LabelKind::worst_place, 0}, *place, {worst.what}, tone::kText);
 }
 
 }  // namespace

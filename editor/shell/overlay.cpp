@@ -200,6 +200,24 @@ void cloudChip(Editor& editor) {
   textChip(editor, trf("{:.1f} million points loaded", static_cast<double>(cloud.points_in_file) / 1e6));
 }
 
+// The worst place that is marked, what was measured around it, and the way back.
+void placeChip(Editor& editor) {
+  if (!editor.view.worst_place) return;
+  ImGui::NewLine();
+  textChip(editor, editor.view.worst_place->what);
+  const float width = chipWidth(editor, ICON_DROP, 0);
+  beside(editor, width);
+  drawPlate(editor, width);
+  toggle(editor, ICON_DROP, "place-points", editor.view.place_points);
+  const std::string back = tr("Previous view");
+  beside(editor, chipWidth(editor, back, 0));
+  actionButton(editor, "view-before", "Previous view", 0);
+  if (!editor.place_points.busy()) return;
+  const std::string reading = tr("Reading the scan …");
+  beside(editor, chipWidth(editor, reading, 0));
+  textChip(editor, reading);
+}
+
 // The way on where a cloud that is shown is no longer there.
 void locateChip(Editor& editor) {
   if (editor.missingClouds().empty()) return;
@@ -446,6 +464,7 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   toggle(editor, ICON_EYE, "show-all", false);
   expectedChips(editor);
   coverageChips(editor);
+  placeChip(editor);
   rowChips(editor);
   trajectoryChips(editor);
   targetChip(editor);

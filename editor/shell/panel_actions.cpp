@@ -75,7 +75,7 @@ void PanelActions::scrolled() { editor_.outliner.scroll_to.reset(); }
 void PanelActions::frameSelection() { editor_.frameSelection(); }
 void PanelActions::bringIntoView(const Bounds& box) { editor_.bringIntoView(box); }
 void PanelActions::flyTo(const Eigen::Vector3d& place) { standpoint::flyTo(editor_, place); }
-void PanelActions::showWorstPlace(const Eigen::Vector3d& place) { standpoint::showWorstPlace(editor_, place); }
+void PanelActions::showWorstPlace(MarkedPlace place) { standpoint::showWorstPlace(editor_, std::move(place)); }
 void PanelActions::showTrajectory(std::size_t trajectory) { standpoint::showTrajectory(editor_, trajectory); }
 void PanelActions::showMoment(const std::string& trajectory, double after_s) {
   standpoint::showMoment(editor_, trajectory, after_s);

@@ -32,7 +32,7 @@ class PanelActions final : public Actions {
   void frameSelection() override;
   void bringIntoView(const Bounds& box) override;
   void flyTo(const Eigen::Vector3d& place) override;
-  void showWorstPlace(const Eigen::Vector3d& place) override;
+  void showWorstPlace(MarkedPlace place) override;
   void showTrajectory(std::size_t trajectory) override;
   void showMoment(const std::string& trajectory, double after_s) override;
   void followBearer(bool follows) override;

@@ -52,6 +52,7 @@ std::optional<AssessPlace> placeOf(const WorstPlace& worst, const Environment& e
   if (worst.at) place.at = *worst.at + shift_m;
   if (worst.product) place.product = identityOf(environment.products[*worst.product]);
   place.stations = worst.stations;
+  place.what = worst.what;
   return place.any() ? std::optional(place) : std::nullopt;
 }
 
@@ -189,8 +190,10 @@ const Fields<AssessOptions>& assessFields() {
 
 const AnswerFields<AssessPlace>& answerFields(const AssessPlace*) {
   using A = AssessPlace;
-  static const AnswerFields<A> fields = {
-      {"at", &A::at, kLeftOut}, {"product", &A::product, kLeftOut}, {"stations", &A::stations, kLeftOut}};
+  static const AnswerFields<A> fields = {{"at", &A::at, kLeftOut},
+                                         {"product", &A::product, kLeftOut},
+                                         {"stations", &A::stations, kLeftOut},
+                                         {"what", &A::what, answers::nullWhereEmpty, kLeftOut}};
   return fields;
 }
 

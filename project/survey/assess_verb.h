@@ -28,6 +28,7 @@ struct AssessPlace {
   std::optional<Eigen::Vector3d> at;  // m, the model's file frame
   std::optional<ProductIdentity> product;
   std::vector<std::string> stations;
+  std::string what = {};  // there: "Incidence 87°"
   bool any() const { return at || product || !stations.empty(); }
 };
 const AnswerFields<AssessPlace>& answerFields(const AssessPlace*);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -33,6 +34,7 @@ class Rows {
     if (quality_.seen.holes.empty()) return figure;
     const auto product = mostUnseen();
     figure.worst.product = product;
+    figure.worst.what = "Not seen from any station";
     figure.worst.at = worstOf([&](std::size_t k) { return sample(k).product == product && isUnseen(k); });
     return figure;
   }
@@ -42,6 +44,7 @@ class Rows {
     const auto& all = quality_.seen.all;
     Figure figure{all.exposed == 0 ? 0 : 100 * static_cast<double>(all.twice) / static_cast<double>(all.exposed), {}};
     figure.worst.at = worstOf([&](std::size_t k) { return timesSeen(k) == 1; });
+    figure.worst.what = "Seen from one station only";
     return figure;
   }
 
@@ -64,12 +67,15 @@ class Rows {
                &b = job_.stations[quality_.stations[weakest->b].station];
     return {100 * weakest->overlap(),
             {},
-            {(a.true_pose.translation + b.true_pose.translation) / 2, std::nullopt, {a.name, b.name}}};
+            {(a.true_pose.translation + b.true_pose.translation) / 2,
+             std::nullopt,
+             {a.name, b.name},
+             fmt::format("Overlap {:.0f} % between {} and {}", 100 * weakest->overlap(), a.name, b.name)}};
   }
 
-  // Of each sample that is seen, by the scan that does best.
-  template <class Value>
-  Figure bestOfEachSample(Value value) const {
+  // Of each sample that is seen, by the scan that does best. `what`: of the value where it is worst.
+  template <class Value, class What>
+  Figure bestOfEachSample(Value value, What what) const {
     std::vector<Vector3d> places;
     std::vector<double> values, all;
     for (std::size_t k = 0; k < quality_.samples.samples.size(); ++k) {
@@ -86,49 +92,75 @@ class Rows {
       values.push_back(*best);
     }
     if (all.empty()) return unknown("no surface is seen");
-    WorstPlace worst{worstPlace(places, values, WorstBy::mean), {}, {}};
+    WorstPlace worst;
+    if (const auto cell = worstPlace(places, values, WorstBy::mean)) {
+      worst.at = cell->at;
+      worst.what = what(cell->value);
+    }
     return {fractile(all, 0.95), {}, std::move(worst)};
   }
 
   // √ of the area for which one point stands, by how many lie within the radius of a sample.
   Figure spacing() const {
-    return bestOfEachSample([&](const ScanFigures& scan, std::size_t k) {
-      return 1000 * quality_.radius_m * std::sqrt(M_PI / scan.counts[k]);
-    });
+    return bestOfEachSample([&](const ScanFigures& scan,
+                                std::size_t k) { return 1000 * quality_.radius_m * std::sqrt(M_PI / scan.counts[k]); },
+                            [](double mm) { return fmt::format("Point spacing {:.0f} mm", mm); });
   }
 
   Figure incidence() const {
-    return bestOfEachSample([&](const ScanFigures& scan, std::size_t k) {
-      const auto& place = quality_.samples.samples[k].place;
-      const double cosine = std::abs(place.normal.dot((place.position - scan.origin).normalized()));
-      return std::acos(std::min(1.0, cosine)) / kRadPerDeg;
-    });
+    return bestOfEachSample(
+        [&](const ScanFigures& scan, std::size_t k) {
+          const auto& place = quality_.samples.samples[k].place;
+          const double cosine = std::abs(place.normal.dot((place.position - scan.origin).normalized()));
+          return std::acos(std::min(1.0, cosine)) / kRadPerDeg;
+        },
+        [](double deg) { return fmt::format("Incidence {:.0f}°", deg); });
   }
 
-  // Of the scan in which it is largest.
+  // Of the scan in which it is largest; null where none has it. The place is that of its scanner.
   template <class Value>
-  Figure worstScan(const char* if_none, double factor, Value value,
-                   std::optional<Vector3d> ScanFigures::*at = nullptr) const {
+  std::pair<Figure, const ScanFigures*> worstScan(const char* if_none, double factor, Value value) const {
     const ScanFigures* worst = nullptr;
     for (const auto& scan : quality_.scans)
       if (value(scan) && (worst == nullptr || *value(scan) > *value(*worst))) worst = &scan;
-    if (worst == nullptr) return unknown(if_none);
-    return {factor * *value(*worst),
-            {},
-            {at != nullptr ? worst->*at : std::optional(worst->origin), {}, {job_.stations[worst->station].name}}};
+    if (worst == nullptr) return {unknown(if_none), nullptr};
+    return {{factor * *value(*worst), {}, {worst->origin, {}, {nameOf(*worst)}}}, worst};
   }
 
-  Figure noise() const {
-    auto figure = worstScan("no even patch with enough points, or an unknown instrument", 1,
-                            [](const ScanFigures& s) { return s.noise_ratio; });
-    for (const auto& scan : quality_.scans)
-      if (figure.value && scan.noise_ratio == figure.value && scan.noise_m)
-        figure.note = fmt::format("{:.2f} mm along the beam", *scan.noise_m * 1000);
+  Figure deviation(std::optional<double> ScanFigures::*member) const {
+    auto [figure, scan] =
+        worstScan("no point lies on the model", 1000, [&](const ScanFigures& s) { return s.*member; });
+    if (scan == nullptr || !scan->deviation_at) return figure;
+    figure.worst.at = scan->deviation_at->at;
+    figure.worst.what =
+        fmt::format("Deviation {:.1f} mm in the scan of {}", 1000 * scan->deviation_at->value, nameOf(*scan));
     return figure;
   }
 
-  template <class T>
-  Figure worstStation(const char* if_none, double factor, std::optional<T> StationQuality::*member,
+  Figure stray() const {
+    auto [figure, scan] = worstScan("no points", 100, [](const ScanFigures& s) {
+      return s.points > 0 ? std::optional(s.stray_fraction) : std::nullopt;
+    });
+    if (scan == nullptr) return figure;
+    figure.worst.at = scan->stray_at;
+    figure.worst.what = fmt::format("Stray points, {:.1f} % of the scan of {}", *figure.value, nameOf(*scan));
+    return figure;
+  }
+
+  Figure noise() const {
+    auto [figure, scan] = worstScan("no even patch with enough points, or an unknown instrument", 1,
+                                    [](const ScanFigures& s) { return s.noise_ratio; });
+    if (scan == nullptr) return figure;
+    if (scan->noise_m) figure.note = fmt::format("{:.2f} mm along the beam", *scan->noise_m * 1000);
+    if (!scan->noise_at) return figure;
+    figure.worst.at = scan->noise_at->at;
+    figure.worst.what = fmt::format("Noise {:.1f} mm in the scan of {}", 1000 * scan->noise_at->value, nameOf(*scan));
+    return figure;
+  }
+
+  // `what`: of the figure and the station's name.
+  template <class T, class What>
+  Figure worstStation(const char* if_none, double factor, std::optional<T> StationQuality::*member, What what,
                       bool least = false) const {
     const StationQuality* worst = nullptr;
     for (const auto& station : quality_.stations) {
@@ -138,14 +170,13 @@ class Rows {
     }
     if (worst == nullptr) return unknown(if_none);
     const auto& station = job_.stations[worst->station];
-    return {factor * static_cast<double>(*(worst->*member)),
-            {},
-            {station.true_pose.translation, std::nullopt, {station.name}}};
+    const double value = factor * static_cast<double>(*(worst->*member));
+    return {value, {}, {station.true_pose.translation, std::nullopt, {station.name}, what(value, station.name)}};
   }
 
-  template <class T>
-  Figure poseError(double factor, std::optional<T> StationQuality::*member) const {
-    auto figure = worstStation("no station stands where it was scanned", factor, member);
+  template <class T, class What>
+  Figure poseError(double factor, std::optional<T> StationQuality::*member, What what) const {
+    auto figure = worstStation("no station stands where it was scanned", factor, member, what);
     if (figure.value) figure.note = "known only to a simulator";
     return figure;
   }
@@ -157,32 +188,35 @@ class Rows {
     if (id == "overlap") return overlap();
     if (id == "spacing") return spacing();
     if (id == "incidence") return incidence();
-    if (id == "deviation_median")
-      return worstScan(
-          "no point lies on the model", 1000, [](const auto& s) { return s.deviation_median_m; },
-          &ScanFigures::deviation_at);
-    if (id == "deviation_95")
-      return worstScan(
-          "no point lies on the model", 1000, [](const auto& s) { return s.deviation_95_m; },
-          &ScanFigures::deviation_at);
-    if (id == "stray")
-      return worstScan(
-          "no points", 100, [](const auto& s) { return s.points > 0 ? std::optional(s.stray_fraction) : std::nullopt; },
-          &ScanFigures::stray_at);
+    if (id == "deviation_median") return deviation(&ScanFigures::deviation_median_m);
+    if (id == "deviation_95") return deviation(&ScanFigures::deviation_95_m);
+    if (id == "stray") return stray();
     if (id == "noise") return noise();
-    if (id == "pose_position") return poseError(1000, &StationQuality::pose_error_m);
-    if (id == "pose_rotation") return poseError(1 / kRadPerDeg, &StationQuality::pose_error_rad);
-    return worstStation("the job has no targets", 1, &StationQuality::targets, true);
+    if (id == "pose_position")
+      return poseError(1000, &StationQuality::pose_error_m, [](double mm, const std::string& name) {
+        return fmt::format("Position of {} wrong by {:.1f} mm", name, mm);
+      });
+    if (id == "pose_rotation")
+      return poseError(1 / kRadPerDeg, &StationQuality::pose_error_rad, [](double deg, const std::string& name) {
+        return fmt::format("Rotation of {} wrong by {:.3f}°", name, deg);
+      });
+    return worstStation(
+        "the job has no targets", 1, &StationQuality::targets,
+        [](double count, const std::string& name) {
+          return fmt::format("Targets in sight of {}: {:.0f}", name, count);
+        },
+        true);
   }
 
   QualityRow troubleRow(const ScanTrouble& trouble) const {
     const auto& station = job_.stations[trouble.station];
     QualityRow row{"scan", "Scan of " + station.name, "", {}, {}, trouble.verdict, trouble.what, {}};
-    row.worst = {station.true_pose.translation, std::nullopt, {station.name}};
+    row.worst = {station.true_pose.translation, std::nullopt, {station.name}, row.label};
     return row;
   }
 
  private:
+  const std::string& nameOf(const ScanFigures& scan) const { return job_.stations[scan.station].name; }
   const SurfaceSample& sample(std::size_t k) const { return quality_.samples.samples[k]; }
   int timesSeen(std::size_t k) const {
     int times = 0;
@@ -211,7 +245,8 @@ class Rows {
       if (quality_.surveyed[k] != 0) surveyed.push_back(all.back());
     }
     const auto& places = surveyed.empty() ? all : surveyed;
-    return worstPlace(places, std::vector<double>(places.size(), 1), WorstBy::number);
+    const auto most = worstPlace(places, std::vector<double>(places.size(), 1), WorstBy::number);
+    return most ? std::optional(most->at) : std::nullopt;
   }
 
   const SurveyQuality& quality_;

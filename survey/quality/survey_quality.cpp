@@ -119,6 +119,7 @@ void choosePatches(const Assessing& with, const Vector3d& origin, ScanMarks& mar
 void measureNoise(const Assessing& with, const Scan* scan, const ScanMarks& marks, ScanFigures& figures) {
   const auto* expectation = scan == nullptr ? nullptr : with.expectations.of(*scan);
   std::vector<double> sigmas, ratios;
+  double worst_ratio = 0;
   for (std::size_t i = 0; i < marks.patches.size(); ++i) {
     const auto sigma = planeNoise(marks.patches[i]);
     if (!sigma) continue;
@@ -127,7 +128,11 @@ void measureNoise(const Assessing& with, const Scan* scan, const ScanMarks& mark
     auto place = with.samples.samples[marks.patch_samples[i]].place;
     if (place.normal.dot(figures.origin - place.position) < 0) place.normal *= -1;
     const auto expected = expectation->from(figures.origin, place);
-    if (expected.fate == ReturnFate::returned && expected.sigma_m > 0) ratios.push_back(*sigma / expected.sigma_m);
+    if (expected.fate != ReturnFate::returned || !(expected.sigma_m > 0)) continue;
+    ratios.push_back(*sigma / expected.sigma_m);
+    if (ratios.back() <= worst_ratio) continue;
+    worst_ratio = ratios.back();
+    figures.noise_at = WorstCell{marks.patches[i].centre, *sigma};
   }
   if (sigmas.size() >= kFewestPatches) figures.noise_m = fractile(sigmas, 0.5);
   if (ratios.size() >= kFewestPatches) figures.noise_ratio = fractile(ratios, 0.5);
@@ -151,7 +156,8 @@ void measureDeviation(const Assessing& with, const ScanMarks& marks, ScanFigures
   }
   if (points.empty()) return;
   figures.stray_fraction = static_cast<double>(strays.size()) / static_cast<double>(points.size());
-  figures.stray_at = worstPlace(strays, std::vector<double>(strays.size(), 1), WorstBy::number);
+  if (const auto most = worstPlace(strays, std::vector<double>(strays.size(), 1), WorstBy::number))
+    figures.stray_at = most->at;
   if (met.empty()) return;
   figures.deviation_at = worstPlace(met, deviations, WorstBy::mean);
   figures.deviation_median_m = fractile(deviations, 0.5);
@@ -363,7 +369,8 @@ void countTargets(SurveyQuality& quality, const Job& job, const RayScene& model,
 
 }  // namespace
 
-std::optional<Vector3d> worstPlace(const std::vector<Vector3d>& places, const std::vector<double>& values, WorstBy by) {
+std::optional<WorstCell> worstPlace(const std::vector<Vector3d>& places, const std::vector<double>& values,
+                                    WorstBy by) {
   constexpr double kCell_m = 1;
   constexpr std::size_t kFewest = 5;  // places in a cell whose mean says something
   struct Sum {
@@ -389,7 +396,8 @@ std::optional<Vector3d> worstPlace(const std::vector<Vector3d>& places, const st
   for (const auto& [cell, sum] : cells)
     if (worst == nullptr || worth(sum) > worth(*worst)) worst = &sum;
   if (worst == nullptr) return std::nullopt;
-  return worst->place / static_cast<double>(worst->count);
+  const auto count = static_cast<double>(worst->count);
+  return WorstCell{worst->place / count, by == WorstBy::mean ? worst->value / count : worst->value};
 }
 
 double fractile(std::vector<double>& values, double fraction) {

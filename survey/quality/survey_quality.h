@@ -21,6 +21,13 @@ struct WorstPlace {
   std::optional<Eigen::Vector3d> at;
   std::optional<std::uint32_t> product;
   std::vector<std::string> stations;
+  std::string what = {};  // there: "Incidence 87°"
+};
+
+// A place among others, and their mean value or number.
+struct WorstCell {
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();
+  double value = 0;
 };
 
 // What one scan of the job shows against the model.
@@ -36,8 +43,9 @@ struct ScanFigures {
   double stray_fraction = 0;                         // of the points: further than the radius from every surface
   std::optional<Eigen::Vector3d> stray_at;
   std::optional<double> deviation_median_m, deviation_95_m;  // along the normal, of the points that are no strays
-  std::optional<Eigen::Vector3d> deviation_at;
+  std::optional<WorstCell> deviation_at;                     // m
   std::optional<double> noise_m, noise_ratio;  // median 1 σ along the beam on planes; and of that over the expected
+  std::optional<WorstCell> noise_at;           // where it is the largest multiple of the expected; m
 };
 
 // A scan that could not be assessed, or only with reserve, and the remedy.
@@ -95,8 +103,8 @@ Result<SurveyQuality> assessSurvey(const Job& job, const std::shared_ptr<const R
 // The cell of 1 m in which the values of places are the largest on average, or in which most places are; the middle of
 // these places.
 enum class WorstBy { mean, number };
-std::optional<Eigen::Vector3d> worstPlace(const std::vector<Eigen::Vector3d>& places, const std::vector<double>& values,
-                                          WorstBy by);
+std::optional<WorstCell> worstPlace(const std::vector<Eigen::Vector3d>& places, const std::vector<double>& values,
+                                    WorstBy by);
 // The smallest value that this fraction of all does not exceed; reorders them.
 double fractile(std::vector<double>& values, double fraction);
 

@@ -86,16 +86,16 @@ TEST_F(QualityPanel, MarksTheWorstPlaceAndShowsItInSpaceEvenFromAPlan) {
   editor.visibility.cut_height_m = 1.2;
   editor.select(0, true);
   const Eigen::Vector3d place(3, 2, 2.4);
-  showWorstPlace(editor, place);
+  showWorstPlace(editor, {place, "Incidence 87°"});
   gui.frames(2);
   EXPECT_FALSE(looksStraightDown(editor.view.camera));
   EXPECT_FALSE(editor.view.camera.orthographic);
-  EXPECT_FALSE(editor.visibility.cut_height_m) << "it would hide the place";
+  EXPECT_GT(editor.visibility.cut_height_m.value_or(100), place.z()) << "a lower cut would hide the place";
   EXPECT_LT((editor.view.camera.target - place).norm(), 0.01);
-  EXPECT_TRUE(gui.says("Worst place"));
+  EXPECT_TRUE(gui.says("Incidence 87°"));
   gui.key(kKeyEscape);
   gui.frames(2);
-  EXPECT_FALSE(gui.says("Worst place")) << "Esc takes the mark away";
+  EXPECT_FALSE(gui.says("Incidence 87°")) << "Esc takes the mark away";
 }
 
 TEST_F(QualityPanel, ShowsTheWorstPlaceWithTheRoomAroundIt) {
@@ -103,7 +103,7 @@ TEST_F(QualityPanel, ShowsTheWorstPlaceWithTheRoomAroundIt) {
   ASSERT_FALSE(rooms.empty());
   const double half = std::sqrt(rooms.front().floor_area_m2) / 2;
   ASSERT_GT(half, 1.6);
-  showWorstPlace(editor, rooms.front().anchor);
+  showWorstPlace(editor, {rooms.front().anchor, "Here"});
   gui.frames(2);
   const auto& camera = editor.view.camera;
   EXPECT_LT((camera.target - rooms.front().anchor).norm(), 0.01);
@@ -128,10 +128,60 @@ TEST_F(QualityPanel, IsOpenedByTheGuideAtItsWorstRowAndFliesThere) {
   gui.frames(2);
   EXPECT_EQ(editor.panels.of<QualityState>().shown_row, row);
   ASSERT_TRUE(editor.view.worst_place);
-  EXPECT_LT((*editor.view.worst_place - (*answer()->rows[*row].worst->at - editor.shift_m())).norm(), 1e-6);
+  EXPECT_LT((editor.view.worst_place->at - (*answer()->rows[*row].worst->at - editor.shift_m())).norm(), 1e-6);
   EXPECT_TRUE(editor.picker.sees(editor.view.camera.eye(),
-                                 *editor.view.worst_place - 0.05 * editor.view.camera.forward(), editor.viewState()))
+                                 editor.view.worst_place->at - 0.05 * editor.view.camera.forward(), editor.viewState()))
       << "no wall hides it";
+}
+
+TEST_F(QualityPanel, LooksDownIntoTheRoomOfAWorstPlaceAndBringsTheViewBeforeBack) {
+  const auto before = editor.view.camera;
+  const auto cut = editor.visibility.cut_height_m;
+  const Eigen::Vector3d place(3, 4, 0.02);
+  showWorstPlace(editor, {place, "Point spacing 40 mm"});
+  gui.frames(2);
+  ASSERT_TRUE(editor.visibility.cut_height_m) << "the roof and the upper floor would hide it";
+  EXPECT_LT(*editor.visibility.cut_height_m, 2.8);
+  EXPECT_GT(editor.view.camera.elevation_rad, 0.7);
+  EXPECT_TRUE(editor.picker.sees(editor.view.camera.eye(), place + Eigen::Vector3d(0, 0, 0.02), editor.viewState()));
+  ASSERT_TRUE(gui.click("view-before"));
+  gui.frames(2);
+  EXPECT_EQ(editor.view.camera, before);
+  EXPECT_EQ(editor.visibility.cut_height_m, cut);
+  EXPECT_FALSE(editor.view.worst_place);
+}
+
+TEST_F(QualityPanel, DrawsWhatWasMeasuredAroundAWorstPlaceUntilItIsHidden) {
+  ASSERT_NO_FATAL_FAILURE(scan());
+  editor.showClouds({folder / "scan.e57"});
+  gui.settle();
+  ASSERT_TRUE(editor.cloud());
+  const Eigen::Vector3d place(3, 4, 0.02);
+  showWorstPlace(editor, {place, "Here", {"S1"}});
+  EXPECT_FALSE(editor.cloud()) << "the model is what the points are of";
+  editor.place_points.wait();
+  gui.frames(2);
+  const auto around = editor.viewState().underlays;
+  ASSERT_EQ(around.size(), 1U);
+  for (const auto& p : around.front().cloud->points) {
+    const Eigen::Vector4d at =
+        around.front().local_from_cloud * Eigen::Vector4d(p.position_m[0], p.position_m[1], p.position_m[2], 1);
+    ASSERT_LT((at.head<3>() - place).norm(), 8) << "not those of the whole building";
+  }
+  ASSERT_TRUE(gui.click("###view_place-points"));
+  gui.frames(2);
+  EXPECT_TRUE(editor.viewState().underlays.empty());
+  showWorstPlace(editor, {place + Eigen::Vector3d(1, 0, 0), "There"});
+  editor.place_points.wait();
+  gui.frames(2);
+  EXPECT_TRUE(editor.viewState().underlays.empty()) << "whoever hid them does not want them";
+  gui.key(kKeyEscape);
+  gui.frames(2);
+  EXPECT_FALSE(editor.place_points.shown()) << "they go with the mark";
+  goBackInViews(editor);
+  goBackInViews(editor);
+  gui.settle();
+  EXPECT_TRUE(editor.cloud()) << "the points that were looked at before";
 }
 
 TEST_F(QualityPanel, TakesABadRowBeforeOneToCheckAndNoneWithoutAPlace) {

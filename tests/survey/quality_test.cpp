@@ -4,6 +4,7 @@
 #include <numbers>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -86,6 +87,7 @@ TEST_F(Assess, AClosedRoomIsCoveredButForTheDiscBelowTheInstrument) {
   EXPECT_NE(std::string(std::istreambuf_iterator<char>(in), {}).find("Largest gaps"), std::string::npos);
   const auto worst = row(answer, "coverage")["worst"];
   EXPECT_EQ(worst["product"]["id"], "room");
+  EXPECT_EQ(worst["what"], "Not seen from any station");
   EXPECT_NEAR(worst["at"][0].get<double>(), 0, 1);
   EXPECT_NEAR(worst["at"][2].get<double>(), 0, 0.01) << "on the floor";
   EXPECT_EQ(row(answer, "coverage")["verdict"], "good");
@@ -132,6 +134,8 @@ TEST_F(Assess, OverlapIsTheCommonSurfaceAsAShareOfTheSmallerView) {
   const double blind = std::numbers::pi * std::pow(kBlind_m - kRadius_m, 2);
   EXPECT_NEAR(value(answer, "overlap"), 100 * (kRoom_m2 - 2 * blind) / (kRoom_m2 - blind), 0.3);
   EXPECT_EQ(row(answer, "overlap")["worst"]["stations"], (json{"S", "T"}));
+  EXPECT_EQ(row(answer, "overlap")["worst"]["what"],
+            fmt::format("Overlap {:.0f} % between S and T", value(answer, "overlap")));
   EXPECT_NEAR(value(answer, "coverage"), 100, 0.05);
   EXPECT_NEAR(value(answer, "coverage_twice"), 100 * (kRoom_m2 - 2 * blind) / kRoom_m2, 0.3);
 }
@@ -158,6 +162,12 @@ TEST_F(Assess, NoiseOnPlanesIsHeldAgainstWhatTheInstrumentStates) {
   const auto dusty = assess(scanned(d, {{"field-fault", {"noise=2.5"}}}));
   EXPECT_NEAR(value(dusty, "noise"), 2.5, 0.5);
   EXPECT_EQ(row(dusty, "noise")["verdict"], "bad");
+  const auto worst = row(dusty, "noise")["worst"];
+  EXPECT_TRUE(worst["what"].get<std::string>().starts_with("Noise ")) << worst.dump();
+  EXPECT_TRUE(worst["what"].get<std::string>().ends_with(" mm in the scan of S")) << worst.dump();
+  const auto& at = worst["at"];
+  EXPECT_GT(std::hypot(at[0].get<double>(), at[1].get<double>(), at[2].get<double>() - 1.5), kBlind_m)
+      << "on a surface, not in the scanner";
 }
 
 TEST_F(Assess, AStationThatWasMovedAfterItsScanIsReported) {
