@@ -81,22 +81,20 @@ struct FigureRow {
 
 std::string percent(double fraction) { return fmt::format("{:.0f} %", fraction * 100); }
 
-std::vector<FigureRow> figureRows(const Editor& editor, const PlaceForecast& forecast) {
+std::vector<FigureRow> figureRows(const PlaceForecast& forecast) {
   std::vector<FigureRow> rows;
   if (forecast.near_seen)
     rows.push_back({forecast.room ? "Room coverage" : "Storey coverage", percent(*forecast.near_seen)});
   rows.push_back({"Model coverage", percent(forecast.model_seen)});
   for (const auto& overlap : forecast.overlaps)
     rows.push_back({trf("Overlap with {}", overlap.station), percent(overlap.fraction),
-                    placeFigureVerdict("overlap", overlap.fraction * 100)});
-  if (forecast.overlaps.empty() && editor.session.document().job->stations.size() > 1)
-    rows.push_back({"Overlap", "no station nearby", Verdict::warn});
+                    &overlap == forecast.largestOverlap() ? overlapVerdict(forecast) : Verdict::unknown});
+  if (forecast.overlaps.empty() && forecast.others > 0)
+    rows.push_back({"Overlap", "no station nearby", overlapVerdict(forecast)});
   if (forecast.spacing_m)
-    rows.push_back({"Spacing, 95 %", figures("{:.1f} mm", *forecast.spacing_m * 1000),
-                    placeFigureVerdict("spacing", *forecast.spacing_m * 1000)});
+    rows.push_back({"Spacing, 95 %", figures("{:.1f} mm", *forecast.spacing_m * 1000), spacingVerdict(forecast)});
   if (forecast.incidence_rad)
-    rows.push_back({"Incidence, 95 %", fmt::format("{:.0f}°", *forecast.incidence_rad / kRadPerDeg),
-                    placeFigureVerdict("incidence", *forecast.incidence_rad / kRadPerDeg)});
+    rows.push_back({"Incidence, 95 %", fmt::format("{:.0f}°", *forecast.incidence_rad / kRadPerDeg)});
   return rows;
 }
 
@@ -128,7 +126,7 @@ void drawFigures(const Editor& editor, const HeldStation& held, ImVec2 origin, I
   const auto* forecast = editor.place_figures.forecast();
   const bool old = editor.place_figures.old();
   std::vector<FigureRow> rows = {{"Expected view", "…"}};
-  if (forecast != nullptr) rows = figureRows(editor, *forecast);
+  if (forecast != nullptr) rows = figureRows(*forecast);
   const float pad = editor.px(10), line = ImGui::GetTextLineHeight() + editor.px(5), width = editor.px(236);
   const float height = 2 * pad + line * static_cast<float>(rows.size() + 1) - editor.px(2);
   const float right_x = origin.x + size.x - width - editor.px(10), y_from = origin.y + editor.px(124);

@@ -105,8 +105,15 @@ void PlaceForecaster::measure(PlaceForecast& forecast, const Pose& place, const 
   forecast.incidence_rad = fractile95(incidences);
 }
 
+const PlaceForecast::Overlap* PlaceForecast::largestOverlap() const {
+  const auto largest = std::max_element(overlaps.begin(), overlaps.end(),
+                                        [](const auto& a, const auto& b) { return a.fraction < b.fraction; });
+  return largest == overlaps.end() ? nullptr : &*largest;
+}
+
 PlaceForecast PlaceForecaster::at(const Pose& place, std::span<const Station* const> others) {
   PlaceForecast forecast;
+  forecast.others = others.size();
   if (samples_.samples.empty()) return forecast;
   forecast.room = spaceAt(spaces_, place.translation);
   const auto& scene = expectation_->scene();

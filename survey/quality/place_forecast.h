@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -22,13 +23,15 @@ struct PlaceForecast {
     double fraction = 0;  // of the one that sees less
     double distance_m = 0;
   };
-  std::optional<std::uint32_t> room;    // the IfcSpace around the instrument
-  std::string storey;                   // of what it stands on; where there is no room, its surface counts
-  std::optional<double> near_seen;      // fraction of the exposed surface of the room, else of the storey
-  double model_seen = 0;                // and of the whole model
-  std::vector<Overlap> overlaps;        // with the stations nearby, nearest first
-  std::optional<double> spacing_m;      // 95 % of what is seen of the room, storey or model is denser than this
-  std::optional<double> incidence_rad;  // and is met less slanting than this
+  std::optional<std::uint32_t> room;      // the IfcSpace around the instrument
+  std::string storey;                     // of what it stands on; where there is no room, its surface counts
+  std::optional<double> near_seen;        // fraction of the exposed surface of the room, else of the storey
+  double model_seen = 0;                  // and of the whole model
+  std::vector<Overlap> overlaps;          // with the stations nearby, nearest first
+  std::size_t others = 0;                 // stations, also those that are not nearby
+  std::optional<double> spacing_m;        // 95 % of what is seen of the room, storey or model is denser than this
+  std::optional<double> incidence_rad;    // and is met less slanting than this
+  const Overlap* largestOverlap() const;  // null: no station is nearby
 };
 
 // Of one scene and one instrument's laws. Samples the surface once, and keeps what the other stations see of it, so

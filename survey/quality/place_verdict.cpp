@@ -64,24 +64,46 @@ PlaceVerdict judgeStation(const StationPlacement& placement, const Eigen::Vector
   return doubted(nearness(placement, centre, nearest_m));
 }
 
-Verdict placeFigureVerdict(const char* limit_id, double value) {
+namespace {
+
+// By the limit of the assessment of that id. A place is bad only where it is refused.
+Verdict verdictBy(const char* limit_id, double value) {
   static const auto limits = qualityLimits(QualityProfile::loa30);
   const auto limit =
       std::find_if(limits.begin(), limits.end(), [&](const QualityLimit& l) { return l.id == limit_id; });
-  return limit == limits.end() ? Verdict::unknown : verdictOf(*limit, value);
+  if (limit == limits.end()) return Verdict::unknown;
+  return verdictOf(*limit, value) == Verdict::good ? Verdict::good : Verdict::warn;
+}
+
+}  // namespace
+
+Verdict overlapVerdict(const PlaceForecast& forecast) {
+  if (const auto* largest = forecast.largestOverlap()) return verdictBy("overlap", largest->fraction * 100);
+  return forecast.others > 0 ? Verdict::warn : Verdict::unknown;
+}
+
+Verdict spacingVerdict(const PlaceForecast& forecast) {
+  return forecast.spacing_m ? verdictBy("spacing", *forecast.spacing_m * 1000) : Verdict::unknown;
 }
 
 PlaceVerdict withForecast(PlaceVerdict verdict, const PlaceForecast& forecast) {
-  if (verdict.verdict != Verdict::good || forecast.overlaps.empty()) return verdict;
+  if (verdict.verdict != Verdict::good) return verdict;
   constexpr double kApart_m = 0.5;  // two tripods there would stand in each other's way
-  if (const auto& nearest = forecast.overlaps.front(); nearest.distance_m < kApart_m)
-    return {Verdict::warn, fmt::format("{:.0f} cm from {}", nearest.distance_m * 100, nearest.station), {}};
-  const auto best = std::max_element(forecast.overlaps.begin(), forecast.overlaps.end(),
-                                     [](const auto& a, const auto& b) { return a.fraction < b.fraction; });
-  if (placeFigureVerdict("overlap", best->fraction * 100) == Verdict::good) return verdict;
-  constexpr double kNone = 0.005;  // 0 % as it would be shown
-  if (best->fraction < kNone) return {Verdict::warn, "Overlaps no other station", {}};
-  return {Verdict::warn, fmt::format("Overlaps {} by {:.0f} %", best->station, best->fraction * 100), {}};
+  if (!forecast.overlaps.empty() && forecast.overlaps.front().distance_m < kApart_m)
+    return {
+        Verdict::warn,
+        fmt::format("{:.0f} cm from {}", forecast.overlaps.front().distance_m * 100, forecast.overlaps.front().station),
+        {}};
+  if (overlapVerdict(forecast) == Verdict::warn) {
+    constexpr double kNone = 0.005;  // 0 % as it would be shown
+    const auto* largest = forecast.largestOverlap();
+    if (largest == nullptr) return {Verdict::warn, "No other station nearby", {}};
+    if (largest->fraction < kNone) return {Verdict::warn, "Overlaps no other station", {}};
+    return {Verdict::warn, fmt::format("Overlaps {} by {:.0f} %", largest->station, largest->fraction * 100), {}};
+  }
+  if (spacingVerdict(forecast) == Verdict::warn)
+    return {Verdict::warn, fmt::format("Points {:.0f} mm apart", *forecast.spacing_m * 1000), {}};
+  return verdict;
 }
 
 }  // namespace standpoint

@@ -30,7 +30,9 @@ PlaceVerdict judgeStation(const StationPlacement& placement, const Eigen::Vector
 // The same verdict, where it is good, with what is expected to be seen from there: "Overlaps K2 by 12 %".
 PlaceVerdict withForecast(PlaceVerdict verdict, const PlaceForecast& forecast);
 
-// Of a figure, by the limit of the assessment of that id.
-Verdict placeFigureVerdict(const char* limit_id, double value);
+// Of the figures that withForecast() goes by, each at worst to be checked. That of an overlap is of the largest one:
+// one is enough. The angle of incidence has none: what is met aslant from here is for the other stations.
+Verdict overlapVerdict(const PlaceForecast& forecast);
+Verdict spacingVerdict(const PlaceForecast& forecast);
 
 }  // namespace standpoint

@@ -129,6 +129,29 @@ TEST(PlaceVerdictWithForecast, WarnsOfALowOverlapWithAllStations) {
   EXPECT_EQ(withForecast({Verdict::bad, "In a wall", {}}, forecast).brief, "In a wall");
 }
 
+TEST(PlaceVerdictWithForecast, IsNeverBetterThanAFigureThatHasASign) {
+  const auto verdictOf = [](const PlaceForecast& forecast) {
+    return withForecast({Verdict::good, "Good place", {}}, forecast);
+  };
+  PlaceForecast forecast;
+  forecast.incidence_rad = 1.52;  // 87°, which other stations see less slanting
+  EXPECT_EQ(verdictOf(forecast).verdict, Verdict::good);
+  forecast.spacing_m = 0.004;
+  EXPECT_EQ(spacingVerdict(forecast), Verdict::good);
+  EXPECT_EQ(verdictOf(forecast).verdict, Verdict::good);
+  forecast.spacing_m = 0.04;
+  EXPECT_EQ(spacingVerdict(forecast), Verdict::warn);
+  EXPECT_EQ(verdictOf(forecast).brief, "Points 40 mm apart");
+  forecast.others = 2;
+  EXPECT_EQ(overlapVerdict(forecast), Verdict::warn);
+  EXPECT_EQ(verdictOf(forecast).brief, "No other station nearby");
+  forecast.overlaps = {{"K1", 0.05, 4}, {"K2", 0.6, 5}};
+  forecast.spacing_m.reset();
+  EXPECT_EQ(forecast.largestOverlap(), &forecast.overlaps[1]);
+  EXPECT_EQ(overlapVerdict(forecast), Verdict::good);
+  EXPECT_EQ(verdictOf(forecast).verdict, Verdict::good);
+}
+
 // A room of 6 x 4 x 2.8 m as IfcSpace between the slabs and walls of the ground floor.
 class PlaceInRoom : public testing::Test {
  protected:
