@@ -29,7 +29,7 @@ class CropSink final : public PointSink {
     if (left_out_) return {};
     for (std::size_t i = 0; i < block.size(); ++i) {
       const Eigen::Vector3d place = maker_.place_m(block, i);
-      if (!shape_.keeps(place - shift_m_) || inside_++ % step_ != 0) continue;
+      if (!shape_.keeps(place) || inside_++ % step_ != 0) continue;
       points_.push_back(maker_.make(block, i, place));
       if (points_.size() > most_) halve();
     }

@@ -9,7 +9,7 @@ void PlacePoints::start(PlaceRequest request, const std::function<void()>& wake)
   drop();
   if (request.scans.empty()) return;
   task_ = std::make_unique<Task<Cloud>>(
-      "Points around a place",
+      "Points around the worst place",
       [request = std::move(request)](Progress& progress) {
         constexpr std::uint64_t kMost = 400'000;  // as many as a picture tells apart
         const CropShape ball{.centre = request.centre, .radius_m = request.radius_m};

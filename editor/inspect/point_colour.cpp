@@ -157,6 +157,11 @@ void countScale(PointLegend& legend, const std::vector<float>& figure) {
   }
 }
 
+void tick(PointLegend& legend) {
+  legend.ticks = roundTicks(legend.low, legend.high);
+  legend.tick_texts = tickTexts(legend.ticks);
+}
+
 bool isSigned(C colour) { return colour == C::residual || colour == C::deviation; }
 
 PointLegend scaleLegend(const std::vector<float>& figure, C colour) {
@@ -167,8 +172,7 @@ PointLegend scaleLegend(const std::vector<float>& figure, C colour) {
     legend.low = 0, legend.high = 90;
   else
     fitScale(legend, figure);
-  legend.ticks = roundTicks(legend.low, legend.high);
-  legend.tick_texts = tickTexts(legend.ticks);
+  tick(legend);
   countScale(legend, figure);
   return legend;
 }
@@ -308,6 +312,23 @@ PointLegend legendOf(std::span<const CloudPoint> points, const CloudHeader& head
   legend.title = rowOf(colour).name;
   legend.unit = rowOf(colour).unit;
   return legend;
+}
+
+ColouredDistances colourDistances(std::span<const float> distances_m) {
+  constexpr double kLeast_mm = 2, kFar_mm = 100;
+  std::vector<float> figure(distances_m.size());
+  std::transform(distances_m.begin(), distances_m.end(), figure.begin(), [](float m) { return m * 1000; });
+  PointLegend legend;
+  legend.has_scale = true;
+  fitScale(legend, figure);
+  legend.low = 0;
+  legend.high = std::clamp(legend.high, kLeast_mm, kFar_mm);
+  tick(legend);
+  countScale(legend, figure);
+  legend.title = "Distance to the other cloud";
+  legend.unit = "mm";
+  auto colours = scaleColours(figure, legend);
+  return {std::move(legend), std::move(colours)};
 }
 
 std::vector<Rgba8> paintPoints(std::span<const CloudPoint> points, const CloudHeader& header, ColourBy colour,

@@ -102,6 +102,7 @@ void Model::followPointColours() {
 }
 
 const PointLegend* Model::pointLegend() const {
+  if (difference_ && difference_->cloud == cloud_ && view.points_by == ColourBy::natural) return &difference_->legend;
   const auto* painted = point_painter.of(cloud_);
   return painted == nullptr ? nullptr : &painted->legend;
 }

@@ -73,6 +73,14 @@ void Model::showClouds(const std::vector<std::filesystem::path>& files) {
   cloud_loader_.start(files, underlay ? shiftOf(*underlay) : shift_m(), wake);
 }
 
+void Model::showDifference(const CloudDistances& distances, const Pose& local_from_cloud) {
+  showClouds({});
+  difference_ = shownDifference(distances, local_from_cloud, shift_m());
+  view.points_by = ColourBy::natural;  // its own colours
+  view.worst_place.reset();
+  show(difference_->cloud);
+}
+
 std::shared_ptr<const Underlay> Model::underlayOf(const std::filesystem::path& file) const {
   const auto& underlays_of = session.document().underlays;
   const auto at =
@@ -89,6 +97,7 @@ Eigen::Vector3d Model::shiftOf(const Underlay& underlay) const {
 
 void Model::show(std::shared_ptr<const Cloud> cloud) {
   read_ = cloud_ = std::move(cloud);
+  if (difference_ && difference_->cloud != read_) difference_.reset();
   solved_by_.reset();
   placed_as_.reset();
 }
@@ -97,7 +106,7 @@ void Model::followPoses() {
   const auto& job = session.document().job;
   const auto wanted = view.poses == ScanPoses::solved && job && hasSolvedPose(*job) ? job : nullptr;
   if (!wanted) view.poses = ScanPoses::truth;
-  if (!read_ || live_) return;
+  if (!read_ || live_ || (difference_ && read_ == difference_->cloud)) return;
   if (const auto underlay = underlayOf(read_->file)) return place(underlay);
   if (solved_by_ == wanted) return;
   solved_by_ = wanted;

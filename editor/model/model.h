@@ -22,6 +22,7 @@
 #include "editor/clouds/underlay_view.h"
 #include "editor/desktop/desktop_opener.h"
 #include "editor/inspect/clip_box.h"
+#include "editor/inspect/cloud_difference.h"
 #include "editor/inspect/inspected_clouds.h"
 #include "editor/inspect/measuring.h"
 #include "editor/inspect/panorama_view.h"
@@ -111,10 +112,11 @@ struct ViewBeforeStation {
 };
 
 // Of a figure.
-struct MarkedPlace {
+struct FigurePlace {
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  // local frame
   std::string what;                              // "Incidence 87°", as it is shown
   std::vector<std::string> stations = {};        // whose scans it is of; none: of all
+  bool among_points = false;                     // of those that are shown, which stay
 };
 
 // What of the scene is cut away around a box or a section.
@@ -173,7 +175,7 @@ struct ViewportState {
   std::optional<HandledStation> handled_station;    // the chosen one, as its handle was dragged
   std::optional<ViewBeforeStation> before_station;  // while the camera is where an instrument is
   std::optional<Eigen::Vector3d> flown_to;          // a place that was to be looked at from near
-  std::optional<MarkedPlace> worst_place;           // of a figure of the quality, marked until the next click
+  std::optional<FigurePlace> worst_place;           // of a figure of the quality, marked until the next click
   bool place_points = true;                         // those that were measured around it are drawn, too
   bool frame_wanted = false;
 };
@@ -324,6 +326,8 @@ struct Model : Style {
   // goes back to the model.
   void showClouds(const std::vector<std::filesystem::path>& files);
   const std::shared_ptr<const Cloud>& cloud() const { return cloud_; }
+  // Shows a compared cloud by its distances to the other one instead of the model.
+  void showDifference(const CloudDistances& distances, const Pose& local_from_cloud);
   // Looks at what proves a mistake, and back to where the camera was.
   void showProof(ShownProof shown);
   void endProof();
@@ -399,6 +403,7 @@ struct Model : Style {
   std::optional<Camera> camera_before_preview_;
   CloudLoader cloud_loader_;
   std::shared_ptr<const Cloud> read_, cloud_;   // as its file has it, and as it is shown
+  std::optional<ShownDifference> difference_;   // whose cloud may be read_
   std::filesystem::path only_cloud_;            // of a project of clouds alone that has one; else empty
   std::shared_ptr<const Job> solved_by_;        // that cloud_ is moved by; null: it is not
   std::shared_ptr<const Underlay> placed_as_;   // that cloud_ is; null: none, or it is not turned yet

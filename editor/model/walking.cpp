@@ -194,7 +194,7 @@ double surroundings_m(const Model& model, const Eigen::Vector3d& place) {
 }
 
 // The newest scan of each station that is meant.
-std::vector<PosedScan> scansOf(const Model& model, const MarkedPlace& place) {
+std::vector<PosedScan> scansOf(const Model& model, const FigurePlace& place) {
   const auto clouds = inspectedClouds(model.session.document());
   std::vector<PosedScan> scans;
   int last = -1;
@@ -211,9 +211,11 @@ std::vector<PosedScan> scansOf(const Model& model, const MarkedPlace& place) {
   return scans;
 }
 
+constexpr double kOver_m = 0.15;  // a place that is cut free
+
 // So high over the floor below a place that it is seen from above; none where a storey's slab or more lies over it.
 std::optional<double> cutOver(const Model& model, const Eigen::Vector3d& place) {
-  constexpr double kOver_m = 0.15, kSlab_m = 0.35;
+  constexpr double kSlab_m = 0.35;
   const auto& storeys = model.storeys();
   const auto above = std::find_if(storeys.begin(), storeys.end(),
                                   [&](const StoreyLevel& s) { return s.elevation_m > place.z() + kStoreySill; });
@@ -232,18 +234,21 @@ bool lookFromAbove(Model& model, const Eigen::Vector3d& place, const Bounds& aro
   if (!cut) return false;
   auto& camera = model.view.camera;
   const Camera before = camera;
-  const auto cut_before = std::exchange(model.visibility.cut_height_m, cut);
-  const auto state = model.viewState();
+  const auto cut_before = model.visibility.cut_height_m;
   camera.orthographic = false;
   camera.view_angle_rad = Camera().view_angle_rad;
-  for (const double elevation_rad : kElevations_rad)
-    for (int i = 0; i < kDirections; ++i) {
-      const int aside = (i + 1) / 2 * (i % 2 == 0 ? 1 : -1);
-      camera.elevation_rad = elevation_rad;
-      camera.azimuth_rad = before.azimuth_rad + 2 * std::numbers::pi * aside / kDirections;
-      model.bringIntoView(around);
-      if (model.picker.sees(camera.eye(), place - kOffSurface_m * camera.forward(), state)) return true;
-    }
+  for (const double height_m : {*cut, place.z() + kOver_m}) {  // the lower one below eaves
+    model.visibility.cut_height_m = height_m;
+    const auto state = model.viewState();
+    for (const double elevation_rad : kElevations_rad)
+      for (int i = 0; i < kDirections; ++i) {
+        const int aside = (i + 1) / 2 * (i % 2 == 0 ? 1 : -1);
+        camera.elevation_rad = elevation_rad;
+        camera.azimuth_rad = before.azimuth_rad + 2 * std::numbers::pi * aside / kDirections;
+        model.bringIntoView(around);
+        if (model.picker.sees(camera.eye(), place - kOffSurface_m * camera.forward(), state)) return true;
+      }
+  }
   camera = before;
   model.visibility.cut_height_m = cut_before;
   return false;
@@ -251,10 +256,11 @@ bool lookFromAbove(Model& model, const Eigen::Vector3d& place, const Bounds& aro
 
 }  // namespace
 
-void showWorstPlace(Model& model, MarkedPlace place) {
+void showWorstPlace(Model& model, FigurePlace place) {
   auto before = viewNow(model);
-  if (const auto& cloud = model.cloud()) {
-    before.clouds = cloud->files.empty() ? std::vector{cloud->file} : cloud->files;
+  if (const auto& cloud = model.cloud(); cloud && !place.among_points) {
+    before.clouds = cloud->files;
+    if (before.clouds.empty() && !cloud->file.empty()) before.clouds = {cloud->file};
     if (model.session.document().hasModel()) model.showClouds({});
   }
   model.views.push(before);
@@ -265,7 +271,9 @@ void showWorstPlace(Model& model, MarkedPlace place) {
   Bounds around;
   around.extend(at - Eigen::Vector3d::Constant(reach_m));
   around.extend(at + Eigen::Vector3d::Constant(reach_m));
-  model.place_points.start({scansOf(model, place), at, 1.5 * reach_m, model.shift_m()}, model.wake);
+  model.place_points.drop();
+  if (!place.among_points)
+    model.place_points.start({scansOf(model, place), at, 2.5 * reach_m, model.shift_m()}, model.wake);
   model.view.worst_place = std::move(place);
   if (lookFromAbove(model, at, around)) return;
   auto& cut = model.visibility.cut_height_m;

@@ -16,7 +16,7 @@
 namespace standpoint {
 
 struct Model;
-struct MarkedPlace;
+struct FigurePlace;
 
 // Where to walk from, once the ground is there.
 using WalkPlace = std::function<Result<StartPlace>(const WalkedGround&)>;
@@ -68,7 +68,7 @@ void flyTo(Model& model, const Eigen::Vector3d& place);
 // A worst place is marked and brought into view: in the model, from above and aslant with what lies over its room cut
 // away, or from within where it would not be seen so. What was measured around it is drawn over the model. The view
 // before comes back with Alt+Left.
-void showWorstPlace(Model& model, MarkedPlace place);
+void showWorstPlace(Model& model, FigurePlace place);
 void goBackInViews(Model& model);
 bool canUndoJump(const Model& model);  // by goBackInViews()
 // Until the ground is there and the place is chosen, whoever wants to walk or jump can still give it up.

@@ -47,7 +47,7 @@ class Actions {
   virtual void frameSelection() = 0;
   virtual void bringIntoView(const Bounds& box) = 0;
   virtual void flyTo(const Eigen::Vector3d& place) = 0;     // on a floor, local frame: looks at it from near
-  virtual void showWorstPlace(MarkedPlace place) = 0;       // marks it and brings it into view
+  virtual void showWorstPlace(FigurePlace place) = 0;       // marks it and brings it into view
   virtual void showTrajectory(std::size_t trajectory) = 0;  // index into the job's: all of it from above
   virtual void showMoment(const std::string& trajectory, double after_s) = 0;  // where its instrument is drawn
   virtual void followBearer(bool follows) = 0;          // with the view, while a trajectory is played
@@ -61,6 +61,7 @@ class Actions {
   virtual void showShapes(bool shown) = 0;
   // Their points, instead of the model; none: the model again.
   virtual void showScans(const std::vector<std::filesystem::path>& files) = 0;
+  virtual void showDifference(const CloudDistances& distances, const Pose& local_from_cloud) = 0;  // of a cloud
   virtual void drawScansAt(ScanPoses poses) = 0;
 
   // What several panels and the view share.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -30,7 +31,8 @@ struct ComparedPart {
 
 struct CompareState {
   ComparedPart a, b;
-  ComparedPart shown_a, shown_b;  // of the answer that is shown
+  ComparedPart shown_a, shown_b;                    // of the answer that is shown
+  std::shared_ptr<const CloudDistances> looked_at;  // of it, in the view
 };
 
 // Of a file that holds the scans of several stations, that of one.
@@ -88,6 +90,9 @@ std::vector<Row> rowsOf(const CompareAnswer& answer) {
   const auto &a = answer.a, &b = answer.b;
   return {{tr("Points"), tr("million"), static_cast<double>(a.points) / 1e6, static_cast<double>(b.points) / 1e6, 3},
           {tr("Covered by the other"), "%", answer.a_covered_by_b * 100, answer.b_covered_by_a * 100, 1},
+          {tr("Distance to the other cloud, median"), "mm", answer.a_from_b_m.median * kMm,
+           answer.b_from_a_m.median * kMm, 2},
+          {tr("Distance to the other cloud, 95 %"), "mm", answer.a_from_b_m.p95 * kMm, answer.b_from_a_m.p95 * kMm, 2},
           {tr("Noise on planes, median"), "mm", a.plane_noise_m.median * kMm, b.plane_noise_m.median * kMm, 3},
           {tr("Noise on planes, 95 %"), "mm", a.plane_noise_m.p95 * kMm, b.plane_noise_m.p95 * kMm, 3},
           {tr("Roughness (r 0.05 m), median"), "mm", a.roughness_m.median * kMm, b.roughness_m.median * kMm, 3},
@@ -166,7 +171,47 @@ std::vector<Row> materialRows(const Model& model, const CompareAnswer& answer) {
   return rows;
 }
 
-void drawAnswer(const Model& model, const CompareState& state, const CompareAnswer& answer,
+void lookAt(const Model& model, CompareState& state, Actions& actions, const ComparedPart& part,
+            const std::shared_ptr<const CloudDistances>& distances, const std::vector<InspectedCloud>& clouds) {
+  Pose local_from_cloud;
+  local_from_cloud.translation = -model.shift_m();
+  if (const auto* cloud = cloudOf(clouds, part.file)) local_from_cloud = cloud->local_from_cloud;
+  actions.showDifference(*distances, local_from_cloud);
+  state.looked_at = distances;
+}
+
+void goToLargest(const CompareState& state, const CompareAnswer& answer, const Model& model, Actions& actions,
+                 const std::vector<InspectedCloud>& clouds) {
+  const bool of_b = state.looked_at == answer.b_distances;
+  const auto& largest = *(of_b ? answer.b_largest : answer.a_largest);
+  Eigen::Vector3d at = largest.at_m - model.shift_m();
+  if (const auto* cloud = cloudOf(clouds, (of_b ? state.shown_b : state.shown_a).file))
+    at = cloud->local_from_cloud * largest.at_m;
+  const double d = largest.distance_m;
+  const auto far = d < 1 ? figures("{:.0f} mm", d * 1000) : figures("{:.1f} m", d);
+  actions.showWorstPlace({at, trf("{} from the other cloud", far), {}, true});
+}
+
+// Where they differ, in the view: at once when they have been compared.
+void drawDifferences(const Model& model, CompareState& state, Actions& actions, const CompareAnswer& answer,
+                     const std::vector<InspectedCloud>& clouds) {
+  const auto &of_a = answer.a_distances, &of_b = answer.b_distances;
+  if (!of_a || !of_b || of_a->distance_m.empty()) return;
+  const bool shown = state.looked_at == of_a || state.looked_at == of_b;
+  if (!shown) lookAt(model, state, actions, state.shown_a, of_a, clouds);
+  if (ui::button(ICON_EYE "  A by distance to B###difference-a", {}, {0, 0}, "Shows the points of A in the view"))
+    lookAt(model, state, actions, state.shown_a, of_a, clouds);
+  ImGui::SameLine();
+  if (ui::button(ICON_EYE "  B by distance to A###difference-b", {}, {0, 0}, "Shows the points of B in the view"))
+    lookAt(model, state, actions, state.shown_b, of_b, clouds);
+  ImGui::SameLine();
+  const bool any = (state.looked_at == of_b ? answer.b_largest : answer.a_largest).has_value();
+  if (ui::button(ICON_CROSSHAIRS "  Fly to the largest difference###largest-difference",
+                 any ? "" : "The clouds do not differ"))
+    goToLargest(state, answer, model, actions, clouds);
+}
+
+void drawAnswer(const Model& model, CompareState& state, Actions& actions, const CompareAnswer& answer,
                 const std::vector<InspectedCloud>& clouds) {
   const auto a = nameOf(clouds, state.shown_a), b = nameOf(clouds, state.shown_b);
   auto rows = rowsOf(answer);
@@ -180,6 +225,7 @@ void drawAnswer(const Model& model, const CompareState& state, const CompareAnsw
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   ui::fitted(fmt::format("A  {}     B  {}", a, b), ImGui::GetContentRegionAvail().x);
   ImGui::PopStyleColor();
+  drawDifferences(model, state, actions, answer, clouds);
   if (!ImGui::BeginChild("###compare-tables")) return ImGui::EndChild();
   drawTable(model, rows, "compare-figures");
   if (!materials.empty()) {
@@ -230,7 +276,7 @@ void drawComparison(const Model& model, PanelStates& states, Actions& actions) {
   drawClean(model, state, actions);
   const auto* answer = model.session.lastAnswer<CompareAnswer>("compare");
   if (answer != nullptr)
-    drawAnswer(model, state, *answer, clouds);
+    drawAnswer(model, state, actions, *answer, clouds);
   else
     ui::dimWrapped(
         "Two scans, a scan and a measured cloud, or a cloud before and after filtering: coverage, noise on "

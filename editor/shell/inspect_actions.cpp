@@ -143,7 +143,7 @@ const std::array kInspectActions = {
            ICON_DROP,
            {},
            [](Editor& e) { e.view.place_points = !e.view.place_points; },
-           [](const Editor& e) { return e.view.worst_place ? "" : "Go to a worst place first"; },
+           [](const Editor& e) { return e.view.worst_place ? std::string() : "Go to a worst place first"; },
            [](const Editor& e) { return e.view.place_points; }},
     Action{"pick-wall", "Measure a wall: plane, noise, roughness", ICON_CROSSHAIRS, {'N'}, pickWall, whyWallNot},
     Action{"points-by-natural",

@@ -211,7 +211,8 @@ void placeChip(Editor& editor) {
   toggle(editor, ICON_DROP, "place-points", editor.view.place_points);
   const std::string back = tr("Previous view");
   beside(editor, chipWidth(editor, back, 0));
-  actionButton(editor, "view-before", "Previous view", 0);
+  if (ui::button("Previous view###back-from-place", whyNot(*findAction("view-before"), editor)))
+    invoke(editor, "view-before");
   if (!editor.place_points.busy()) return;
   const std::string reading = tr("Reading the scan …");
   beside(editor, chipWidth(editor, reading, 0));

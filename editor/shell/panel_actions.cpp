@@ -75,7 +75,7 @@ void PanelActions::scrolled() { editor_.outliner.scroll_to.reset(); }
 void PanelActions::frameSelection() { editor_.frameSelection(); }
 void PanelActions::bringIntoView(const Bounds& box) { editor_.bringIntoView(box); }
 void PanelActions::flyTo(const Eigen::Vector3d& place) { standpoint::flyTo(editor_, place); }
-void PanelActions::showWorstPlace(MarkedPlace place) { standpoint::showWorstPlace(editor_, std::move(place)); }
+void PanelActions::showWorstPlace(FigurePlace place) { standpoint::showWorstPlace(editor_, std::move(place)); }
 void PanelActions::showTrajectory(std::size_t trajectory) { standpoint::showTrajectory(editor_, trajectory); }
 void PanelActions::showMoment(const std::string& trajectory, double after_s) {
   standpoint::showMoment(editor_, trajectory, after_s);
@@ -91,6 +91,9 @@ void PanelActions::showWalkable(bool shown) { editor_.view.walkable = shown; }
 void PanelActions::showShapes(bool shown) { editor_.view.shapes = shown; }
 
 void PanelActions::showScans(const std::vector<std::filesystem::path>& files) { editor_.showClouds(files); }
+void PanelActions::showDifference(const CloudDistances& distances, const Pose& local_from_cloud) {
+  editor_.showDifference(distances, local_from_cloud);
+}
 void PanelActions::drawScansAt(ScanPoses poses) { editor_.view.poses = poses; }
 
 void PanelActions::choose(const SurveyChoice& choice) {

@@ -32,7 +32,7 @@ class PanelActions final : public Actions {
   void frameSelection() override;
   void bringIntoView(const Bounds& box) override;
   void flyTo(const Eigen::Vector3d& place) override;
-  void showWorstPlace(MarkedPlace place) override;
+  void showWorstPlace(FigurePlace place) override;
   void showTrajectory(std::size_t trajectory) override;
   void showMoment(const std::string& trajectory, double after_s) override;
   void followBearer(bool follows) override;
@@ -45,6 +45,7 @@ class PanelActions final : public Actions {
   void showWalkable(bool shown) override;
   void showShapes(bool shown) override;
   void showScans(const std::vector<std::filesystem::path>& files) override;
+  void showDifference(const CloudDistances& distances, const Pose& local_from_cloud) override;
   void drawScansAt(ScanPoses poses) override;
 
   void choose(const SurveyChoice& choice) override;

@@ -10,36 +10,12 @@
 
 #include "core/progress_part.h"
 #include "pointclouds/formats.h"
+#include "pointclouds/statistics/cloud_distances.h"
 #include "pointclouds/statistics/coverage.h"
 #include "pointclouds/statistics/neighbourhoods.h"
 
 namespace standpoint {
 namespace {
-
-// Running mean and variance (Welford 1962).
-struct Moments {
-  std::uint64_t n = 0;
-  double mean = 0, squares = 0;
-  void add(double v) {
-    ++n;
-    const double before = v - mean;
-    mean += before / static_cast<double>(n);
-    squares += before * (v - mean);
-  }
-  double sigma() const { return n < 2 ? 0 : std::sqrt(squares / static_cast<double>(n - 1)); }
-};
-
-Distribution distributionOf(std::vector<double> values) {
-  Distribution d;
-  if (values.empty()) return d;
-  std::sort(values.begin(), values.end());
-  Moments moments;
-  for (const double v : values) moments.add(v);
-  const auto at = [&](double fraction) {
-    return values[static_cast<std::size_t>(std::lround(fraction * static_cast<double>(values.size() - 1)))];
-  };
-  return {moments.n, moments.mean, moments.sigma(), at(0.05), at(0.5), at(0.95)};
-}
 
 // First pass: all that one look at each point gives, and the choice of the samples.
 class SurveySink final : public PointSink {
@@ -156,6 +132,31 @@ class ScanOfName final : public PointSink {
   bool open_ = false, found_ = false;
 };
 
+// Hands everything to both.
+class BothSinks final : public PointSink {
+ public:
+  BothSinks(PointSink& one, PointSink& other) : one_(one), other_(other) {}
+  Result<void> begin(const ScanHeader& header) override {
+    TRY(one_.begin(header));
+    return other_.begin(header);
+  }
+  Result<void> write(const PointBlock& block) override {
+    TRY(one_.write(block));
+    return other_.write(block);
+  }
+  Result<void> end() override {
+    TRY(one_.end());
+    return other_.end();
+  }
+  Result<void> close() override {
+    TRY(one_.close());
+    return other_.close();
+  }
+
+ private:
+  PointSink &one_, &other_;
+};
+
 Result<Report> readPart(const CloudFormat& format, const CloudPart& part, PointSink& sink, Progress& progress) {
   ScanOfName scans(sink, part.scan);
   TRY_ASSIGN(auto report, format.read(part.file, scans, progress));
@@ -166,6 +167,7 @@ Result<Report> readPart(const CloudFormat& format, const CloudPart& part, PointS
 struct Measured {
   CloudStatistics statistics;
   Coverage coverage;
+  PlaceSampler places;
 };
 
 Result<Measured> measure(const CloudPart& part, const StatisticsOptions& options, Report& report, Progress& progress) {
@@ -182,13 +184,16 @@ Result<Measured> measure(const CloudPart& part, const StatisticsOptions& options
   survey.coverage.settle();
   std::vector<Neighbourhood> samples = survey.samples();
   NeighbourSink neighbours(samples, options.radius_m);
-  TRY(readPart(*format, part, neighbours, measuring));
+  auto statistics = survey.statistics();
+  PlaceSampler places(statistics.low);
+  BothSinks both(neighbours, places);
+  TRY(readPart(*format, part, both, measuring));
   std::vector<double> noise, rough;
   for (const Neighbourhood& sample : samples) {
     if (const auto v = planeNoise(sample)) noise.push_back(*v);
     if (const auto v = roughness(sample)) rough.push_back(*v);
   }
-  Measured result{survey.statistics(), std::move(survey.coverage)};
+  Measured result{std::move(statistics), std::move(survey.coverage), std::move(places)};
   result.statistics.plane_noise_m = distributionOf(std::move(noise));
   result.statistics.roughness_m = distributionOf(std::move(rough));
   result.statistics.occupied_cells = result.coverage.cells();
@@ -214,14 +219,18 @@ Result<CloudStatistics> measureCloud(const std::filesystem::path& file, const St
 Result<CloudComparison> compareClouds(const CloudPart& a, const CloudPart& b, const StatisticsOptions& options,
                                       Progress& progress) {
   CloudComparison comparison;
-  const double share = shareOf(a.file, b.file);
-  ProgressPart of_a(progress, 0, share), of_b(progress, share, 1);
+  constexpr double kMeasured = 0.7;  // of the time
+  const double share = kMeasured * shareOf(a.file, b.file);
+  ProgressPart of_a(progress, 0, share), of_b(progress, share, kMeasured);
+  ProgressPart a_from_b(progress, kMeasured, (1 + kMeasured) / 2), b_from_a(progress, (1 + kMeasured) / 2, 1);
   TRY_ASSIGN(auto first, measure(a, options, comparison.report, of_a));
   TRY_ASSIGN(auto second, measure(b, options, comparison.report, of_b));
   comparison.a = std::move(first.statistics);
   comparison.b = std::move(second.statistics);
   comparison.a_covered_by_b = first.coverage.sharedWith(second.coverage);
   comparison.b_covered_by_a = second.coverage.sharedWith(first.coverage);
+  TRY_ASSIGN(comparison.a_from_b, distancesBetween(first.places, second.places, a_from_b));
+  TRY_ASSIGN(comparison.b_from_a, distancesBetween(second.places, first.places, b_from_a));
   return comparison;
 }
 

@@ -11,6 +11,8 @@
 #include "core/progress.h"
 #include "core/report.h"
 #include "core/result.h"
+#include "pointclouds/statistics/cloud_distances.h"
+#include "pointclouds/statistics/distribution.h"
 
 namespace standpoint {
 
@@ -19,12 +21,6 @@ struct StatisticsOptions {
   double radius_m = 0.05;        // of a neighbourhood, for plane noise and roughness
   double cell_m = 0.05;          // of the coverage grid
   std::uint32_t samples = 8192;  // neighbourhoods, drawn evenly among the points by a hash of their index
-};
-
-struct Distribution {
-  std::uint64_t samples = 0;
-  double mean = 0, sigma = 0;
-  double p5 = 0, median = 0, p95 = 0;
 };
 
 struct MaterialIntensity {
@@ -56,7 +52,8 @@ struct CloudPart {
 struct CloudComparison {
   CloudStatistics a, b;
   double a_covered_by_b = 0, b_covered_by_a = 0;  // share of the occupied cells
-  Report report;                                  // of reading both
+  CloudDistances a_from_b, b_from_a;
+  Report report;  // of reading both
 };
 
 // Reads the file twice; memory does not grow with it. The same file gives the same figures.

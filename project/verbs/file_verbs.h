@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -201,9 +202,13 @@ struct ComparedCloud : CloudStatistics {
   Bounds bounds_m;
 };
 const AnswerFields<ComparedCloud>& answerFields(const ComparedCloud*);
+const AnswerFields<LargestDifference>& answerFields(const LargestDifference*);
 struct CompareAnswer {
   ComparedCloud a, b;
   double a_covered_by_b = 0, b_covered_by_a = 0;  // 0..1
+  Distribution a_from_b_m, b_from_a_m;
+  std::optional<LargestDifference> a_largest, b_largest;
+  std::shared_ptr<const CloudDistances> a_distances, b_distances;  // of each point; not in the JSON
 };
 const AnswerFields<CompareAnswer>& answerFields(const CompareAnswer*);
 Result<Answered<CompareAnswer>> runCompare(const Document& document, const CompareOptions& options, Progress& progress);

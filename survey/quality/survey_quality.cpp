@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -119,7 +120,7 @@ void choosePatches(const Assessing& with, const Vector3d& origin, ScanMarks& mar
 void measureNoise(const Assessing& with, const Scan* scan, const ScanMarks& marks, ScanFigures& figures) {
   const auto* expectation = scan == nullptr ? nullptr : with.expectations.of(*scan);
   std::vector<double> sigmas, ratios;
-  double worst_ratio = 0;
+  std::vector<std::pair<double, WorstCell>> places;  // by ratio
   for (std::size_t i = 0; i < marks.patches.size(); ++i) {
     const auto sigma = planeNoise(marks.patches[i]);
     if (!sigma) continue;
@@ -130,9 +131,12 @@ void measureNoise(const Assessing& with, const Scan* scan, const ScanMarks& mark
     const auto expected = expectation->from(figures.origin, place);
     if (expected.fate != ReturnFate::returned || !(expected.sigma_m > 0)) continue;
     ratios.push_back(*sigma / expected.sigma_m);
-    if (ratios.back() <= worst_ratio) continue;
-    worst_ratio = ratios.back();
-    figures.noise_at = WorstCell{marks.patches[i].centre, *sigma};
+    places.push_back({ratios.back(), {marks.patches[i].centre, *sigma}});
+  }
+  if (!places.empty()) {  // a few are laid over an edge
+    const auto at = places.begin() + std::lround(0.95 * static_cast<double>(places.size() - 1));
+    std::nth_element(places.begin(), at, places.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    figures.noise_at = at->second;
   }
   if (sigmas.size() >= kFewestPatches) figures.noise_m = fractile(sigmas, 0.5);
   if (ratios.size() >= kFewestPatches) figures.noise_ratio = fractile(ratios, 0.5);

@@ -9,6 +9,7 @@
 #include "editor/shell/actions.h"
 #include "editor/widgets/keyboard.h"
 #include "item_probe.h"
+#include "project/verbs/file_verbs.h"
 #include "tests/temporary_folder.h"
 
 namespace standpoint {
@@ -308,6 +309,51 @@ TEST_F(Inspect, AWallIsPickedOnlyWhereThereIsACloudAndElseSaysWhy) {
   if (inspectedClouds(editor.session.document()).empty()) {
     EXPECT_FALSE(why.empty());
   }
+}
+
+// A is chosen by keys, as a list is gone through.
+TEST_F(Inspect, ShowsWhereTwoCloudsDifferOnceTheyAreCompared) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(editor.session.start(ScanVerbOptions{.instrument = "faro-focus-s350",
+                                                   .settings = {{"resolution", "1/20"}, {"quality", "4x"}},
+                                                   .ideal = true,
+                                                   .output = folder / "scan.e57"}));
+  gui.settle();
+  ASSERT_TRUE(editor.session.errors().empty()) << describe(editor.session.errors().front().error);
+  editor.wanted_tab[2] = "compare";
+  gui.frames(3);
+  for (const char* list : {"###compare-a", "###compare-b"}) {
+    ASSERT_TRUE(gui.click(list));
+    gui.frames(2);
+    gui.key(kKeyHome);
+    if (std::string(list).ends_with("b")) gui.key(kKeyDown);
+    gui.key(kKeyEnter);
+  }
+  ASSERT_TRUE(gui.click("###compare-clouds"));
+  gui.settle();
+  gui.frames(2);
+  ASSERT_TRUE(editor.session.errors().empty()) << describe(editor.session.errors().front().error);
+  const auto* answer = editor.session.lastAnswer<CompareAnswer>("compare");
+  ASSERT_NE(answer, nullptr);
+  EXPECT_GT(answer->a_from_b_m.median, 0);
+  ASSERT_TRUE(editor.cloud());
+  EXPECT_EQ(editor.cloud()->points.size(), answer->a_distances->place_m.size());
+  ASSERT_NE(editor.pointLegend(), nullptr);
+  EXPECT_EQ(editor.pointLegend()->unit, "mm");
+  EXPECT_TRUE(gui.says("Distance to the other cloud, mm"));
+  ASSERT_TRUE(gui.click("###largest-difference"));
+  gui.frames(2);
+  ASSERT_TRUE(editor.view.worst_place);
+  EXPECT_LT((editor.view.worst_place->at - (answer->a_largest->at_m - editor.shift_m())).norm(), 1e-6);
+  EXPECT_TRUE(editor.cloud()) << "among the points that differ";
+  EXPECT_TRUE(gui.says("from the other cloud"));
+  ASSERT_TRUE(gui.click("###difference-b"));
+  gui.frames(2);
+  EXPECT_EQ(editor.cloud()->points.size(), answer->b_distances->place_m.size());
+  ASSERT_TRUE(gui.click("###cloud"));
+  gui.frames(2);
+  EXPECT_FALSE(editor.cloud());
+  EXPECT_EQ(editor.pointLegend(), nullptr);
 }
 
 }  // namespace

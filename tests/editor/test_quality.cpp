@@ -144,7 +144,7 @@ TEST_F(QualityPanel, LooksDownIntoTheRoomOfAWorstPlaceAndBringsTheViewBeforeBack
   EXPECT_LT(*editor.visibility.cut_height_m, 2.8);
   EXPECT_GT(editor.view.camera.elevation_rad, 0.7);
   EXPECT_TRUE(editor.picker.sees(editor.view.camera.eye(), place + Eigen::Vector3d(0, 0, 0.02), editor.viewState()));
-  ASSERT_TRUE(gui.click("view-before"));
+  ASSERT_TRUE(gui.click("###back-from-place"));
   gui.frames(2);
   EXPECT_EQ(editor.view.camera, before);
   EXPECT_EQ(editor.visibility.cut_height_m, cut);
@@ -161,6 +161,8 @@ TEST_F(QualityPanel, DrawsWhatWasMeasuredAroundAWorstPlaceUntilItIsHidden) {
   EXPECT_FALSE(editor.cloud()) << "the model is what the points are of";
   editor.place_points.wait();
   gui.frames(2);
+  ASSERT_TRUE(editor.view.worst_place);
+  ASSERT_TRUE(editor.place_points.shown());
   const auto around = editor.viewState().underlays;
   ASSERT_EQ(around.size(), 1U);
   for (const auto& p : around.front().cloud->points) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pointclouds/statistics/statistics.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "pointclouds/e57/e57.h"
@@ -174,6 +175,84 @@ TEST(Statistics, OfTheRealScanFindTheNoiseMeasuredOnItBefore) {
   // 7 by 5 windows of the grid gave a median of 2.1 mm and 5 to 95 % of 1.5 to 3.1 mm; the pump has few larger planes.
   EXPECT_GT(s->plane_noise_m.samples, 100u);
   EXPECT_NEAR(s->plane_noise_m.median, 0.0021, 0.0004);
+}
+
+CloudComparison compared(const std::filesystem::path& a, const std::filesystem::path& b) {
+  Progress progress;
+  auto both = compareClouds({a}, {b}, {}, progress);
+  EXPECT_TRUE(both.has_value()) << describe(both.error());
+  return both ? *std::move(both) : CloudComparison{};
+}
+
+// Of nearest points it would be up to 14 mm, by the spacing of 1 cm.
+TEST(CloudDistances, OfAPlaneThatIsShiftedBy12MillimetresAreThese) {
+  const TemporaryFolder folder;
+  writeWall(folder / "a.e57", {{.sigma_m = 0}});
+  writeWall(folder / "b.e57", {{.sigma_m = 0, .distance_m = 5.012}});
+  const auto both = compared(folder / "a.e57", folder / "b.e57");
+  for (const auto* distances : {&both.a_from_b, &both.b_from_a}) {
+    EXPECT_EQ(distances->place_m.size(), 22500U) << "all of a small cloud";
+    EXPECT_EQ(distances->distance_m.size(), distances->place_m.size());
+    for (const double part : {distances->distribution_m.p5, distances->distribution_m.mean,
+                              distances->distribution_m.median, distances->distribution_m.p95})
+      EXPECT_NEAR(part, 0.012, 0.0001);
+  }
+}
+
+TEST(CloudDistances, LeaveOutTheNoiseOfTheOtherCloud) {
+  const TemporaryFolder folder;
+  writeWall(folder / "a.e57", {{.sigma_m = 0, .station = 2}});
+  writeWall(folder / "b.e57", {{.distance_m = 5.012}});
+  const auto both = compared(folder / "a.e57", folder / "b.e57");
+  EXPECT_NEAR(both.a_from_b.distribution_m.median, 0.012, 0.0003);
+  EXPECT_NEAR(both.a_from_b.distribution_m.p95, 0.012, 0.002);
+}
+
+TEST(CloudDistances, AreLargestWhereOneCloudHasWhatTheOtherHasNot) {
+  const TemporaryFolder folder;
+  writeWall(folder / "a.e57", {{}, {.distance_m = 3, .width_m = 0.4, .station = 2}});
+  writeWall(folder / "b.e57", {{}});
+  const auto both = compared(folder / "a.e57", folder / "b.e57");
+  ASSERT_TRUE(both.a_from_b.largest);
+  const auto pose = testing::madeUpHeader({}).file_from_scanner;
+  EXPECT_LT((both.a_from_b.largest->at_m - pose * Eigen::Vector3d(3, 0, 0)).norm(), 0.3);
+  EXPECT_NEAR(both.a_from_b.largest->distance_m, 2, 0.1);
+  EXPECT_NEAR(both.a_from_b.distribution_m.median, 0, 0.003) << "the wall that both have";
+  EXPECT_LT(both.b_from_a.distribution_m.p95, 0.006);
+}
+
+TEST(CloudDistances, AreNothingBesideAnEmptyCloudAndCanBeCancelled) {
+  PlaceSampler some(Eigen::Vector3d::Zero()), none(Eigen::Vector3d::Zero());
+  ASSERT_OK(some.begin({}));
+  PointBlock block;
+  block.x_m = block.y_m = block.z_m = {0, 1, 2};
+  ASSERT_OK(some.write(block));
+  Progress progress;
+  const auto nothing = distancesBetween(some, none, progress);
+  ASSERT_OK(nothing);
+  EXPECT_TRUE(nothing->distance_m.empty());
+  EXPECT_FALSE(nothing->largest);
+  progress.cancel();
+  EXPECT_EQ(distancesBetween(some, some, progress).error().kind, ErrorKind::cancelled);
+}
+
+TEST(PlaceSampler, KeepsAnEvenPartOfManyPoints) {
+  PlaceSampler places(Eigen::Vector3d(10, 0, 0), 1000);
+  ASSERT_OK(places.begin({}));
+  for (int part = 0; part < 10; ++part) {
+    PointBlock block;
+    for (int i = 0; i < 2000; ++i) {
+      block.x_m.push_back(10 + static_cast<float>(part)), block.y_m.push_back(0), block.z_m.push_back(0);
+    }
+    ASSERT_OK(places.write(block));
+  }
+  EXPECT_LE(places.places_m().size(), 1000U);
+  EXPECT_GE(places.places_m().size(), 400U);
+  const auto of_first = std::count_if(places.places_m().begin(), places.places_m().end(),
+                                      [](const Eigen::Vector3f& p) { return p.x() == 0; });
+  EXPECT_NEAR(static_cast<double>(of_first) / static_cast<double>(places.places_m().size()), 0.1, 0.05);
+  EXPECT_LE(places.part(100).size(), 100U);
+  EXPECT_GE(places.part(100).size(), 60U);
 }
 
 }  // namespace
