@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include <imgui.h>
@@ -11,6 +12,7 @@
 #include "editor/recovery/differences.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/editor.h"
+#include "editor/shell/panel_actions.h"
 #include "editor/widgets/modal.h"
 #include "editor/widgets/widgets.h"
 #include "editor/words/sentences.h"
@@ -153,18 +155,22 @@ nlohmann::json howShown(Editor& editor) {
   for (const auto& action : actions())
     if (isKept(action.id) && action.on != nullptr && action.on(editor)) on.push_back(action.id);
   nlohmann::json shown = {{"on", std::move(on)}};
-  const auto* assessed = editor.session.lastOf("assess");
-  if (assessed == nullptr || editor.session.isOutOfDate(*assessed)) return shown;
+  // Also while it is made, which takes minutes, and of a project that has changed since.
+  const auto& running = editor.session.running();
+  const bool assesses = std::any_of(running.begin(), running.end(),
+                                    [](const auto& task) { return std::string_view(task->verb().name) == "assess"; });
+  if (!assesses && editor.session.lastOf("assess") == nullptr) return shown;
   for (const auto& choice : choices(QualityProfile{}))
     if (choice.value == editor.panels.of<QualityState>().profile) shown["assessed"] = choice.name;
   return shown;
 }
 
 void assessAsBefore(Editor& editor, const std::string& profile) {
+  auto& state = editor.panels.of<QualityState>();
   for (const auto& choice : choices(QualityProfile{}))
-    if (profile == choice.name) editor.panels.of<QualityState>().profile = choice.value;
-  if (editor.session.whyNot("assess").empty())
-    editor.session.start(AssessOptions{.profile = editor.panels.of<QualityState>().profile}, "Assess the scans");
+    if (profile == choice.name) state.profile = choice.value;
+  PanelActions actions(editor);
+  if (whyNotAssess(editor).empty()) assess(state, actions);
 }
 
 }  // namespace

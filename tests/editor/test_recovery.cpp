@@ -9,7 +9,9 @@
 
 #include "demo_verbs.h"
 #include "editor/model/recovery_keeper.h"
+#include "editor/panels/quality_panel.h"
 #include "editor/recovery/differences.h"
+#include "editor/shell/actions.h"
 #include "editor/words/words.h"
 #include "item_probe.h"
 #include "project/storage/project_files.h"
@@ -190,6 +192,52 @@ TEST_F(Recovery, BringsColoursBackAndAssessesAnewWhatWasAssessed) {
   EXPECT_EQ(editor.view.colour, ColourMode::material);
   EXPECT_FALSE(editor.quit) << "what is not of the view is not run";
   EXPECT_TRUE(editor.dialogs.shown_before.empty());
+}
+
+// With the scans where an unsaved project has them.
+TEST_F(Recovery, AssessesAnewWhatWasAssessedOfAnUnsavedProject) {
+  setenv("XDG_DATA_HOME", (root / "data").c_str(), 1);
+  const auto left_in = recoveryFolder(root / "recovery", kGone);
+  const auto scan_file = [](const Session& session) { return session.ownFolder() / "scans" / "S1.e57"; };
+  {
+    Editor editor(verbsWithDemo(), [] {});
+    GuiDriver gui(editor);
+    ASSERT_TRUE(editor.session.start("demo", json::object()));
+    gui.settle();
+    ASSERT_TRUE(editor.session.folder().empty());
+    fs::create_directories(scan_file(editor.session).parent_path());
+    ASSERT_TRUE(editor.session.start(ScanVerbOptions{.instrument = "faro-focus-s350",
+                                                     .settings = {{"resolution", "1/20"}, {"quality", "4x"}},
+                                                     .ideal = true,
+                                                     .output = scan_file(editor.session)}));
+    gui.settle();
+    editor.panels.of<QualityState>().profile = QualityProfile::loa20;
+    ASSERT_TRUE(invoke(editor, "assess"));
+    EXPECT_EQ(editor.session.shown_as().at("assessed"), "LOA20") << "a crash may come while it is made";
+    gui.settle();
+    ASSERT_NE(editor.session.lastAnswer<AssessAnswer>("assess"), nullptr);
+    RecoveryKeeper keeper(left_in);
+    keeper.keep(editor.session);
+    editor.session.wait();
+    keeper.keep(editor.session);
+  }
+  std::ifstream in(left_in / "owner.json");
+  auto mark = json::parse(in);
+  mark["process_start"] = "another boot 7";
+  write(fs::path("recovery") / std::to_string(kGone) / "owner.json", mark.dump());
+  Editor editor(verbsWithDemo(), [] {});
+  GuiDriver gui(editor);
+  editor.dialogs.recovery = findLeftWork(root / "recovery");
+  ASSERT_EQ(editor.dialogs.recovery.size(), 1U);
+  gui.frames(2);
+  ASSERT_TRUE(gui.click("###open"));
+  for (int i = 0; i < 3; ++i) gui.settle();  // opened, kept again, assessed
+  ASSERT_TRUE(editor.session.errors().empty()) << describe(editor.session.errors().front().error);
+  const auto* answer = editor.session.lastAnswer<AssessAnswer>("assess");
+  ASSERT_NE(answer, nullptr);
+  EXPECT_EQ(answer->profile, "LOA20");
+  EXPECT_FALSE(answer->scans.empty()) << "its file is found";
+  unsetenv("XDG_DATA_HOME");
 }
 
 TEST_F(Recovery, NotesWhatAnEmulatedDeviceWorksOn) {
