@@ -23,7 +23,7 @@ namespace {
 struct NewStationState {
   bool shown = false;
   SurveyEdit edit;
-  KeptVerdict verdict;
+  KeptVerdict verdict, pointed;
 };
 
 // In the middle of the storey where a survey begins; metres, the frame of the model's file.
@@ -49,6 +49,16 @@ void putOnFloor(const Model& model, Eigen::Vector3d& at) {
   if (nearest) at.z() = *nearest + kUsualHeight_m + shift.z();
 }
 
+// The name of the one whose floor is below that height, local frame; "" where there is none.
+std::string storeyOf(const Model& model, double floor_m) {
+  constexpr double kStep_m = 0.3;
+  std::string name;
+  for (const auto& level : model.storeys())
+    if (level.elevation_m < floor_m + kStep_m)
+      name = model.environment()->spatial[static_cast<std::size_t>(level.node)].name;
+  return name;
+}
+
 }  // namespace
 
 void drawNewStation(const Model& model, PanelStates& states, Actions& actions) {
@@ -66,7 +76,12 @@ void drawNewStation(const Model& model, PanelStates& states, Actions& actions) {
   }
   takeRefusal(edit, actions);
   const Eigen::Vector3d shift = model.shift_m();
-  if (view.hover && !view.typed_station) edit.at = view.hover->position + shift + Eigen::Vector3d(0, 0, kUsualHeight_m);
+  if (view.hover && !view.typed_station) {
+    // On its way to the fields the pointer crosses walls and roofs.
+    const Eigen::Vector3d pointed = view.hover->position + Eigen::Vector3d(0, 0, kUsualHeight_m);
+    const auto* found = placeVerdict(model, state.pointed, pointed, true);
+    if (found != nullptr && found->verdict != Verdict::bad) edit.at = pointed + shift;
+  }
   const auto name = freeStationName(*model.session.document().job);
   ui::heading(model, trf("New station {}", name).c_str());
   const Eigen::Vector3d before = edit.at;
@@ -75,6 +90,8 @@ void drawNewStation(const Model& model, PanelStates& states, Actions& actions) {
     if (model.typing_wanted) actions.typingBegun();
     if (typed && edit.at.z() == before.z()) putOnFloor(model, edit.at);
     if (typed) actions.holdNewStation(edit.at - shift);
+    if (const auto storey = storeyOf(model, edit.at.z() - shift.z() - kUsualHeight_m); !storey.empty())
+      ui::property("Storey", storey);
     ui::endProperties();
   }
   drawPlaceVerdict(model, state.verdict, edit.at - shift, true);

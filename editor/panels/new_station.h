@@ -7,8 +7,8 @@ class Actions;
 class PanelStates;
 struct Model;
 
-// The numbers of the station that is being added, while its tool waits for a click: those of the place under the
-// pointer, until somebody types others.
+// The numbers of the station that is being added, while its tool waits for a click: those of the last place under
+// the pointer where one can stand, until somebody types others.
 void drawNewStation(const Model& model, PanelStates& states, Actions& actions);
 
 }  // namespace standpoint

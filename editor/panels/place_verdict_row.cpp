@@ -2,24 +2,30 @@
 #include "editor/panels/place_verdict_row.h"
 
 #include "editor/model/model.h"
+#include "editor/model/outliner_rows.h"
 #include "editor/widgets/verdict_sign.h"
 #include "editor/widgets/widgets.h"
 #include "editor/words/sentences.h"
 
 namespace standpoint {
 
-void drawPlaceVerdict(const Model& model, KeptVerdict& kept, const Eigen::Vector3d& centre, bool on_tripod) {
+const PlaceVerdict* placeVerdict(const Model& model, KeptVerdict& kept, const Eigen::Vector3d& centre, bool on_tripod) {
   const auto* placement = model.placement.placement();
   const auto scene = model.picker.scene();
-  if (placement == nullptr || &placement->scene() != scene.get()) return;
+  if (placement == nullptr || &placement->scene() != scene.get()) return nullptr;
   const auto* instrument = model.instrument(model.scan_choice.instrument);
   const double nearest_m = instrument != nullptr ? instrument->min_range_m : 0;
   if (kept.scene.lock() != scene || kept.centre != centre || kept.on_tripod != on_tripod || kept.nearest_m != nearest_m)
     kept = {scene, centre, on_tripod, nearest_m, judgeStation(*placement, centre, on_tripod, nearest_m)};
-  const auto& found = kept.answer;
-  ui::verdict(found.verdict);
-  ui::wrapped(withVerdictWord(found.verdict, trSentence(found.brief)));
-  if (!found.reason.empty()) ui::dimWrapped(trSentence(found.reason));
+  return &kept.answer;
+}
+
+void drawPlaceVerdict(const Model& model, KeptVerdict& kept, const Eigen::Vector3d& centre, bool on_tripod) {
+  const auto* found = placeVerdict(model, kept, centre, on_tripod);
+  if (found == nullptr) return;
+  ui::verdict(found->verdict);
+  ui::wrapped(withVerdictWord(found->verdict, trSentence(found->brief)));
+  if (!found->reason.empty()) ui::dimWrapped(withReadableClasses(trSentence(found->reason)));
 }
 
 }  // namespace standpoint

@@ -18,7 +18,9 @@ struct KeptVerdict {
   PlaceVerdict answer;
 };
 
-// The verdict's sign, word and reason; `centre` of the instrument, local frame. Nothing while the scene is prepared.
+// `centre` of the instrument, local frame. Null while the scene is prepared.
+const PlaceVerdict* placeVerdict(const Model& model, KeptVerdict& kept, const Eigen::Vector3d& centre, bool on_tripod);
+// The verdict's sign, word and reason.
 void drawPlaceVerdict(const Model& model, KeptVerdict& kept, const Eigen::Vector3d& centre, bool on_tripod);
 
 }  // namespace standpoint

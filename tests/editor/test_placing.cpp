@@ -116,6 +116,20 @@ TEST_F(Placing, NumbersOfANewStationFollowThePointerUntilTheyAreTyped) {
   EXPECT_NEAR(editor.view.typed_station->y(), 5, 1e-6);
 }
 
+TEST_F(Placing, NumbersOfANewStationKeepTheLastPlaceWhereOneCanStand) {
+  invoke(editor, "add-station");
+  gui.moveTo(screenOf({1.5, 6, 0}));
+  gui.frames(2);
+  gui.moveTo(screenOf({0.45, 2, 0}));  // on the way to the panel, 15 cm from a wall
+  gui.frames(2);
+  ASSERT_TRUE(gui.click("###new-station-Y"));
+  gui.type(fmt::format("{}", 5 + editor.shift_m().y()));
+  gui.key(kKeyEnter);
+  gui.frames(3);
+  ASSERT_TRUE(editor.view.typed_station);
+  EXPECT_NEAR(editor.view.typed_station->x(), 1.5, 0.2);
+}
+
 TEST_F(Placing, ATypedPlaceThatIsRefusedSaysSoAndAddsNothing) {
   invoke(editor, "add-station-at");
   gui.frames(4);
