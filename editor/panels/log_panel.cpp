@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include "editor/model/log.h"
+#include "editor/model/outliner_rows.h"
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
 #include "editor/widgets/icons.h"
@@ -108,7 +109,7 @@ void drawEntry(const Model& model, Actions& actions, const LogEntry& entry, int 
     }
   }
   ImGui::TableNextColumn();
-  ui::fitted(shownSentence(entry.message), ImGui::GetContentRegionAvail().x);
+  ui::fitted(withReadableClasses(shownSentence(entry.message)), ImGui::GetContentRegionAvail().x);
   ImGui::PopID();
 }
 

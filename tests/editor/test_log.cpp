@@ -100,6 +100,18 @@ TEST_F(LogPanel, AMessageOfTheLogHasTheRoomThatTheSourcesDoNotNeed) {
   EXPECT_FALSE(gui.says(std::string(120, 'x')));
 }
 
+TEST_F(LogPanel, AMessageOfTheLogCallsProductsAsTheEditorDoes) {
+  open();
+  openPanel(editor, Workspace::environment, "log");
+  editor.session.say(LogLevel::note, "", "Met IfcDoor #9 'A'");
+  itemProbe().texts.clear();
+  itemProbe().listens = true;
+  gui.frames(4);
+  itemProbe().listens = false;
+  const auto& texts = itemProbe().texts;
+  EXPECT_NE(std::find(texts.begin(), texts.end(), "Met Door #9 'A'"), texts.end());
+}
+
 TEST_F(LogPanel, AMessageThatTheLogHasNoRoomForIsWholeInItsTooltip) {
   std::string text = "Scanned";
   for (int i = 0; i < 60; ++i) text += " word" + std::to_string(i);
