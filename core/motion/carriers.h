@@ -94,4 +94,10 @@ inline const Carrier* carrierOf(std::string_view id) {
   return nullptr;
 }
 
+// Of the scanner above the floor: as stated, or the carrier's own where 0 is.
+inline double carriedHeight_m(std::string_view carrier, double stated_m) {
+  const Carrier* const known = carrierOf(carrier);
+  return stated_m > 0 || known == nullptr ? stated_m : known->limits.height_m;
+}
+
 }  // namespace standpoint

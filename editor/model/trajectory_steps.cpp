@@ -48,11 +48,6 @@ std::string freeTrajectoryName(const Job& job) {
   }
 }
 
-double carriedHeight_m(const std::string& carrier, double stated_m) {
-  const Carrier* known = carrierOf(carrier);
-  return stated_m > 0 || known == nullptr ? stated_m : known->limits.height_m;
-}
-
 std::string carrierName(const std::string& id) {
   const Carrier* known = carrierOf(id);
   return known == nullptr ? id : tr(std::string(known->name));

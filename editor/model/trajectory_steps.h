@@ -21,8 +21,6 @@ const CarriedTrajectory* chosenTrajectory(const Model& model);  // null: none is
 std::string whyNoTrajectory(const Model& model);
 // A name that no trajectory has yet: "W1", "W2", …
 std::string freeTrajectoryName(const Job& job);
-// Of the scanner above the floor: as stated, or the carrier's own.
-double carriedHeight_m(const std::string& carrier, double stated_m);
 // "Hand" of "hand".
 std::string carrierName(const std::string& id);
 // The options that make the trajectory of this name what `changed` is.

@@ -35,9 +35,8 @@ std::vector<WayWish> wishesOf(const Job& job, const std::shared_ptr<const Georef
 }
 
 double liftOf(const CarriedTrajectory& t) {
-  const Carrier* const carrier = carrierOf(t.carrier);
-  if (!t.file.empty() || t.carrier == "uav" || carrier == nullptr) return 0;
-  return t.height_m > 0 ? t.height_m : carrier->limits.height_m;
+  if (!t.file.empty() || t.carrier == "uav" || carrierOf(t.carrier) == nullptr) return 0;
+  return carriedHeight_m(t.carrier, t.height_m);
 }
 
 // As a scan has its operator.
@@ -50,7 +49,7 @@ std::vector<PoseFunctionPtr> limbsOfOperator(const CarriedTrajectory& t, const C
     if (!on_foot) return {};
     path = *on_foot;
   }
-  return operatorLimbs(path, t.height_m > 0 ? t.height_m : carrier->limits.height_m, t.carrier == "hand");
+  return operatorLimbs(path, carriedHeight_m(t.carrier, t.height_m), t.carrier == "hand");
 }
 
 std::vector<double> expectedOf(const TrajectoryWay& way, const CarriedMotion& carried, const WayWish& wish,

@@ -83,7 +83,7 @@ Result<CrowdObstacle> obstacleOf(const Document& document, const std::string& na
   if (carrier == nullptr || carrier->id == "uav")
     return failure(ErrorKind::usage, fmt::format("nobody on the floor carries a scanner along '{}'", name), kOption);
   TRY_ASSIGN(const auto carried, carriedMotion(*trajectory, *document.georeference, report, progress));
-  const double height = trajectory->height_m > 0 ? trajectory->height_m : carrier->limits.height_m;
+  const double height = carriedHeight_m(trajectory->carrier, trajectory->height_m);
   const PoseFunctionPtr path = operatorPath(carried.path, height, carrier->id == "hand");
   until_s = std::max(until_s, carried.seconds());
   return CrowdObstacle{std::make_shared<const TimedPose>(path, 0, false),

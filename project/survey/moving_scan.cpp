@@ -75,7 +75,7 @@ Result<std::optional<ScanOperator>> operatorOf(const CarriedTrajectory& trajecto
     TRY_ASSIGN(path, wayOnFoot(*carried.truth));
   }
   return ScanOperator{.scanner_path = std::move(path),
-                      .height_m = trajectory.height_m > 0 ? trajectory.height_m : carrier->limits.height_m,
+                      .height_m = carriedHeight_m(trajectory.carrier, trajectory.height_m),
                       .in_front = carrier->id == "hand",
                       .ahead_s = options.movers_from_s.value_or(0)};
 }

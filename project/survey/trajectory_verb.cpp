@@ -39,10 +39,7 @@ Result<void> checkTrajectoryName(Job& job, const std::string& name, const char* 
   return {};
 }
 
-double heightOf(const CarriedTrajectory& t) {
-  const Carrier* const carrier = carrierOf(t.carrier);
-  return t.height_m > 0 || carrier == nullptr ? t.height_m : carrier->limits.height_m;
-}
+double heightOf(const CarriedTrajectory& t) { return carriedHeight_m(t.carrier, t.height_m); }
 
 Result<std::vector<Waypoint>> waypointsFrom(const RayScene& scene, const Georeference& g, const CarriedTrajectory& of,
                                             const std::vector<std::string>& through) {
