@@ -35,6 +35,11 @@ std::string whyNoStation(const Model& model) {
   return chosenStation(model) != nullptr ? "" : "Select a station in the Survey panel or the view first";
 }
 
+double nearestRange_m(const Model& model) {
+  const auto* instrument = model.instrument(model.scan_choice.instrument);
+  return instrument != nullptr ? instrument->min_range_m : 0;
+}
+
 std::string freeStationName(const Job& job) { return nextStationName(job, "S0"); }
 
 void duplicateStation(Model& model) {

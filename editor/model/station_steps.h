@@ -14,6 +14,8 @@ struct Model;
 const Station* chosenStation(const Model& model);  // null: none is
 std::string whyNoStation(const Model& model);
 
+// The shortest range of the instrument that the next scan is set to; 0 where there is none.
+double nearestRange_m(const Model& model);
 // A name that no station has yet: "S1", "S2", …
 std::string freeStationName(const Job& job);
 // Another one of its height and heading, on the nearest place beside it where one can stand.

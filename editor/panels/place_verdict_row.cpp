@@ -3,6 +3,7 @@
 
 #include "editor/model/model.h"
 #include "editor/model/outliner_rows.h"
+#include "editor/model/station_steps.h"
 #include "editor/widgets/verdict_sign.h"
 #include "editor/widgets/widgets.h"
 #include "editor/words/sentences.h"
@@ -13,8 +14,7 @@ const PlaceVerdict* placeVerdict(const Model& model, KeptVerdict& kept, const Ei
   const auto* placement = model.placement.placement();
   const auto scene = model.picker.scene();
   if (placement == nullptr || &placement->scene() != scene.get()) return nullptr;
-  const auto* instrument = model.instrument(model.scan_choice.instrument);
-  const double nearest_m = instrument != nullptr ? instrument->min_range_m : 0;
+  const double nearest_m = nearestRange_m(model);
   if (kept.scene.lock() != scene || kept.centre != centre || kept.on_tripod != on_tripod || kept.nearest_m != nearest_m)
     kept = {scene, centre, on_tripod, nearest_m, judgeStation(*placement, centre, on_tripod, nearest_m)};
   return &kept.answer;

@@ -11,6 +11,7 @@
 
 #include "core/readable_name.h"
 #include "core/units.h"
+#include "editor/model/station_steps.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/view_pen.h"
 #include "editor/widgets/icons.h"
@@ -106,8 +107,7 @@ void drawTypedStation(Editor& editor, const ViewPen& pen, const Vector3d& centre
   const auto below = scene->intersect(centre, -Vector3d::UnitZ(), kRimReach_m);
   const HeldStation held{"", below ? centre.z() - below->position.z() : kUsualHeight_m, Eigen::Quaterniond::Identity()};
   const Vector3d floor = centre - Vector3d(0, 0, held.height_m);
-  const auto* instrument = editor.instrument(editor.scan_choice.instrument);
-  const auto verdict = judgeStation(*placement, centre, true, instrument != nullptr ? instrument->min_range_m : 0);
+  const auto verdict = judgeStation(*placement, centre, true, nearestRange_m(editor));
   drawHeldStation(editor, pen, held, floor, verdict.verdict);
   if (const auto place = pen.at(centre))
     pen.verdict({place->x + editor.px(20), place->y + editor.px(16)}, verdict.verdict, trSentence(verdict.brief));
@@ -198,8 +198,7 @@ std::optional<HeldStation> heldStation(const Editor& editor) {
 }
 
 PlaceVerdict verdictUnderPointer(Editor& editor, const HeldStation& held) {
-  const auto* instrument = editor.instrument(editor.scan_choice.instrument);
-  return editor.placement.judge(*editor.view.hover, held.height_m, instrument != nullptr ? instrument->min_range_m : 0);
+  return editor.placement.judge(*editor.view.hover, held.height_m, nearestRange_m(editor));
 }
 
 void refusePlace(Editor& editor, const HeldStation& held, const PlaceVerdict& verdict) {

@@ -27,8 +27,7 @@ PlaceVerdict verdictOfFloor(const Editor& editor, const Eigen::Vector3d& floor) 
   const auto hit = placement->scene().intersect(floor + Eigen::Vector3d(0, 0, kAboveFloor_m), -Eigen::Vector3d::UnitZ(),
                                                 2 * kAboveFloor_m);
   if (!hit) return {Verdict::bad, "No floor", {}};
-  const auto* instrument = editor.instrument(editor.scan_choice.instrument);
-  return judgePlace(*placement, *hit, kUsualHeight_m, instrument != nullptr ? instrument->min_range_m : 0);
+  return judgePlace(*placement, *hit, kUsualHeight_m, nearestRange_m(editor));
 }
 
 std::string rowText(const std::vector<Eigen::Vector3d>& floors, std::size_t bad) {
