@@ -362,19 +362,22 @@ std::string whoPasses(const TightPlace& place) {
   return trf("a body of {:.1f} m with a radius of {:.2f} m passes", place.passes_height_m, place.passes_radius_m);
 }
 
+std::string storeyNameAt(const Model& model, double floor_m) {
+  const StoreyLevel* storey = nullptr;
+  for (const auto& level : model.storeys())
+    if (level.elevation_m <= floor_m + kStoreySill) storey = &level;
+  return storey == nullptr ? std::string() : model.environment()->spatial[static_cast<std::size_t>(storey->node)].name;
+}
+
 std::string walkPlaceName(const Model& model) {
   const auto& document = model.session.document();
   const Eigen::Vector3d feet = model.walk.feet();
   std::string name;
   if (const auto room = spaceAt(model.walk.ground().spaces, feet + Eigen::Vector3d(0, 0, kBodyMiddle_m)))
     name = readableName(document.imported->products[*room]);
-  const StoreyLevel* storey = nullptr;
-  for (const auto& level : model.storeys())
-    if (level.elevation_m <= feet.z() + kStoreySill) storey = &level;
-  if (storey == nullptr) return name;
-  const auto& node = model.environment()->spatial[static_cast<std::size_t>(storey->node)];
-  if (node.name.empty()) return name;
-  return name.empty() ? node.name : name + " · " + node.name;
+  const auto storey = storeyNameAt(model, feet.z());
+  if (name.empty() || storey.empty()) return name + storey;
+  return name + " · " + storey;
 }
 
 }  // namespace standpoint

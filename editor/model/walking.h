@@ -83,5 +83,7 @@ std::string whoPasses(const TightPlace& place);
 
 // "Living room · Ground floor", of what there is, around the feet of whoever walks.
 std::string walkPlaceName(const Model& model);
+// The name of the storey that a floor of that height belongs to, local frame; "" where there is none.
+std::string storeyNameAt(const Model& model, double floor_m);
 
 }  // namespace standpoint

@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include "editor/model/station_steps.h"
+#include "editor/model/walking.h"
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
 #include "editor/panels/place_verdict_row.h"
@@ -49,16 +50,6 @@ void putOnFloor(const Model& model, Eigen::Vector3d& at) {
   if (nearest) at.z() = *nearest + kUsualHeight_m + shift.z();
 }
 
-// The name of the one whose floor is below that height, local frame; "" where there is none.
-std::string storeyOf(const Model& model, double floor_m) {
-  constexpr double kStep_m = 0.3;
-  std::string name;
-  for (const auto& level : model.storeys())
-    if (level.elevation_m < floor_m + kStep_m)
-      name = model.environment()->spatial[static_cast<std::size_t>(level.node)].name;
-  return name;
-}
-
 }  // namespace
 
 void drawNewStation(const Model& model, PanelStates& states, Actions& actions) {
@@ -90,14 +81,15 @@ void drawNewStation(const Model& model, PanelStates& states, Actions& actions) {
     if (model.typing_wanted) actions.typingBegun();
     if (typed && edit.at.z() == before.z()) putOnFloor(model, edit.at);
     if (typed) actions.holdNewStation(edit.at - shift);
-    if (const auto storey = storeyOf(model, edit.at.z() - shift.z() - kUsualHeight_m); !storey.empty())
+    if (const auto storey = storeyNameAt(model, edit.at.z() - shift.z() - kUsualHeight_m); !storey.empty())
       ui::property("Storey", storey);
     ui::endProperties();
   }
   drawPlaceVerdict(model, state.verdict, edit.at - shift, true);
   drawProblem(edit);
-  const auto bad = state.verdict.answer.verdict == Verdict::bad ? state.verdict.answer.brief : std::string();
-  const auto why = bad.empty() ? model.session.whyNot("station") : bad;
+  const auto* found = placeVerdict(model, state.verdict, edit.at - shift, true);
+  const bool bad = found != nullptr && found->verdict == Verdict::bad;
+  const auto why = bad ? found->brief : model.session.whyNot("station");
   if (ui::button(trf(ICON_CHECK "  Add {} here###add-typed", name).c_str(), why, {-FLT_MIN, 0},
                  "Add the station at these coordinates")) {
     actions.holdNewStation(edit.at - shift);
