@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/inspect/point_picking.h"
 
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
+
+#include "core/decompositions.h"
 
 namespace standpoint {
 
@@ -31,6 +34,39 @@ std::optional<std::size_t> firstPoint(const PointPlaces& places, const SightCone
       [](const Best& a, const Best& b) { return std::min(a, b); });
   if (best.second == kNoPointYet.second) return std::nullopt;
   return best.second;
+}
+
+std::optional<Eigen::Vector3d> normalAround(const PointPlaces& places, const Eigen::Vector3d& place, double radius_m) {
+  constexpr std::size_t kFewest = 10;
+  constexpr double kStray = 0.05, kBroad = 0.15;  // as parts of the radius
+  struct Sums {
+    std::size_t count = 0;
+    Eigen::Vector3d first = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  };
+  const auto sums = tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, places.count, 1 << 15), Sums{},
+      [&](const auto& range, Sums so_far) {
+        for (auto i = range.begin(); i < range.end(); ++i) {
+          const float* p = places.first + i * places.stride;
+          const Eigen::Vector3d d = Eigen::Vector3d(p[0], p[1], p[2]) - place;
+          if (d.squaredNorm() > radius_m * radius_m) continue;
+          ++so_far.count;
+          so_far.first += d;
+          so_far.second += d * d.transpose();
+        }
+        return so_far;
+      },
+      [](const Sums& a, const Sums& b) {
+        return Sums{a.count + b.count, a.first + b.first, a.second + b.second};
+      });
+  if (sums.count < kFewest) return std::nullopt;
+  const auto n = static_cast<double>(sums.count);
+  const Eigen::Vector3d mean = sums.first / n;
+  const auto [values, axes] = principalAxes(sums.second / n - mean * mean.transpose());
+  if (std::sqrt(std::max(0.0, values[0])) > kStray * radius_m) return std::nullopt;
+  if (std::sqrt(std::max(0.0, values[1])) < kBroad * radius_m) return std::nullopt;
+  return Eigen::Vector3d(axes.col(0));
 }
 
 }  // namespace standpoint

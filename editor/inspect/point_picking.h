@@ -26,4 +26,8 @@ struct SightCone {
 std::optional<std::size_t> firstPoint(const PointPlaces& places, const SightCone& cone,
                                       const std::function<bool(const Eigen::Vector3d&)>& counts = {});
 
+// Unit, the normal of the plane that the points within `radius_m` of `place` lie on; its sign is arbitrary. Nothing
+// where they are too few, lie along a line, or stray from their plane by more than a twentieth of the radius (RMS).
+std::optional<Eigen::Vector3d> normalAround(const PointPlaces& places, const Eigen::Vector3d& place, double radius_m);
+
 }  // namespace standpoint

@@ -4,6 +4,8 @@
 #include <any>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "editor/inspect/point_picking.h"
 #include "editor/model/model.h"
@@ -17,53 +19,133 @@ PointPlaces placesOf(const Cloud& cloud) {
   return {cloud.points.front().position_m.data(), cloud.points.size(), sizeof(CloudPoint) / sizeof(float)};
 }
 
-}  // namespace
+struct PlacedCloud {
+  const Cloud* cloud;
+  Eigen::Matrix4d local_from_cloud;
+};
+// Those that are measured; where there are some, `state` lives as long as they.
+std::vector<PlacedCloud> measuredClouds(const Cloud* shown, const ViewState& state) {
+  if (shown != nullptr) {
+    PlacedCloud alone{shown, Eigen::Matrix4d::Identity()};
+    alone.local_from_cloud.topRightCorner<3, 1>() = shown->pointsOrigin_m();
+    return {alone};
+  }
+  std::vector<PlacedCloud> clouds;
+  for (const auto& u : state.underlays) clouds.push_back({u.cloud.get(), u.local_from_cloud});
+  return clouds;
+}
 
-std::optional<Model::MeasurablePlace> Model::measurableAt(const ViewRay& ray, double reach_px) const {
+struct MetPoint {
+  Eigen::Vector3d position;  // local frame
+  const PlacedCloud* of;
+};
+// The first that the line of sight meets of those that are neither above the cut nor outside the clip box.
+std::optional<MetPoint> firstPoint(const std::vector<PlacedCloud>& clouds, const SightCone& cone,
+                                   const ViewState& state) {
+  std::optional<MetPoint> best;
+  for (const auto& placed : clouds) {
+    const Eigen::Matrix3d turn = placed.local_from_cloud.topLeftCorner<3, 3>();
+    const Eigen::Vector3d shift = placed.local_from_cloud.topRightCorner<3, 1>();
+    SightCone there = cone;
+    there.origin = turn.transpose() * (cone.origin - shift);
+    there.direction = turn.transpose() * cone.direction;
+    const auto places = placesOf(*placed.cloud);
+    const auto counts = [&](const Eigen::Vector3d& p) {
+      const Eigen::Vector3d here = turn * p + shift;
+      return (!state.cut_height_m || here.z() <= *state.cut_height_m) && (!state.clip || state.clip->contains(here));
+    };
+    const auto i = standpoint::firstPoint(places, there, counts);
+    if (!i) continue;
+    const float* p = places.first + *i * places.stride;
+    const Eigen::Vector3d at = turn * Eigen::Vector3d(p[0], p[1], p[2]) + shift;
+    if (!best || (at - cone.origin).dot(cone.direction) < (best->position - cone.origin).dot(cone.direction))
+      best = MetPoint{at, &placed};
+  }
+  return best;
+}
+
+// Of the plane that the cloud has there, in the narrowest surroundings that show one; local frame.
+std::optional<Eigen::Vector3d> normalThere(const MetPoint& met) {
+  const Eigen::Matrix3d turn = met.of->local_from_cloud.topLeftCorner<3, 3>();
+  const Eigen::Vector3d shift = met.of->local_from_cloud.topRightCorner<3, 1>();
+  const Eigen::Vector3d there = turn.transpose() * (met.position - shift);
+  for (const double radius_m : {0.1, 0.25, 0.5})
+    if (const auto normal = normalAround(placesOf(*met.of->cloud), there, radius_m)) return turn * *normal;
+  return std::nullopt;
+}
+
+std::string nameOf(const Cloud& cloud, const std::vector<InspectedCloud>& listed) {
+  if (const auto* known = cloudOf(listed, cloud.file)) return known->label;
+  return cloud.file.empty() ? tr("Scan") : cloud.file.filename().string();
+}
+
+SightCone coneOf(const ViewRay& ray, const ViewportState& view, double reach_px) {
   const double at_target = view.camera.heightAtTarget_m() / std::max(1.0, view.size.y()) * reach_px;
   SightCone cone{ray.origin, ray.direction};
   if (view.camera.orthographic)
     cone.radius_m = at_target;
   else
     cone.per_metre = at_target / view.camera.distance_m;
-  std::optional<MeasurablePlace> best;
-  const auto offer = [&](const Eigen::Vector3d& place, const std::string& cloud) {
-    if (!best || (place - ray.origin).dot(ray.direction) < (best->position - ray.origin).dot(ray.direction))
-      best = {place, cloud};
-  };
-  const auto clouds = inspectedClouds(session.document());
-  const auto nameOf = [&](const Cloud& cloud) {
-    const auto* listed = standpoint::cloudOf(clouds, cloud.file);
-    if (listed != nullptr) return listed->label;
-    return cloud.file.empty() ? tr("Scan") : cloud.file.filename().string();
-  };
-  const auto tryCloud = [&](const Cloud& cloud, const Eigen::Matrix4d& local_from_cloud) {
-    const Eigen::Matrix3d turn = local_from_cloud.topLeftCorner<3, 3>();
-    const Eigen::Vector3d shift = local_from_cloud.topRightCorner<3, 1>();
-    SightCone there = cone;
-    there.origin = turn.transpose() * (cone.origin - shift);
-    there.direction = turn.transpose() * cone.direction;
-    const auto places = placesOf(cloud);
-    const auto counts = [&](const Eigen::Vector3d& p) {
-      const Eigen::Vector3d here = turn * p + shift;
-      return (!visibility.cut_height_m || here.z() <= *visibility.cut_height_m) &&
-             (!view.clip.box || view.clip.box->contains(here));
-    };
-    if (const auto i = firstPoint(places, there, counts)) {
-      const float* p = places.first + *i * places.stride;
-      offer(turn * Eigen::Vector3d(p[0], p[1], p[2]) + shift, nameOf(cloud));
-    }
-  };
-  if (cloud_) {
-    Eigen::Matrix4d local_from_points = Eigen::Matrix4d::Identity();
-    local_from_points.topRightCorner<3, 1>() = cloud_->pointsOrigin_m();
-    tryCloud(*cloud_, local_from_points);
-    return best;
-  }
+  return cone;
+}
+
+}  // namespace
+
+std::optional<MeasurablePlace> Model::measurable(const ViewRay& ray, const SightCone& cone, const ViewState& state,
+                                                 bool with_normal) const {
+  const auto clouds = measuredClouds(cloud_.get(), state);
+  const auto point = firstPoint(clouds, cone, state);
+  const auto hit = cloud_ ? std::nullopt : picker.pick(ray, state);
+  if (hit && (!point || (hit->position - point->position).dot(ray.direction) < 0))
+    return MeasurablePlace{hit->position, {}, {hit->normal}};
+  if (!point) return std::nullopt;
+  MeasurablePlace place{point->position, nameOf(*point->of->cloud, inspectedClouds(session.document()))};
+  if (!with_normal) return place;
+  if (const auto normal = normalThere(*point))
+    place.normals = {normal->dot(ray.direction) > 0 ? Eigen::Vector3d(-*normal) : *normal};
+  return place;
+}
+
+std::optional<MeasurablePlace> Model::measurableAt(const Eigen::Vector2d& pixel, double reach_px) const {
+  const auto ray = rayThrough(view.camera, pixel, view.size);
+  return measurable(ray, coneOf(ray, view, reach_px), viewState(), false);
+}
+
+std::optional<MeasurablePlace> Model::snappedAt(const Eigen::Vector2d& pixel, double reach_px, double snap_px) {
   const ViewState state = viewState();
-  for (const auto& u : state.underlays) tryCloud(*u.cloud, u.local_from_cloud);
-  if (const auto hit = picker.pick(ray, state)) offer(hit->position, {});
-  return best;
+  const auto ray = rayThrough(view.camera, pixel, view.size);
+  auto place = measurable(ray, coneOf(ray, view, reach_px), state, true);
+  if (cloud_ || (place && !place->cloud.empty())) return place;
+  std::vector<Eigen::Vector3d> met;
+  if (place) met.push_back(place->position);
+  constexpr int kAround = 8;
+  for (int i = 0; i < kAround; ++i) {
+    const double turn = 2 * std::numbers::pi * i / kAround;
+    const Eigen::Vector2d beside = pixel + snap_px * Eigen::Vector2d(std::cos(turn), std::sin(turn));
+    if (const auto hit = picker.pick(rayThrough(view.camera, beside, view.size), state)) met.push_back(hit->position);
+  }
+  const auto sees = [&](std::uint32_t product, const Eigen::Vector3d& at) {
+    if (!isShown(state, product, at)) return false;
+    constexpr double kBeside_m = 0.002;  // a line of sight along a face may meet it
+    const Eigen::Vector3d way = met.front() - at;
+    const Eigen::Vector3d beside = at + way * std::min(1.0, kBeside_m / std::max(way.norm(), 1e-9));
+    return picker.sees(view.camera.eyeOf(beside), beside, state);
+  };
+  snapping_.follow(state.environment);
+  const auto snap = snapping_.nearest(met, {view.camera, view.size, pixel, snap_px, sees});
+  if (snap) place = MeasurablePlace{snap->position, {}, snap->normals, snap->snap};
+  return place;
+}
+
+std::optional<MeasurablePlace> Model::measurableOpposite() const {
+  const auto normal = towardsOpposite(view.measuring);
+  if (!normal) return std::nullopt;
+  constexpr double kBefore_m = 0.03, kBeam_m = 0.03;  // where the beam leaves the face, and how wide it is for points
+  const ViewRay ray{view.measuring.points[0] + *normal * kBefore_m, *normal};
+  auto place = measurable(ray, {ray.origin, ray.direction, kBeam_m, 0}, viewState(), false);
+  if (!place) return std::nullopt;
+  place->normals = {-*normal};
+  return squared(view.measuring, *place);
 }
 
 std::optional<InspectedCloud> Model::wallCloud(std::string* why_not) const {

@@ -28,6 +28,8 @@
 #include "editor/inspect/panorama_view.h"
 #include "editor/inspect/point_colour.h"
 #include "editor/inspect/point_painter.h"
+#include "editor/inspect/point_picking.h"
+#include "editor/inspect/snapping.h"
 #include "editor/inspect/solved_poses.h"
 #include "editor/inspect/wall_view.h"
 #include "editor/labels/room_labels.h"
@@ -151,11 +153,10 @@ struct ViewportState {
   ColourBy points_by = ColourBy::natural;  // of the scan that is shown
   ScanPoses poses = ScanPoses::truth;
   Measuring measuring;
-  bool measurements = true;                    // kept ones are drawn
-  std::optional<Eigen::Vector3d> measured_at;  // under the pointer while a tool measures: of a cloud, or the model
-  std::string measured_cloud;                  // that it is a point of; "": of the model
-  Eigen::Vector2d measured_px{0, 0};           // where in the view the pointer is then
-  std::optional<Eigen::Vector2d> missed_px;    // where a click found nothing to measure, until the pointer is elsewhere
+  bool measurements = true;                  // kept ones are drawn
+  std::optional<MeasurablePlace> measured;   // under the pointer while a tool measures
+  Eigen::Vector2d measured_px{0, 0};         // where in the view the pointer is then
+  std::optional<Eigen::Vector2d> missed_px;  // where a click found nothing to measure, until the pointer is elsewhere
   bool dragging = false;
   Camera camera_before_drag;  // which Esc brings back
   bool dragged = false;
@@ -340,13 +341,14 @@ struct Model : Style {
   // Of the clouds that are shown, the files that are no longer there; looked for every other second.
   const std::vector<std::filesystem::path>& missingClouds() const { return missing_clouds_; }
   bool jobRuns() const;  // a bar moves
-  // The first point of the clouds that are shown, or place of the model, that the ray meets; within `reach_px` pixels
+  // The first point of the clouds that are shown, or place of the model, at this pixel of the view; within `reach_px`
   // of it for points.
-  struct MeasurablePlace {
-    Eigen::Vector3d position = Eigen::Vector3d::Zero();
-    std::string cloud;  // what lists call the one that it is a point of; "": it is of the model
-  };
-  std::optional<MeasurablePlace> measurableAt(const ViewRay& ray, double reach_px) const;
+  std::optional<MeasurablePlace> measurableAt(const Eigen::Vector2d& pixel, double reach_px) const;
+  // The same moved to a corner, an edge or a face seen edge-on within `snap_px`, where it is of the model, and with the
+  // normal of the plane around it, where it is of a cloud.
+  std::optional<MeasurablePlace> snappedAt(const Eigen::Vector2d& pixel, double reach_px, double snap_px);
+  // What is opposite the face that the first point of the measurement lies on, square to it.
+  std::optional<MeasurablePlace> measurableOpposite() const;
   // The cloud in which a wall is measured; null with the reason in `why_not`.
   std::optional<InspectedCloud> wallCloud(std::string* why_not = nullptr) const;
   void showPanorama(const InspectedCloud& cloud, std::optional<std::size_t> scan = {});
@@ -401,6 +403,11 @@ struct Model : Style {
   mutable std::shared_ptr<const InstrumentsUnderWay> under_way_;  // the same pointer as long as nothing of it changes
   Bounds shownScanBounds() const;
   std::optional<Camera> camera_before_preview_;
+  // The first that the ray meets, of points within the cone; `with_normal` costs a look at the points around it.
+  std::optional<MeasurablePlace> measurable(const ViewRay& ray, const SightCone& cone, const ViewState& state,
+                                            bool with_normal) const;
+  Snapping snapping_;
+
   CloudLoader cloud_loader_;
   std::shared_ptr<const Cloud> read_, cloud_;   // as its file has it, and as it is shown
   std::optional<ShownDifference> difference_;   // whose cloud may be read_

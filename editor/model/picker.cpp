@@ -11,14 +11,14 @@ constexpr double kFar_m = 1e6;
 constexpr int kMostHidden = 512;  // surfaces that a ray passes through before it gives up
 constexpr double kStep_m = 1e-4;
 
-bool shown(const RayHit& hit, const ViewState& view) {
-  if (view.cut_height_m && hit.position.z() > *view.cut_height_m) return false;
-  if (view.clip && !view.clip->contains(hit.position)) return false;
-  if (isDrawnApart(view, hit.product)) return false;  // one sees and points through doors that open
-  return !view.hidden || hit.product >= view.hidden->size() || (*view.hidden)[hit.product] == 0;
-}
-
 }  // namespace
+
+bool isShown(const ViewState& view, std::uint32_t product, const Eigen::Vector3d& place) {
+  if (view.cut_height_m && place.z() > *view.cut_height_m) return false;
+  if (view.clip && !view.clip->contains(place)) return false;
+  if (isDrawnApart(view, product)) return false;  // one sees and points through doors that open
+  return !view.hidden || product >= view.hidden->size() || (*view.hidden)[product] == 0;
+}
 
 void Picker::follow(const std::shared_ptr<const Environment>& environment, const std::function<void()>& wake) {
   if (environment == environment_) return;
@@ -42,7 +42,7 @@ std::optional<RayHit> firstShown(const RayScene& scene, const ViewRay& ray, cons
     auto hit = scene.intersect(ray.origin + ray.direction * travelled, ray.direction, kFar_m);
     if (!hit) return std::nullopt;
     hit->range_m += travelled;
-    if (shown(*hit, view)) return hit;
+    if (isShown(view, hit->product, hit->position)) return hit;
     travelled = hit->range_m + kStep_m;
   }
   return std::nullopt;

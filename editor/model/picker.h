@@ -12,6 +12,8 @@
 
 namespace standpoint {
 
+// Whether `view` shows this place of a product: it is neither hidden nor cut away.
+bool isShown(const ViewState& view, std::uint32_t product, const Eigen::Vector3d& place);
 // The first surface of the scene that `view` shows: what is hidden or cut away lets the ray through.
 std::optional<RayHit> firstShown(const RayScene& scene, const ViewRay& ray, const ViewState& view);
 

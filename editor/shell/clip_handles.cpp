@@ -90,14 +90,14 @@ void drawClip(Editor& editor, ImVec2 origin) {
 
 void clickSection(Editor& editor) {
   auto& view = editor.view;
-  if (!view.measured_at) return;
+  if (!view.measured) return;
   // On a cloud, by the face of the model that lies there; without one across the line of sight.
   constexpr double kSameWall_m = 0.15;
   Vector3d normal = view.camera.forward();
   normal.z() = 0;
   if (normal.norm() < 1e-6) normal = Vector3d::UnitX();
-  if (view.hover && (view.hover->position - *view.measured_at).norm() < kSameWall_m) normal = view.hover->normal;
-  editor.clipSection(*view.measured_at, normal.normalized());
+  if (view.hover && (view.hover->position - view.measured->position).norm() < kSameWall_m) normal = view.hover->normal;
+  editor.clipSection(view.measured->position, normal.normalized());
   view.tool = Tool::select;
 }
 

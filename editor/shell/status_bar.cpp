@@ -28,10 +28,10 @@ std::string placeText(const Eigen::Vector3d& place) {
 // What a tool measures there, else the product under the pointer.
 std::string hoverText(const Editor& editor) {
   const auto& view = editor.view;
-  if (measures(editor) && view.measured_at && !view.measured_cloud.empty())
-    return trf("Point of {}   {}", view.measured_cloud, placeText(*view.measured_at + editor.shift_m()));
+  if (measures(editor) && view.measured && !view.measured->cloud.empty())
+    return trf("Point of {}   {}", view.measured->cloud, placeText(view.measured->position + editor.shift_m()));
   const auto& hover = view.hover;
-  if (measures(editor) && (editor.cloud() || !view.measured_at)) return {};  // the model is not what is measured
+  if (measures(editor) && (editor.cloud() || !view.measured)) return {};  // the model is not what is measured
   if (!hover || !editor.environment() || hover->product >= editor.environment()->products.size()) return {};
   const auto& product = editor.environment()->products[hover->product];
   return fmt::format("{}   {}   {}", tr(readableClass(product.ifc_class)), productLabel(product),

@@ -62,7 +62,7 @@ void startDrag(Editor& editor, ImVec2 origin) {
   if (view.hover)
     under = view.hover->position;
   else if (editor.cloud() || !editor.session.document().hasModel())
-    if (const auto place = editor.measurableAt(rayThrough(view.camera, pointer(origin), view.size), kReach_px))
+    if (const auto place = editor.measurableAt(pointer(origin), kReach_px))
       under = place->position;
   view.pivot = under.value_or(view.camera.target);
   view.pivot_depth_m = std::max(0.1, (view.pivot - view.camera.eye()).dot(view.camera.forward()));
@@ -196,7 +196,7 @@ void handleMouse(Editor& editor, ImVec2 origin, bool hovered) {
   followInspectTools(editor, origin, hovered && !editor.preview.isOpen() && !editor.proof);
   if (!view.dragging && !editor.proof && aimTeleport(editor, hovered)) return;
   if (hovered && ImGui::IsMouseClicked(0)) view.refused_place.reset();
-  if (view.dragging && !view.dragged && ImGui::IsMouseReleased(0)) view.worst_place.reset();
+  if (view.dragging && !view.dragged && ImGui::IsMouseReleased(0) && !measures(editor)) view.worst_place.reset();
   if (hovered && !view.dragging && (ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2)))
     startDrag(editor, origin);
   if (view.dragging) continueDrag(editor);

@@ -19,7 +19,7 @@ MeasurementRow measurementRow(const Measurement& m, const Georeference& g) {
   MeasurementRow row{m.name, rowOf(m.kind).name, {}, m.points, m.note};
   for (auto& p : row.points) p += g.shift_m;
   for (const auto& f : figuresOf(m)) {
-    static constexpr std::array<const char*, 3> kSuffix = {"_m", "_deg", "_m2"};
+    static constexpr std::array<const char*, 4> kSuffix = {"_m", "_deg", "_m2", "_m"};
     const double value = f.unit == MeasuredUnit::radian ? f.value / kRadPerDeg : f.value;
     row.figures[f.key + std::string(kSuffix.at(static_cast<std::size_t>(f.unit)))] = value;
   }

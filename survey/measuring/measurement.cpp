@@ -131,7 +131,7 @@ std::vector<MeasuredFigure> figuresOf(const Measurement& measurement) {
       return {{"area", "Area", area.norm(), U::square_metre},
               {"plan_area", "Area in plan", std::abs(area.z()), U::square_metre},
               {"perimeter", "Perimeter", perimeter(p)},
-              {"out_of_plane", "Out of plane", farthest(p, fitted(p))}};
+              {"out_of_plane", "Out of plane", farthest(p, fitted(p)), U::millimetre}};
     }
     case MeasurementKind::plane: {
       const FittedPlane plane = fitted(p);
@@ -139,18 +139,23 @@ std::vector<MeasuredFigure> figuresOf(const Measurement& measurement) {
       const bool level = steep > std::numbers::pi / 4;
       return {{"tilt", level ? "Tilt from level" : "Tilt from plumb", level ? std::numbers::pi / 2 - steep : steep,
                U::radian},
-              {"sigma", "Sigma", sigma(p, plane)},
-              {"max", "Largest residual", farthest(p, plane)}};
+              {"sigma", "Sigma", sigma(p, plane), U::millimetre},
+              {"max", "Largest residual", farthest(p, plane), U::millimetre}};
     }
   }
   return {};
 }
 
 std::string figureText(const MeasuredFigure& figure) {
+  const auto written = [&](double value, int decimals, const char* unit) {
+    const double least = std::pow(10, -decimals) / 2;  // what would be written as -0
+    return fmt::format("{:.{}f}{}", std::abs(value) < least ? 0.0 : value, decimals, unit);
+  };
   switch (figure.unit) {
-    case MeasuredUnit::metre: return fmt::format("{:.4f} m", figure.value + 0.0);
-    case MeasuredUnit::radian: return fmt::format("{:.3f}°", figure.value / kRadPerDeg + 0.0);
-    case MeasuredUnit::square_metre: return fmt::format("{:.4f} m²", figure.value + 0.0);
+    case MeasuredUnit::metre: return written(figure.value, 3, " m");
+    case MeasuredUnit::millimetre: return written(figure.value * 1000, 1, " mm");
+    case MeasuredUnit::radian: return written(figure.value / kRadPerDeg, 2, "°");
+    case MeasuredUnit::square_metre: return written(figure.value, 2, " m²");
   }
   return {};
 }
@@ -181,7 +186,7 @@ std::string measurementText(const Measurement& measurement, const Vector3d& shif
   for (const auto& figure : figuresOf(measurement)) text += fmt::format("{}\t{}\n", figure.label, figureText(figure));
   for (std::size_t i = 0; i < measurement.points.size(); ++i) {
     const Vector3d at = measurement.points[i] + shift_m;
-    text += fmt::format("Point {}\t{:.4f}\t{:.4f}\t{:.4f}\n", i + 1, at.x(), at.y(), at.z());
+    text += fmt::format("Point {}\t{:.3f}\t{:.3f}\t{:.3f}\n", i + 1, at.x(), at.y(), at.z());
   }
   if (!measurement.note.empty()) text += measurement.note + "\n";
   return text;

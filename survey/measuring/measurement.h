@@ -37,8 +37,9 @@ struct MeasurementKindRow {
 std::span<const MeasurementKindRow> measurementKinds();
 const MeasurementKindRow& rowOf(MeasurementKind kind);
 
-// One result: a length in m, an angle in radians, an area in m².
-enum class MeasuredUnit { metre, radian, square_metre };
+// One result: a length in m, an angle in radians, an area in m². Lengths are written in m, and those that are small by
+// their nature, as residuals are, in mm.
+enum class MeasuredUnit { metre, radian, square_metre, millimetre };
 struct MeasuredFigure {
   const char* key;    // "horizontal": of answers
   const char* label;  // "Horizontal": for people
@@ -48,7 +49,7 @@ struct MeasuredFigure {
 
 // The result that the kind is named after first. Of a measurement that checkMeasurement has passed.
 std::vector<MeasuredFigure> figuresOf(const Measurement& measurement);
-std::string figureText(const MeasuredFigure& figure);  // "3.250 m", "90.00°", "12.50 m²"
+std::string figureText(const MeasuredFigure& figure);  // "3.250 m", "90.00°", "12.50 m²", "0.4 mm"
 
 // Why it cannot be measured: too few points or too many, points that coincide or lie on a line, edges of a polygon that
 // cross.

@@ -104,8 +104,8 @@ TEST_F(DrawnFigures, InATableForASpreadsheetHaveIt) {
   EXPECT_EQ(tableText(answer), "all\t12.5\nfile\ta1.5.e57\npoints\t7\n");
   speak("de");
   EXPECT_TRUE(copied().starts_with("1.01\tdistance\n")) << copied();
-  EXPECT_NE(copied().find("Distance\t1,0000 m\n"), std::string::npos) << copied();
-  EXPECT_NE(copied().find("Point 1\t101,0000\t2,0000\t-3,0000\n"), std::string::npos) << copied();
+  EXPECT_NE(copied().find("Distance\t1,000 m\n"), std::string::npos) << copied();
+  EXPECT_NE(copied().find("Point 1\t101,000\t2,000\t-3,000\n"), std::string::npos) << copied();
   EXPECT_EQ(tableText(answer), "all\t12,5\nfile\ta1.5.e57\npoints\t7\n");
 }
 

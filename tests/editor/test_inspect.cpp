@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -12,6 +13,7 @@
 #include "editor/inspect/panorama_view.h"
 #include "editor/inspect/point_colour.h"
 #include "editor/inspect/point_picking.h"
+#include "editor/inspect/snapping.h"
 #include "editor/inspect/solved_poses.h"
 #include "tests/project/support.h"
 
@@ -19,6 +21,7 @@ namespace standpoint {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(ColourScale, HasFiveToSevenRoundTicksWithinAnyScale) {
   for (std::uint32_t i = 0; i < 2000; ++i) {
@@ -325,6 +328,121 @@ TEST(Measuring, LeadsFromPointToPoint) {
   EXPECT_FALSE(isFull(m));
   EXPECT_THAT(hintOf(m), HasSubstr("Enter to finish"));
   EXPECT_TRUE(isFull({MeasurementKind::angle, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {}}));
+}
+
+MeasurablePlace onFace(const Eigen::Vector3d& at, const Eigen::Vector3d& normal, Snap snap = Snap::none) {
+  return {at, {}, {normal}, snap};
+}
+
+TEST(Measuring, IsSquareBetweenParallelFacesAndNowhereElse) {
+  using V = Eigen::Vector3d;
+  const auto begun = with(Measuring{}, onFace({1, 0, 1}, V::UnitY()));
+  const auto across = squared(begun, onFace({2.5, 4, 1.7}, -V::UnitY()));
+  EXPECT_TRUE(across.square);
+  EXPECT_EQ(across.position, V(1, 4, 1));
+  EXPECT_TRUE(with(begun, across).square);
+  EXPECT_FALSE(squared(begun, onFace({2.5, 4, 1.7}, V::UnitX())).square) << "not parallel";
+  EXPECT_FALSE(squared(begun, onFace({2.5, 0, 1.7}, V::UnitY())).square) << "along the same face";
+  EXPECT_EQ(squared(begun, onFace({2.5, 4, 1.7}, -V::UnitY(), Snap::corner)).position, V(2.5, 4, 1.7));
+  const auto height = with(Measuring{MeasurementKind::height, {}, {}}, onFace({1, 0, 1}, V::UnitY()));
+  EXPECT_FALSE(squared(height, onFace({2.5, 4, 1.7}, -V::UnitY())).square);
+}
+
+TEST(Measuring, OffersWhatIsOppositeOfOneFaceOnly) {
+  using V = Eigen::Vector3d;
+  EXPECT_FALSE(towardsOpposite({}));
+  const auto begun = with(Measuring{}, onFace({1, 0, 1}, V::UnitY()));
+  EXPECT_EQ(towardsOpposite(begun), V(V::UnitY()));
+  EXPECT_THAT(hintOf(begun), HasSubstr("Enter for the face opposite"));
+  const auto corner = with(Measuring{}, {{1, 0, 1}, {}, {V::UnitY(), V::UnitX()}, Snap::corner});
+  EXPECT_FALSE(towardsOpposite(corner));
+  EXPECT_THAT(hintOf(corner), Not(HasSubstr("Enter")));
+}
+
+TEST(PointPicking, FindsThePlaneAroundAPoint) {
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 20; ++i)
+    for (int k = 0; k < 20; ++k) {
+      const float u = 0.02F * static_cast<float>(i), v = 0.02F * static_cast<float>(k);
+      points.emplace_back(0.001F * static_cast<float>((i * 7 + k * 3) % 5 - 2), u, v);  // a wall, ±2 mm
+      points.emplace_back(1 + u, 5, v * 0);                                             // a wire
+    }
+  const PointPlaces places{points.front().data(), points.size(), 3};
+  const auto wall = normalAround(places, {0, 0.2, 0.2}, 0.1);
+  ASSERT_TRUE(wall);
+  EXPECT_GT(std::abs(wall->x()), 0.999);
+  EXPECT_FALSE(normalAround(places, {1.2, 5, 0}, 0.1)) << "points along a line";
+  EXPECT_FALSE(normalAround(places, {0, 3, 3}, 0.1)) << "no points";
+}
+
+// A room of 4 × 3 × 2.5 m within walls of 0.3 m, as one box in another, looked into from above.
+struct SnappedRoom {
+  SnappedRoom() {
+    const auto box = [this](const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+      Mesh mesh;
+      for (int i = 0; i < 8; ++i)
+        mesh.positions.emplace_back(static_cast<float>((i & 1 ? high : low).x()),
+                                    static_cast<float>((i & 2 ? high : low).y()),
+                                    static_cast<float>((i & 4 ? high : low).z()));
+      mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                        {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+      mesh.surface_of_triangle.assign(12, 0);
+      const auto index = static_cast<std::uint32_t>(environment->meshes.size());
+      environment->meshes.push_back(std::make_shared<const Mesh>(std::move(mesh)));
+      environment->products.emplace_back();
+      environment->instances.push_back({index, index, Eigen::Affine3d::Identity()});
+    };
+    environment->surfaces.emplace_back();
+    box({-0.3, -0.3, 0}, {0, 3.3, 2.5});  // west
+    box({4, -0.3, 0}, {4.3, 3.3, 2.5});   // east
+    box({-0.3, -0.3, -0.2}, {4.3, 3.3, 0});
+    snapping.follow(environment);
+    look(camera, StandardView::top);
+    camera.orthographic = true;
+    camera.target = {2, 1.5, 0};
+    camera.distance_m = 10;
+  }
+  std::optional<SnapPlace> at(const Eigen::Vector3d& floor) const {
+    const Eigen::Vector2d size(800, 600);
+    const SnapView view{camera, size, *project(camera, floor, size), 10,
+                        [](std::uint32_t, const Eigen::Vector3d&) { return true; }};
+    return snapping.nearest(std::array{floor}, view);
+  }
+  std::shared_ptr<Environment> environment = std::make_shared<Environment>();
+  Snapping snapping;
+  Camera camera;
+};
+
+TEST(Snapping, HoldsOnToTheFaceOfAWallInAPlan) {
+  const SnappedRoom room;
+  const auto west = room.at({0.05, 1.2, 0});
+  ASSERT_TRUE(west);
+  EXPECT_EQ(west->snap, Snap::face);
+  EXPECT_NEAR((west->position - Eigen::Vector3d(0, 1.2, 0)).norm(), 0, 1e-6);
+  ASSERT_EQ(west->normals.size(), 1u);
+  EXPECT_NEAR(west->normals[0].x(), 1, 1e-6) << "out of the wall";
+  EXPECT_FALSE(room.at({2, 1.5, 0})) << "nothing in reach";
+}
+
+TEST(Snapping, HoldsOnToCornersBeforeEdges) {
+  const SnappedRoom room;
+  const auto corner = room.at({4.04, -0.26, 0});
+  ASSERT_TRUE(corner);
+  EXPECT_EQ(corner->snap, Snap::corner);
+  EXPECT_NEAR((corner->position - Eigen::Vector3d(4, -0.3, 0)).head<2>().norm(), 0, 1e-6);
+}
+
+TEST(Snapping, HoldsOnToAnEdgeSeenFromTheSide) {
+  SnappedRoom room;
+  look(room.camera, StandardView::corner);
+  room.camera.orthographic = false;
+  room.camera.target = {4.15, 1.5, 2.5};
+  const auto edge = room.at({4.03, 1.5, 2.5});  // on the top of the wall, beside its rim
+  ASSERT_TRUE(edge);
+  EXPECT_EQ(edge->snap, Snap::edge);
+  EXPECT_NEAR(edge->position.x(), 4, 1e-6);
+  EXPECT_NEAR(edge->position.z(), 2.5, 1e-6);
+  EXPECT_EQ(edge->normals.size(), 2u);
 }
 
 TEST(InspectedClouds, AreTheScansNewestFirstThenTheUnderlays) {

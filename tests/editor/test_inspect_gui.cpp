@@ -63,13 +63,43 @@ TEST_F(Inspect, TwoClicksKeepADistanceInTheProjectAndUndoTakesItBack) {
   EXPECT_EQ(kept(), 0u);
 }
 
+TEST_F(Inspect, ADistanceInThePlanHoldsOnToBothWallsAndIsSquareToThem) {
+  gui.key('M');
+  clickAt({0.33, 4.8, 0});  // beside the west wall, whose inner face is at x = 0.3
+  clickAt({4.97, 5.1, 0});  // beside the partition, at x = 5
+  ASSERT_EQ(kept(), 1u);
+  EXPECT_NEAR(first(), 4.7, 1e-6);
+  EXPECT_EQ(editor.session.document().measurements->back().note, "Square to both faces");
+}
+
+TEST_F(Inspect, EnterMeasuresToTheFaceOpposite) {
+  gui.key('M');
+  clickAt({0.33, 4.8, 0});
+  EXPECT_TRUE(gui.says("press Enter for the face opposite"));
+  gui.key(kKeyEnter);
+  gui.settle();
+  ASSERT_EQ(kept(), 1u);
+  EXPECT_NEAR(first(), 4.7, 1e-6);
+}
+
+TEST_F(Inspect, CtrlMeasuresWhereThePointerIs) {
+  gui.key('M');
+  ImGui::GetIO().KeyCtrl = true;
+  clickAt({0.33, 4.8, 0});
+  clickAt({4.97, 5.1, 0});
+  ImGui::GetIO().KeyCtrl = false;
+  ASSERT_EQ(kept(), 1u);
+  EXPECT_NEAR(first(), std::hypot(4.64, 0.3), 0.02) << "by the pixel";
+  EXPECT_GT(std::abs(first() - 4.7), 1e-3);
+}
+
 TEST_F(Inspect, AClickBesideEverythingIsAnsweredWhereItWasMade) {
-  editor.view.camera.distance_m *= 2;  // the model is in the middle and nothing around it
+  editor.view.camera.distance_m *= 3;  // the model is in the middle and nothing around it
   const auto clickBeside = [&] {
     const auto* window = ImGui::FindWindowByName("###viewport");
     gui.moveTo({window->Pos.x + 12, window->Pos.y + 0.6F * window->Size.y});
     gui.frames(2);
-    ASSERT_FALSE(editor.view.measured_at);
+    ASSERT_FALSE(editor.view.measured);
     gui.press();
     gui.settle();
   };

@@ -303,7 +303,7 @@ TEST_F(Plan, WritesAMeasurementRatherThanTheNameOfTheRoomThatItLiesIn) {
   ASSERT_TRUE(editor.session.start(options));
   gui.settle();
   gui.frames(2);
-  EXPECT_TRUE(gui.says("1.0000 m"));
+  EXPECT_TRUE(gui.says("1.000 m"));
   EXPECT_FALSE(inView(label.name)) << "it would cover the figure";
 }
 

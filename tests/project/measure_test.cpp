@@ -24,7 +24,7 @@ TEST(Measure, AddsAMeasurementInTheFrameOfTheFileAndKeepsItInTheLocalOne) {
   EXPECT_EQ(m.points[0], Eigen::Vector3d(1, 1, 0));
   EXPECT_NEAR(done->answer["placed"]["figures"]["distance_m"].get<double>(), 5, 1e-9);
   EXPECT_EQ(done->answer["placed"]["points"][1][0].get<double>(), 500004);
-  EXPECT_EQ(done->description, "Measured distance M1: 5.0000 m");
+  EXPECT_EQ(done->description, "Measured distance M1: 5.000 m");
 }
 
 TEST(Measure, StatesAnglesInDegrees) {

@@ -80,10 +80,18 @@ TEST(Measurement, IsRefusedWithTheReason) {
   EXPECT_EQ(why(MeasurementKind::area, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}), "");
 }
 
+TEST(Measurement, IsWrittenToTheMillimetreAndResidualsToItsTenth) {
+  EXPECT_EQ(figureText({"", "", 3.25049}), "3.250 m");
+  EXPECT_EQ(figureText({"", "", -0.0002}), "0.000 m") << "never -0.000";
+  EXPECT_EQ(figureText({"", "", 0.00044, MeasuredUnit::millimetre}), "0.4 mm");
+  EXPECT_EQ(figureText({"", "", std::numbers::pi / 2, MeasuredUnit::radian}), "90.00°");
+  EXPECT_EQ(figureText({"", "", 12.504, MeasuredUnit::square_metre}), "12.50 m²");
+}
+
 TEST(Measurement, IsCopiedAsTextInTheFrameOfTheFile) {
   const auto text = measurementText(made(MeasurementKind::distance, {{1, 2, 3}, {1, 2, 4}}), {100, 0, 0});
-  EXPECT_THAT(text, HasSubstr("Distance\t1.0000 m"));
-  EXPECT_THAT(text, HasSubstr("Point 1\t101.0000\t2.0000\t3.0000"));
+  EXPECT_THAT(text, HasSubstr("Distance\t1.000 m"));
+  EXPECT_THAT(text, HasSubstr("Point 1\t101.000\t2.000\t3.000"));
 }
 
 }  // namespace
