@@ -26,7 +26,7 @@ std::string hintOf(const Measuring& measuring) {
       return there == 0                    ? "Click where the distance begins   Ctrl not to snap   Esc to leave"
              : !towardsOpposite(measuring) ? "Click where the distance ends   Ctrl not to snap   Esc to start over"
                                            : "Click where the distance ends, or press Enter for the face opposite   "
-                                             "Ctrl not to snap   Esc to start over";
+                                             "Esc to start over";
     case MeasurementKind::height:
       return there == 0 ? "Click the first point   Esc to leave"
                         : "Click the point whose height above it you want   Esc to start over";

@@ -14,11 +14,12 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kWeld_m = 1e-4;        // corners of triangles that are one
-constexpr double kFlat = 0.98;          // cosine between the faces of an edge that counts as none
-constexpr double kEdgeOn = 0.12;        // cosine between a normal and the line of sight
-constexpr double kAlong = 1e-8;         // squared sine of the angle to a line of sight that an edge goes along
-constexpr double kFaceFirst_px = 2;     // a face seen edge-on goes before its own rim by so much
+constexpr double kWeld_m = 1e-4;  // corners of triangles that are one
+constexpr double kFlat = 0.98;    // cosine between the faces of an edge that counts as none
+constexpr double kEdgeOn = 0.12;  // cosine between a normal and the line of sight
+constexpr double kAlong = 1e-8;   // squared sine of the angle to a line of sight that an edge goes along
+// How much farther from the pointer what is listed may be to go before an edge.
+constexpr double kCorner_px = 4, kFace_px = 2;
 constexpr std::size_t kMost = 100'000;  // triangles that are looked at: beyond, nothing is snapped to
 
 struct NearTriangle {
@@ -200,16 +201,14 @@ std::optional<SnapPlace> Snapping::nearest(std::span<const Vector3d> met, const 
     }
   }
   const auto edges = edgesOf(near);
-  Best corner{view, view.reach_px + 1e-9, {}};
-  for (const auto& c : cornersOf(edges)) corner.offer(c.at, c.product, Snap::corner, c.normals);
-  if (corner.place) return corner.place;
   const ViewRay line = rayThrough(view.camera, view.pointer_px, view.size_px);
   Best best{view, view.reach_px + 1e-9, {}};
+  for (const auto& c : cornersOf(edges)) best.offer(c.at, c.product, Snap::corner, c.normals, kCorner_px);
   for (const auto& edge : edges)
     best.offer(nearestOnSegment(edge.a, edge.b, line, met.front()), edge.product, Snap::edge, edge.normals);
   for (const auto& t : near)
     if (std::abs(t.normal.dot(line.direction)) < kEdgeOn)
-      best.offer(nearestOnTriangle(t, met.front()), t.product, Snap::face, {t.normal}, kFaceFirst_px);
+      best.offer(nearestOnTriangle(t, met.front()), t.product, Snap::face, {t.normal}, kFace_px);
   return best.place;
 }
 

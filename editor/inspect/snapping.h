@@ -37,8 +37,8 @@ struct SnapView {
 class Snapping {
  public:
   void follow(std::shared_ptr<const Environment> environment);
-  // `met`: what rays through the pointer and around it have met, local frame. A corner in reach goes before what is
-  // nearest of edges and faces; nothing where none is in reach.
+  // `met`: what rays through the pointer and around it have met, local frame. What is nearest in pixels, where a corner
+  // may be a little farther than a face seen edge-on, and that than an edge; nothing where none is in reach.
   std::optional<SnapPlace> nearest(std::span<const Eigen::Vector3d> met, const SnapView& view) const;
 
  private:
