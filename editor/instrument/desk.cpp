@@ -295,7 +295,10 @@ void advance(InstrumentDesk& desk, Editor& editor) {
     showInScene(desk, editor);
   else
     editor.wake();
-  if (const auto view = desk.shown()->takeView()) editor.showClouds({view->file});
+  if (const auto view = desk.shown()->takeView()) {
+    editor.showClouds({view->file});
+    editor.points_sought = true;
+  }
   if (!desk.view.texture)
     desk.view.texture = [&desk, &editor](const std::shared_ptr<const ScanPreview>& preview) -> std::uint64_t {
       if (editor.scene == nullptr || !preview) return 0;

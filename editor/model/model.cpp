@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "editor/model/points_in_sight.h"
 #include "editor/model/station_steps.h"
 #include "editor/model/trajectory_steps.h"
 #include "editor/model/walk_recording_steps.h"
@@ -157,6 +158,7 @@ void Model::followLiveScan() {
   const auto scan =
       std::find_if(finished.begin(), finished.end(), [](const FinishedTask& t) { return t.verb == "scan"; });
   if (scan == finished.end() || !scan->ok || cloud_->points.empty()) return show(nullptr);  // back to the model
+  bringPointsIntoView(*this);
   // What was seen of it as it came is an even part: all of it takes its place.
   std::error_code ignored;
   if (std::filesystem::is_regular_file(live_file_, ignored)) cloud_loader_.start({live_file_}, shift_m(), wake);
@@ -174,6 +176,7 @@ void Model::followCloud() {
           {cloud_ ? "Cannot display all of the scan" : "Cannot display the scan", read->error()});
   }
   followPoses();
+  if (cloud_ && !live_ && std::exchange(points_sought, false)) bringPointsIntoView(*this);
   lookForClouds();
 }
 

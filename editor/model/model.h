@@ -269,6 +269,7 @@ struct Model : Style {
   SurveyChoice survey;
   std::string survey_wanted;      // the station of this name, as soon as it is there
   std::string trajectory_wanted;  // likewise
+  bool points_sought = false;     // those that are shown next are to be in sight
   bool inspect_wanted = false;    // what was chosen there is to be seen in the Inspector
   bool rename_wanted = false;     // the field of the chosen one's name is to be edited
   bool typing_wanted = false;     // the numbers of a new station are to be edited

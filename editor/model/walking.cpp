@@ -319,6 +319,7 @@ void goBackInViews(Model& model) {
     stopWalking(model);
   model.view.camera = view->camera;
   model.visibility.cut_height_m = view->cut_height_m;
+  model.points_sought = false;
   if (!view->clouds.empty()) model.showClouds(view->clouds);
 }
 

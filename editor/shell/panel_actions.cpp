@@ -90,7 +90,10 @@ void PanelActions::showReflectanceAt(double wavelength_nm) { editor_.view.wavele
 void PanelActions::showWalkable(bool shown) { editor_.view.walkable = shown; }
 void PanelActions::showShapes(bool shown) { editor_.view.shapes = shown; }
 
-void PanelActions::showScans(const std::vector<std::filesystem::path>& files) { editor_.showClouds(files); }
+void PanelActions::showScans(const std::vector<std::filesystem::path>& files) {
+  editor_.showClouds(files);
+  editor_.points_sought = !files.empty();
+}
 void PanelActions::showDifference(const CloudDistances& distances, const Pose& local_from_cloud) {
   editor_.showDifference(distances, local_from_cloud);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cstdlib>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,8 +10,10 @@
 #include "demo_verbs.h"
 #include "editor/clouds/live_cloud.h"
 #include "editor/desktop/user_folders.h"
+#include "editor/model/points_in_sight.h"
 #include "editor/model/scan_form.h"
 #include "editor/model/scan_outlook.h"
+#include "editor/model/walking.h"
 #include "editor/panels/scan_panel.h"
 #include "editor/widgets/keyboard.h"
 #include "item_probe.h"
@@ -300,6 +303,64 @@ TEST_F(ScanPanel, ScansWithWhatIsSetAndTheDocumentRemembersIt) {
   editor.session.undo();
   gui.settle();
   EXPECT_FALSE(editor.cloud()) << "a scan that is undone is not shown";
+}
+
+// Of a cloud around the origin of the local frame.
+double shareInView(const Editor& editor) {
+  return shareWithPoints(*editor.cloud(), editor.view.camera, editor.view.size, [&](const Eigen::Vector3d& p) {
+    return p.z() <= editor.visibility.cut_height_m.value_or(1e9);
+  });
+}
+
+TEST_F(ScanPanel, TakesTheCameraToPointsThatItWouldNotSeeAndLeavesItWhereItSeesThem) {
+  const TemporaryFolder folder;
+  editor.panels.of<ScanState>().folder = folder.path().string();
+  editor.panels.of<ScanState>().all_stations = false;
+  editor.survey.station = 0;
+  chooseInstrument(asked(), *editor.instrument("faro-focus-s350"));
+  for (auto& [key, value] : asked().settings)
+    if (key == "resolution" || key == "quality") value = key == "quality" ? "4x" : "1/32";
+  const auto scanFrom = [&](const Camera& camera) {
+    editor.wanted_tab[1] = "scan";
+    gui.frames(2);
+    editor.view.camera = camera;
+    EXPECT_TRUE(gui.click("###run-scan"));
+    gui.settle();
+    EXPECT_TRUE(editor.cloud());
+  };
+  Camera away;  // in front of the house, with its back to it
+  away.target = editor.buildingBounds().min - Eigen::Vector3d(0, 20, 0);
+  away.azimuth_rad = std::numbers::pi;
+  away.elevation_rad = 0;
+  away.distance_m = 1;
+  scanFrom(away);
+  EXPECT_FALSE(editor.view.camera == away);
+  EXPECT_GT(shareInView(editor), 0.1);
+  ASSERT_TRUE(editor.visibility.cut_height_m) << "the ceiling would hide the room";
+  const auto& station = editor.session.document().job->stations[0];
+  EXPECT_LT(*editor.visibility.cut_height_m, station.true_pose.translation.z());
+  const Camera seen = editor.view.camera;
+  goBackInViews(editor);
+  EXPECT_EQ(editor.view.camera, away);
+  EXPECT_FALSE(editor.visibility.cut_height_m);
+  editor.showClouds({});
+  editor.visibility.cut_height_m = station.true_pose.translation.z() - 0.3;
+  scanFrom(seen);
+  EXPECT_EQ(editor.view.camera, seen) << "it sees them already";
+  EXPECT_TRUE(editor.views.empty());
+}
+
+TEST(PointsInSight, LeavesOutTheFewThatWereMetFarAway) {
+  Cloud cloud;
+  for (int i = 0; i < 1000; ++i)
+    cloud.points.emplace_back().position_m = {static_cast<float>(i % 10), static_cast<float>(i / 10 % 10),
+                                              static_cast<float>(i / 100)};
+  for (int i = 0; i < 20; ++i) cloud.points.emplace_back().position_m = {500, 0, 0};
+  const auto all = [](const Eigen::Vector3d&) { return true; };
+  EXPECT_LT(boundsOfMost(cloud, all).max.x(), 10);
+  EXPECT_GT(boundsOfMost(cloud, all).max.x(), 8);
+  EXPECT_EQ(boundsOfMost(cloud, [](const Eigen::Vector3d& p) { return p.x() > 100; }).min.x(), 500);
+  EXPECT_TRUE(boundsOfMost(cloud, [](const Eigen::Vector3d&) { return false; }).empty());
 }
 
 PointBlock pointsAlongX(int from, int count) {
