@@ -43,6 +43,7 @@ struct VerbDialogState {
   OptionForm form;
   nlohmann::json begun_with;  // the options when it was opened
   bool exports = false;       // the model or points, which the dialog lets one choose between
+  float form_height = 0;      // as it was drawn last, in points of the screen
 };
 
 struct PaletteState {

@@ -65,6 +65,10 @@ bool isText(ParameterKind kind) {
 }
 
 std::string problemOf(const OptionField& field) {
+  if (!field.kinds.empty() && !field.text.empty() && kindOf(field.kinds, field.text) == nullptr) {
+    const auto extension = std::filesystem::path(field.text).extension().string();
+    return extension.empty() ? tr("Choose a format") : trf("No format has the ending '{}'", extension);
+  }
   const auto& p = *field.parameter;
   const std::string name = tr(optionLabel(p));
   if (p.required && isText(p.kind) && field.text.empty()) return trf("{} is missing", name);
@@ -146,6 +150,14 @@ OptionField* OptionForm::find(const char* name) {
   return found == fields_.end() ? nullptr : &*found;
 }
 
+bool OptionForm::offers(const OptionField& field) const {
+  return field.shown && std::none_of(fields_.begin(), fields_.end(), [&](const OptionField& written) {
+           const auto* kind = kindOf(written.kinds, written.text);
+           return kind != nullptr && std::find(kind->unknown_options.begin(), kind->unknown_options.end(),
+                                               field.parameter->name) != kind->unknown_options.end();
+         });
+}
+
 void OptionForm::fill(const json& options) {
   for (const auto& [key, value] : options.items())
     if (auto* field = find(key.c_str())) {
@@ -157,7 +169,7 @@ void OptionForm::fill(const json& options) {
 json OptionForm::options() const {
   json result = json::object();
   for (const auto& field : fields_) {
-    if (!field.given) continue;
+    if (!field.given || !offers(field)) continue;
     if (isText(field.parameter->kind) && field.text.empty()) continue;
     if (field.parameter->kind == ParameterKind::flag && !field.flag) continue;
     result[field.parameter->name] = valueOf(field);
@@ -167,7 +179,8 @@ json OptionForm::options() const {
 
 std::string OptionForm::problem() const {
   for (const auto& field : fields_)
-    if (auto wrong = problemOf(field); !wrong.empty()) return wrong;
+    if (offers(field))
+      if (auto wrong = problemOf(field); !wrong.empty()) return wrong;
   return {};
 }
 

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "editor/model/file_kinds.h"
 #include "project/verb.h"
 
 namespace standpoint {
@@ -20,6 +22,7 @@ struct OptionField {
   double number = 0;  // number, integer
   bool flag = false;
   std::array<double, 3> triple = {0, 0, 0};
+  std::span<const FileKind> kinds = {};  // of a file that is written; none: its ending is not chosen from a list
 };
 
 class OptionForm {
@@ -29,6 +32,8 @@ class OptionForm {
 
   std::vector<OptionField>& fields() { return fields_; }
   OptionField* find(const char* name);
+  // It is shown, and the format of the file that is written has a place for it. What is not offered is not sent.
+  bool offers(const OptionField& field) const;
   void fill(const nlohmann::json& options);  // sets what it names, leaves the rest
   nlohmann::json options() const;
   // "" when it can be run, else the first thing that is missing or wrong.

@@ -301,23 +301,22 @@ void askToLocate(Editor& editor, const std::filesystem::path& missing) {
 
 namespace {
 
-// Where nothing is yet, so that whoever agrees writes over nothing; empty where there is no such folder.
-std::string freeFile(const Editor& editor, const std::string& name, const std::string& extension) {
+// Where nothing is yet; empty where there is no such folder.
+std::string freeFileNamed(const Editor& editor, const std::string& name, const std::string& extension) {
   const auto& project = editor.session.folder();
   std::error_code unreadable;
   std::filesystem::path folder = editor.settings.last_folder;
   if (!project.empty()) folder = project.parent_path();
   if (folder.empty()) folder = std::filesystem::current_path(unreadable);
   if (!std::filesystem::is_directory(folder, unreadable)) return {};
-  std::filesystem::path file = folder / (name + extension);
-  for (int n = 2; std::filesystem::exists(file, unreadable); ++n)
-    file = folder / fmt::format("{} {}{}", name, n, extension);
-  return file.string();
+  return freeFile(folder / (name + extension)).string();
 }
 
 void fillExport(Editor& editor, const nlohmann::json& options) {
   auto& state = editor.dialogs.verb;
   state.form.fill(options);
+  if (auto* written = state.form.find("output")) written->kinds = modelKinds();
+  if (auto* written = state.form.find("out")) written->kinds = pointKinds();
   state.begun_with = state.form.options();
   state.exports = true;
 }
@@ -326,7 +325,7 @@ void fillExport(Editor& editor, const nlohmann::json& options) {
 
 void askForExport(Editor& editor) {
   openVerbForm(editor, "export");
-  fillExport(editor, {{"output", freeFile(editor, editor.session.name(), ".glb")}});
+  fillExport(editor, {{"output", freeFileNamed(editor, editor.session.name(), ".glb")}});
 }
 
 std::string whyNoPointsExport(const Editor& editor) {
@@ -346,7 +345,7 @@ void askForPointsExport(Editor& editor, const std::filesystem::path& cloud) {
   const auto& job = editor.session.document().job;
   if (!job || job->trajectories.empty())  // nothing was placed by one
     for (const char* moved : {"from-trajectory", "to-trajectory"}) editor.dialogs.verb.form.find(moved)->shown = false;
-  fillExport(editor, {{"in", file.string()}, {"out", freeFile(editor, file.stem().string() + " points", ".e57")}});
+  fillExport(editor, {{"in", file.string()}, {"out", freeFileNamed(editor, file.stem().string() + " points", ".e57")}});
 }
 
 void askWhereToSave(Editor& editor) {

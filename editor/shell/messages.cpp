@@ -326,9 +326,9 @@ void chooseExport(Editor& editor) {
     ImGui::EndDisabled();
     ui::tooltip(why);
   };
-  choice("Model (glTF, OBJ, HELIOS++)###export-model", !points, editor.session.whyNot("export"), askForExport);
+  choice("Model###export-model", !points, editor.session.whyNot("export"), askForExport);
   ImGui::SameLine(0, editor.px(16));
-  choice("Points of a scan (E57, LAS, PTX, PLY, …)###export-points", points, whyNoPointsExport(editor),
+  choice("Points of a scan###export-points", points, whyNoPointsExport(editor),
          [](Editor& e) { askForPointsExport(e); });
   ui::gap(editor);
 }
@@ -344,9 +344,11 @@ void drawVerbDialog(Editor& editor) {
                             "###verb-dialog";
   if (!ui::beginModal(editor, title.c_str(), state.open && verb != nullptr, 560)) return;
   if (state.exports) chooseExport(editor);
-  const float height = editor.px(state.exports ? 270 : 420);
-  ImGui::BeginChild("form", {0, std::min(height, ImGui::GetIO().DisplaySize.y * 0.6F)});
+  // As high as what is in it, and scrolled where that is more than fits.
+  const float most = std::min(editor.px(420), ImGui::GetIO().DisplaySize.y * 0.6F);
+  ImGui::BeginChild("form", {0, state.form_height > 0 ? std::min(state.form_height, most) : most});
   drawOptionForm(editor, state.form);
+  state.form_height = ImGui::GetCursorPosY();
   ImGui::EndChild();
   const bool edited = state.form.options() != state.begun_with;
   std::string why = editor.session.whyNot(state.verb);

@@ -15,6 +15,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/sentences.h"
 #include "editor/words/words.h"
 
 namespace standpoint {
@@ -31,10 +32,15 @@ void drawNumber(OptionField& field) {
                    .step = whole ? 1.0 : 0.0});
 }
 
+// Units and axes stay as they are.
+std::string readableChoice(const std::string& choice) {
+  return choice.size() > 2 ? tr(readableOption(choice.c_str())) : choice;
+}
+
 void drawChoice(OptionField& field) {
-  if (!ui::beginDropDown("###value", field.text.c_str())) return;
+  if (!ui::beginDropDown("###value", readableChoice(field.text).c_str())) return;
   for (const char* choice : field.parameter->choices)
-    if (ui::choice(choice, field.text == choice)) field.text = choice;
+    if (ui::choice((readableChoice(choice) + "###" + choice).c_str(), field.text == choice)) field.text = choice;
   ui::endDropDown();
 }
 
@@ -48,8 +54,12 @@ void browse(Editor& editor, const OptionField& field) {
   askForFile(editor, purpose, optionLabel(*field.parameter), "Choose", {},
              std::filesystem::path(field.text).filename().string(),
              [&editor, name](const std::filesystem::path& chosen) {
-               if (auto* again = editor.dialogs.verb.form.find(name.c_str()))
-                 again->text = chosen.string(), again->given = true;
+               if (auto* again = editor.dialogs.verb.form.find(name.c_str())) {
+                 const auto* kind = kindOf(again->kinds, again->text);
+                 const bool bare = kind != nullptr && !chosen.has_extension();
+                 again->text = bare ? chosen.string() + kind->extension : chosen.string();
+                 again->given = true;
+               }
                editor.dialogs.verb.open = true;
              });
   editor.dialogs.file.cancelled = [&editor] { editor.dialogs.verb.open = true; };
@@ -60,6 +70,19 @@ void drawPath(Editor& editor, OptionField& field) {
   ImGui::InputText("###value", &field.text);
   ImGui::SameLine();
   browse(editor, field);
+}
+
+// By the file's ending, which follows what is chosen.
+void drawFormat(OptionField& field) {
+  const auto* kind = kindOf(field.kinds, field.text);
+  const auto label = [](const FileKind& k) { return fmt::format("{} ({})", tr(k.label), k.extension); };
+  ui::propertyLabel("Format");
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  if (!ui::beginDropDown("###format", kind != nullptr ? label(*kind).c_str() : tr("Choose a format").c_str())) return;
+  for (const auto& offered : field.kinds)
+    if (ui::choice((label(offered) + "###" + offered.extension).c_str(), kind == &offered))
+      field.text = withKind(field.kinds, offered, field.text).string();
+  ui::endDropDown();
 }
 
 struct CloudFile {
@@ -138,9 +161,10 @@ void drawValue(Editor& editor, OptionField& field) {
 void drawOptionForm(Editor& editor, OptionForm& form) {
   if (!ui::beginProperties("options", 0.34F)) return;
   for (auto& field : form.fields()) {
-    if (!field.shown) continue;
+    if (!form.offers(field)) continue;
     const auto& p = *field.parameter;
     ImGui::PushID(p.name);
+    if (!field.kinds.empty()) drawFormat(field);
     ui::propertyLabel(optionLabel(p).c_str());
     ui::tooltip(termsOf(p));
     const bool optional = !p.required && p.default_value.is_null() && p.kind != ParameterKind::flag;
@@ -155,7 +179,11 @@ void drawOptionForm(Editor& editor, OptionForm& form) {
     drawValue(editor, field);
     ImGui::EndDisabled();
     if (editor.fonts.small != nullptr) ImGui::PushFont(editor.fonts.small);
-    ui::dimWrapped(p.help);
+    const auto* kind = kindOf(field.kinds, field.text);
+    if (kind != nullptr)
+      ui::dimWrapped(kind->note);
+    else
+      ui::dimWrapped(shownSentence(p.help));
     if (editor.fonts.small != nullptr) ImGui::PopFont();
     ImGui::PopID();
   }

@@ -154,16 +154,39 @@ void printReportsAsSpoken() {
       [] { return std::string(spoken()); }, [](std::string_view english) { return said(english, Sign::point).text; }}));
 }
 
+namespace {
+
+// The first letter, Latin or Cyrillic, in UTF-8.
+void capitalise(std::string& text) {
+  const auto first = static_cast<unsigned char>(text[0]);
+  if (first < 0x80 || text.size() < 2) {
+    text[0] = static_cast<char>(std::toupper(first));
+    return;
+  }
+  const auto become = [&](int lead, int last) { text[0] = static_cast<char>(lead), text[1] = static_cast<char>(last); };
+  const int second = static_cast<unsigned char>(text[1]);
+  if (first == 0xC3 && second >= 0xA0 && second != 0xB7 && second != 0xBF) become(0xC3, second - 0x20);  // ä
+  if (first == 0xD0 && second >= 0xB0) become(0xD0, second - 0x20);                                      // а to п
+  if (first == 0xD1 && second < 0x90) become(0xD0, second + 0x20);                                       // р to я
+  if (first == 0xD1 && second >= 0x90 && second < 0xA0) become(0xD0, second - 0x10);                     // і, ї, є
+  if (first == 0xD2 && second == 0x91) become(0xD2, 0x90);                                               // ґ
+}
+
+}  // namespace
+
 std::string shownSentence(std::string_view english) {
   Said shown = said(english, Sign::of_language);
   std::string text = std::move(shown.text);
   if (shown.name_first) return text;
   const auto word = text.substr(0, text.find(' '));
-  const auto isLetter = [](unsigned char c) { return std::isalpha(c) != 0 || c == '-'; };
+  // Not "glTF", either.
+  const auto isPlain = [](unsigned char c) {
+    return (std::isalpha(c) != 0 && std::isupper(c) == 0) || c == '-' || c >= 0x80;
+  };
   const auto letters = word.ends_with(':') || word.ends_with(',') ? word.size() - 1 : word.size();
   const bool plain = letters > 0 && text[0] != '-' &&
-                     std::all_of(word.begin(), word.begin() + static_cast<std::ptrdiff_t>(letters), isLetter);
-  if (plain) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+                     std::all_of(word.begin(), word.begin() + static_cast<std::ptrdiff_t>(letters), isPlain);
+  if (plain) capitalise(text);
   return text;
 }
 

@@ -108,10 +108,11 @@ const Fields<CleanOptions>& cleanFields() {
   using O = CleanOptions;
   static const std::string filters =
       "filters in this order, NAME or NAME:KEY=VALUE,…, in metres and degrees: " + filterList();
-  static const Fields<O> fields = {{"in", &O::in, "cloud to read", {.positional = true, .required = true}},
-                                   {"output", &O::output, "cloud to write", {.required = true}},
-                                   {"filters", &O::filters, filters.c_str(), {.required = true}},
-                                   {"report", &O::report, "file for the figures of each filter (.json, .csv)"}};
+  static const Fields<O> fields = {
+      {"in", &O::in, "scan or point cloud", {.positional = true, .required = true, .label = "Points"}},
+      {"output", &O::output, "file to write, in the format of its ending", {.required = true, .label = "File"}},
+      {"filters", &O::filters, filters.c_str(), {.required = true}},
+      {"report", &O::report, "file for the figures of each filter (.json, .csv)"}};
   return fields;
 }
 

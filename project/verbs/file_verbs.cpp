@@ -135,10 +135,10 @@ const Fields<ConvertOptions>& convertFields() {
   std::vector<const char*> sets;
   for (const auto& set : datasets()) sets.push_back(set.name);
   static const Fields<O> fields = {
-      {"in", &O::in, "cloud to read", {.positional = true, .required = true, .label = "Points"}},
+      {"in", &O::in, "scan or point cloud", {.positional = true, .required = true, .label = "Points"}},
       {"out",
        &O::out,
-       "cloud to write: .e57, .ptx and .las hold all scans; of .ply, .pcd, .pts, .xyz and .csv each scan gets its own "
+       "file to write: .e57, .ptx and .las hold all scans; of .ply, .pcd, .pts, .xyz and .csv each scan gets its own "
        "file",
        {.positional = true, .required = true, .label = "File"}},
       {"as",

@@ -119,9 +119,11 @@ TEST_F(Dialogs, NamesWhatTheExportWritesPlainlyAndSaysWhyThereAreNoPoints) {
     return std::any_of(itemProbe().texts.begin(), itemProbe().texts.end(),
                        [&](const auto& t) { return t.find(text) != std::string::npos; });
   };
-  EXPECT_TRUE(drawn("Assigned materials"));
   EXPECT_TRUE(drawn("Simpler versions"));
+  EXPECT_TRUE(drawn("Collision shapes"));
+  EXPECT_FALSE(drawn("Assigned materials")) << "this format has them always";
   EXPECT_FALSE(drawn("Physical"));
+  EXPECT_FALSE(drawn("file to write")) << "as the command line says it";
   EXPECT_FALSE(drawn("MSFT_lod")) << "in the tooltip only";
   ASSERT_NE(gui.find("###export-points"), nullptr);
   EXPECT_EQ(whyNot(*findAction("export-points"), Editor(verbsWithDemo(), [] {})), "Scan first, or add a point cloud");
@@ -144,6 +146,49 @@ TEST_F(Dialogs, ExportsUnderTheProjectsNameWhereNothingIsYet) {
   EXPECT_EQ(first, folder.path() / (editor.session.name() + ".glb"));
   std::ofstream(first) << "somebody's";
   EXPECT_NE(offered(), first);
+}
+
+TEST_F(Dialogs, ChoosesTheFormatOfAnExportFromAListThatTheEndingFollows) {
+  open();
+  const TemporaryFolder folder;
+  editor.settings.last_folder = folder.path().string();
+  ASSERT_TRUE(invoke(editor, "export"));
+  gui.frames(3);
+  auto& form = editor.dialogs.verb.form;
+  const std::string first = form.find("output")->text;
+  const auto stem = std::filesystem::path(first).stem().string();
+  std::ofstream(folder / (stem + ".obj")) << "somebody's";
+  ASSERT_TRUE(gui.click("###format"));
+  gui.frames(2);
+  ASSERT_TRUE(gui.click("###.obj"));
+  gui.frames(2);
+  EXPECT_EQ(form.find("output")->text, (folder / (stem + " 2.obj")).string()) << "over nothing that is there";
+  EXPECT_TRUE(form.offers(*form.find("physical")));
+  EXPECT_FALSE(form.offers(*form.find("collision")));
+  EXPECT_TRUE(gui.says("Assigned materials"));
+  form.find("output")->text = first + "x";
+  EXPECT_TRUE(gui.says("No format has the ending '.glbx'"));
+  EXPECT_TRUE(gui.find("###run")->disabled);
+  form.find("output")->text = (folder / "HOUSE.IFC").string();
+  gui.frames(2);
+  EXPECT_TRUE(gui.says("IFC (.ifc)")) << "a typed ending chooses its format";
+  EXPECT_FALSE(gui.find("###run")->disabled);
+}
+
+TEST_F(Dialogs, LeavesNoGapBelowAShortForm) {
+  open();
+  for (const char* verb : {"export", "info"}) {
+    openVerbForm(editor, verb);
+    gui.frames(4);
+    float lowest = 0;
+    for (const auto& item : itemProbe().items)
+      if (item.window.find("form") != std::string::npos) lowest = std::max(lowest, item.rect.Max.y);
+    ASSERT_NE(gui.find("###run"), nullptr);
+    ASSERT_GT(lowest, 0);
+    EXPECT_LT(gui.find("###run")->rect.Min.y - lowest, editor.px(60)) << verb;
+    editor.dialogs.verb.open = false;
+    gui.frames(2);
+  }
 }
 
 TEST_F(Dialogs, PreferencesSayWhatScansOfUnsavedProjectsTake) {

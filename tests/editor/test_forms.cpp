@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "editor/model/option_form.h"
+#include "pointclouds/formats.h"
 #include "project/verb.h"
 
 namespace standpoint {
@@ -45,6 +47,42 @@ TEST(OptionForm, SplitsLinesIntoAListAndRefusesPairsWithoutEqualsSign) {
 TEST(OptionForm, NamesWhatIsMissing) {
   const OptionForm form(*findVerb(verbs(), "export"));
   EXPECT_EQ(form.problem(), "File is missing");
+}
+
+TEST(FileKinds, AreThoseThatTheVerbsWrite) {
+  std::vector<std::string> written, offered;
+  for (const auto& format : cloudFormats())
+    if (format.writer != nullptr) written.emplace_back(format.extension);
+  for (const auto& kind : pointKinds()) offered.emplace_back(kind.extension);
+  EXPECT_THAT(offered, testing::UnorderedElementsAreArray(written));
+  const Verb& verb = *findVerb(verbs(), "export");
+  for (const auto& kind : modelKinds()) {
+    EXPECT_NE(std::string(OptionForm(verb).find("output")->parameter->help).find(kind.extension), std::string::npos);
+    for (const auto option : kind.unknown_options)
+      EXPECT_NE(OptionForm(verb).find(std::string(option).c_str()), nullptr) << option;
+  }
+}
+
+TEST(FileKinds, TakeTheEndingOfAnotherAwayAndNoOther) {
+  const auto kinds = pointKinds();
+  const auto& las = *kindOf(kinds, "x.LAS");
+  EXPECT_STREQ(las.label, "LAS");
+  EXPECT_EQ(withKind(kinds, las, "/no/such/walk.e57"), "/no/such/walk.las");
+  EXPECT_EQ(withKind(kinds, las, "/no/such/room 1.01"), "/no/such/room 1.01.las");
+  EXPECT_EQ(kindOf(kinds, "/no/such/room 1.01"), nullptr);
+}
+
+TEST(OptionForm, SendsNothingThatTheFormatHasNoPlaceFor) {
+  OptionForm form(*findVerb(verbs(), "export"));
+  auto& file = *form.find("output");
+  file.kinds = modelKinds();
+  file.text = "house.obj";
+  form.find("physical")->flag = form.find("physical")->given = true;
+  EXPECT_TRUE(form.options().contains("physical"));
+  file.text = "house.glb";
+  EXPECT_FALSE(form.options().contains("physical"));
+  file.text = "house";
+  EXPECT_EQ(form.problem(), "Choose a format");
 }
 
 TEST(OptionForm, TakesWhatAJobFileSaysAndGivesItBack) {
