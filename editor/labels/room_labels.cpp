@@ -5,7 +5,6 @@
 #include <map>
 
 #include "core/readable_name.h"
-#include "optimizer/walk/spaces.h"
 
 namespace standpoint {
 
@@ -104,6 +103,7 @@ void RoomLabels::follow(const std::shared_ptr<const Environment>& environment) c
   environment_ = environment;
   labels_ = environment ? roomLabels(*environment) : std::vector<RoomLabel>();
   stairs_ = environment ? stairLabels(*environment) : std::vector<StairLabel>();
+  spaces_ = environment ? spaceBodies(*environment) : std::vector<SpaceBody>();
 }
 
 const std::vector<RoomLabel>& RoomLabels::of(const std::shared_ptr<const Environment>& environment) const {
@@ -114,6 +114,18 @@ const std::vector<RoomLabel>& RoomLabels::of(const std::shared_ptr<const Environ
 const std::vector<StairLabel>& RoomLabels::stairsOf(const std::shared_ptr<const Environment>& environment) const {
   follow(environment);
   return stairs_;
+}
+
+const SpaceBody* RoomLabels::roomAt(const std::shared_ptr<const Environment>& environment,
+                                    const Eigen::Vector3d& place) const {
+  follow(environment);
+  for (const double aside_m : {0.0, 0.1, 0.5})
+    for (int way = 0; way < 6; ++way) {
+      const Eigen::Vector3d near = place + (way % 2 == 0 ? aside_m : -aside_m) * Eigen::Vector3d::Unit(2 - way / 2);
+      if (const auto product = spaceAt(spaces_, near))
+        return &*std::find_if(spaces_.begin(), spaces_.end(), [&](const auto& s) { return s.product == *product; });
+    }
+  return nullptr;
 }
 
 }  // namespace standpoint

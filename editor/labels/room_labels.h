@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "core/environment.h"
+#include "optimizer/walk/spaces.h"
 
 namespace standpoint {
 
@@ -37,12 +39,15 @@ class RoomLabels {
  public:
   const std::vector<RoomLabel>& of(const std::shared_ptr<const Environment>& environment) const;
   const std::vector<StairLabel>& stairsOf(const std::shared_ptr<const Environment>& environment) const;
+  // The room that the place is in, or that begins within half a metre of it, as at its walls and its floor; null: none.
+  const SpaceBody* roomAt(const std::shared_ptr<const Environment>& environment, const Eigen::Vector3d& place) const;
 
  private:
   void follow(const std::shared_ptr<const Environment>& environment) const;
   mutable std::shared_ptr<const Environment> environment_;
   mutable std::vector<RoomLabel> labels_;
   mutable std::vector<StairLabel> stairs_;
+  mutable std::vector<SpaceBody> spaces_;
 };
 
 }  // namespace standpoint

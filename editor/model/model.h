@@ -119,6 +119,7 @@ struct FigurePlace {
   std::string what;                              // "Incidence 87°", as it is shown
   std::vector<std::string> stations = {};        // whose scans it is of; none: of all
   bool among_points = false;                     // of those that are shown, which stay
+  std::string where = {};                        // room and storey, which showWorstPlace() fills in
 };
 
 // What of the scene is cut away around a box or a section.

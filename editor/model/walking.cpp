@@ -274,6 +274,7 @@ void showWorstPlace(Model& model, FigurePlace place) {
   model.place_points.drop();
   if (!place.among_points)
     model.place_points.start({scansOf(model, place), at, 2.5 * reach_m, model.shift_m()}, model.wake);
+  place.where = placeName(model, at);
   model.view.worst_place = std::move(place);
   if (lookFromAbove(model, at, around)) return;
   auto& cut = model.visibility.cut_height_m;
@@ -370,15 +371,28 @@ std::string storeyNameAt(const Model& model, double floor_m) {
   return storey == nullptr ? std::string() : model.environment()->spatial[static_cast<std::size_t>(storey->node)].name;
 }
 
+namespace {
+
+std::string roomOnStorey(const std::string& room, const std::string& storey) {
+  return room.empty() || storey.empty() ? room + storey : room + " · " + storey;
+}
+
+}  // namespace
+
+std::string placeName(const Model& model, const Eigen::Vector3d& place) {
+  const auto& imported = model.session.document().imported;
+  const auto* room = model.room_labels.roomAt(imported, place);
+  if (room == nullptr) return storeyNameAt(model, place.z());
+  return roomOnStorey(readableName(imported->products[room->product]), storeyNameAt(model, room->box.min.z()));
+}
+
 std::string walkPlaceName(const Model& model) {
   const auto& document = model.session.document();
   const Eigen::Vector3d feet = model.walk.feet();
   std::string name;
   if (const auto room = spaceAt(model.walk.ground().spaces, feet + Eigen::Vector3d(0, 0, kBodyMiddle_m)))
     name = readableName(document.imported->products[*room]);
-  const auto storey = storeyNameAt(model, feet.z());
-  if (name.empty() || storey.empty()) return name + storey;
-  return name + " · " + storey;
+  return roomOnStorey(name, storeyNameAt(model, feet.z()));
 }
 
 }  // namespace standpoint

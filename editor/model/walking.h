@@ -83,6 +83,8 @@ std::string whoPasses(const TightPlace& place);
 
 // "Living room · Ground floor", of what there is, around the feet of whoever walks.
 std::string walkPlaceName(const Model& model);
+// "Living room · Ground floor", of what there is, of a place of the model as it was imported, or of a surface of it.
+std::string placeName(const Model& model, const Eigen::Vector3d& place);
 // The name of the storey that a floor of that height belongs to, local frame; "" where there is none.
 std::string storeyNameAt(const Model& model, double floor_m);
 

@@ -2,10 +2,13 @@
 #include "editor/panels/quality_panel.h"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "editor/model/walking.h"
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
 #include "editor/widgets/drop_down.h"
@@ -46,9 +49,11 @@ void goTo(const Model& model, Actions& actions, const AssessPlace& place) {
         {*place.at - model.shift_m(), place.what.empty() ? tr("Worst place") : trSentence(place.what), place.stations});
 }
 
-std::string placeText(const AssessPlace& place) {
+std::string placeText(const Model& model, const AssessPlace& place) {
   std::string text = tr("Go to the worst place");
   if (!place.what.empty()) text += "\n" + trSentence(place.what);
+  if (place.at)
+    if (const auto where = placeName(model, *place.at - model.shift_m()); !where.empty()) text += "\n" + where;
   if (!place.stations.empty()) text += fmt::format("\n{}", fmt::join(place.stations, " – "));
   if (const auto& p = place.product)
     text += fmt::format("\n{} {}", tr(readableClass(p->ifc_class)), p->name.empty() ? p->id : p->name);
@@ -80,15 +85,15 @@ void drawRow(const Model& model, QualityState& state, Actions& actions, const As
     ui::textRightAligned(text);
   }
   ImGui::TableNextColumn();
-  if (row.worst && ui::iconButton(ICON_CROSSHAIRS "###go", placeText(*row.worst).c_str()))
+  if (row.worst && ui::iconButton(ICON_CROSSHAIRS "###go", placeText(model, *row.worst).c_str()))
     goToRow(model, state, actions, index);
   ImGui::PopID();
 }
 
 TableRows tableOf(const std::vector<AssessRow>& rows) {
   TableRows table = {{tr("Figure"), tr("Value"), tr("Limit"), tr("State")}};
-  for (const auto& row : rows)
-    if (!row.good_text.empty())
+  for (const auto k : worstFirst(rows))
+    if (const auto& row = rows[k]; !row.good_text.empty())
       table.push_back(
           {tr(row.label), figuresIn(valueText(row)), figuresIn(row.good_text), tr(verdictWord(row.verdict))});
   return table;
@@ -103,8 +108,8 @@ void drawRows(const Model& model, QualityState& state, Actions& actions, const s
   ImGui::TableSetupColumn(ui::Label("Value"), ImGuiTableColumnFlags_WidthFixed, model.px(62));
   ImGui::TableSetupColumn(ui::Label("Limit"), ImGuiTableColumnFlags_WidthFixed, model.px(62));
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, model.px(26));
-  ImGui::TableHeadersRow();
-  for (std::size_t k = 0; k < rows.size(); ++k)
+  ui::tableHead({2, 3});
+  for (const auto k : worstFirst(rows))
     if (!rows[k].good_text.empty()) drawRow(model, state, actions, rows[k], k);
   ImGui::EndTable();
 }
@@ -174,10 +179,18 @@ void assess(QualityState& state, Actions& actions) {
   if (actions.start(AssessOptions{.profile = state.profile}, "Assess the scans")) state.shown_row.reset();
 }
 
+std::vector<std::size_t> worstFirst(const std::vector<AssessRow>& rows) {
+  constexpr std::array kOrder = {Verdict::bad, Verdict::warn, Verdict::good, Verdict::unknown};
+  const auto rank = [&](std::size_t k) { return std::find(kOrder.begin(), kOrder.end(), rows[k].verdict); };
+  std::vector<std::size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+  return order;
+}
+
 std::optional<std::size_t> worstRow(const std::vector<AssessRow>& rows) {
-  for (const auto verdict : {Verdict::bad, Verdict::warn})
-    for (std::size_t k = 0; k < rows.size(); ++k)
-      if (rows[k].verdict == verdict && rows[k].worst) return k;
+  for (const auto k : worstFirst(rows))
+    if (rows[k].worst && (rows[k].verdict == Verdict::bad || rows[k].verdict == Verdict::warn)) return k;
   return std::nullopt;
 }
 

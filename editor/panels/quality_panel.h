@@ -21,6 +21,8 @@ struct QualityState {
 // "" when there is something to assess, and it can begin.
 std::string whyNotAssess(const Model& model);
 void assess(QualityState& state, Actions& actions);
+// Indices of the rows, what is bad first, then what is to be checked, is good, and is not known; alike in their order.
+std::vector<std::size_t> worstFirst(const std::vector<AssessRow>& rows);
 // The row to be looked at first: a bad one before one to check, in their order; none without a place to go to.
 std::optional<std::size_t> worstRow(const std::vector<AssessRow>& rows);
 // Goes to the worst place of a row, and lights it up in the table.

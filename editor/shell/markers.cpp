@@ -246,7 +246,9 @@ void drawWorstPlace(const Editor& editor, Pen& pen) {
   if (!place) return;
   pen.circle(*place, 12, IM_COL32(20, 22, 26, 60), tone::kWarning);
   pen.circle(*place, 2, tone::kWarning, IM_COL32(20, 22, 26, 255));
-  pen.labels.over({LabelKind::worst_place, 0}, *place, {worst.what}, tone::kText);
+  std::vector<std::string> texts = {worst.what};
+  if (!worst.where.empty()) texts.insert(texts.begin(), worst.what + "\n" + worst.where);
+  pen.labels.over({LabelKind::worst_place, 0}, *place, std::move(texts), tone::kText);
 }
 
 }  // namespace

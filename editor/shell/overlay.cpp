@@ -204,7 +204,8 @@ void cloudChip(Editor& editor) {
 void placeChip(Editor& editor) {
   if (!editor.view.worst_place) return;
   ImGui::NewLine();
-  textChip(editor, editor.view.worst_place->what);
+  const auto& place = *editor.view.worst_place;
+  textChip(editor, place.where.empty() ? place.what : place.what + "   " + place.where);
   const float width = chipWidth(editor, ICON_DROP, 0);
   beside(editor, width);
   drawPlate(editor, width);

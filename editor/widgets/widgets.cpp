@@ -401,6 +401,20 @@ void textRightAligned(const Text& text) {
   ImGui::TextUnformatted(text.c_str());
 }
 
+void tableHead(std::initializer_list<int> figures) {
+  ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+  for (int column = 0; column < ImGui::TableGetColumnCount(); ++column) {
+    if (!ImGui::TableSetColumnIndex(column)) continue;
+    const char* name = ImGui::TableGetColumnName(column);
+    const float free = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(name).x;
+    if (free > 0 && std::find(figures.begin(), figures.end(), column) != figures.end())
+      ImGui::SetCursorPosX(ImGui::GetCursorPosX() + free);
+    ImGui::PushID(column);
+    ImGui::TableHeader(name);
+    ImGui::PopID();
+  }
+}
+
 float shareOfRow(int count) {
   const auto n = static_cast<float>(count);
   return (ImGui::GetContentRegionAvail().x - (n - 1) * ImGui::GetStyle().ItemSpacing.x) / n;

@@ -98,6 +98,8 @@ void meter(const Style& style, double fraction, ImU32 tone, float width = 0);  /
 void swatch(const Style& style, const Colour& colour);
 bool searchField(const char* id, const char* hint, std::string& text);
 void textRightAligned(const Text& text);
+// As TableHeadersRow(), with the heads of these columns above their figures, at the right.
+void tableHead(std::initializer_list<int> figures);
 // The width of each of `count` widgets that fill a row.
 float shareOfRow(int count);
 // The label of a button of this width: icon and text, or only what of them fits.

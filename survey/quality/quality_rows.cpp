@@ -34,8 +34,9 @@ class Rows {
     if (quality_.seen.holes.empty()) return figure;
     const auto product = mostUnseen();
     figure.worst.product = product;
-    figure.worst.what = "Not seen from any station";
-    figure.worst.at = worstOf([&](std::size_t k) { return sample(k).product == product && isUnseen(k); });
+    const auto meant = [&](std::size_t k) { return sample(k).product == product && isUnseen(k); };
+    figure.worst.what = fmt::format("Not seen from any station: {:.1f} m²", area_m2(meant));
+    figure.worst.at = worstOf(meant);
     return figure;
   }
 
@@ -233,6 +234,13 @@ class Rows {
     const auto most = std::max_element(unseen.begin(), unseen.end(),
                                        [](const auto& a, const auto& b) { return a.second < b.second; });
     return most == unseen.end() ? quality_.seen.holes.front().product : most->first;
+  }
+
+  template <class Meant>
+  double area_m2(Meant meant) const {
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < quality_.samples.samples.size(); ++k) count += meant(k) ? 1 : 0;
+    return quality_.samples.each_m2() * static_cast<double>(count);
   }
 
   // Where most of the samples are that are meant: of those surveyed, else of all.

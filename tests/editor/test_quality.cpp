@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/readable_name.h"
 #include "demo_verbs.h"
 #include "editor/model/walking.h"
 #include "editor/panels/quality_panel.h"
@@ -71,10 +72,12 @@ TEST_F(QualityPanel, AssessesAndGoesToTheWorstPlaceOfARow) {
   EXPECT_LT(word, counts) << "a plain word leads";
   EXPECT_NE(gui.find("###save-quality"), nullptr);
   const auto before = editor.view.camera;
-  ASSERT_TRUE(gui.click("###go"));  // of the first row: coverage
+  ASSERT_TRUE(gui.click("###go"));  // of the first row that has a place
   gui.frames(2);
-  const auto& worst = *answer()->rows.front().worst;
-  EXPECT_EQ(editor.selection.products().size(), 1U) << "the product with the largest hole";
+  const auto first = worstRow(answer()->rows);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(editor.panels.of<QualityState>().shown_row, first);
+  const auto& worst = *answer()->rows[*first].worst;
   const Eigen::Vector3d at = *worst.at - editor.shift_m();
   EXPECT_LT((editor.view.camera.target - at).norm(), 0.01);
   EXPECT_GT((editor.view.camera.target - before.target).norm(), 0.1);
@@ -184,6 +187,50 @@ TEST_F(QualityPanel, DrawsWhatWasMeasuredAroundAWorstPlaceUntilItIsHidden) {
   goBackInViews(editor);
   gui.settle();
   EXPECT_TRUE(editor.cloud()) << "the points that were looked at before";
+}
+
+TEST_F(QualityPanel, ListsWhatIsBadFirst) {
+  const auto row = [](Verdict verdict) {
+    AssessRow r;
+    r.verdict = verdict;
+    return r;
+  };
+  const std::vector<AssessRow> rows = {row(Verdict::good), row(Verdict::warn),    row(Verdict::bad),
+                                       row(Verdict::good), row(Verdict::unknown), row(Verdict::bad)};
+  EXPECT_EQ(worstFirst(rows), (std::vector<std::size_t>{2, 5, 1, 0, 3, 4}));
+  ASSERT_NO_FATAL_FAILURE(scan());
+  ASSERT_TRUE(gui.click("###assess"));
+  gui.settle();
+  ASSERT_NE(answer(), nullptr);
+  gui.frames(2);
+  std::vector<std::string> labels;
+  for (const auto k : worstFirst(answer()->rows))
+    if (const auto& r = answer()->rows[k]; !r.good_text.empty()) labels.push_back(r.label);
+  const auto texts = gui.texts();
+  auto drawn = std::find(texts.begin(), texts.end(), "Figures");
+  for (const auto& label : labels) {
+    drawn = std::find_if(drawn, texts.end(), [&](const auto& t) { return t == label; });
+    EXPECT_NE(drawn, texts.end()) << label << " stands below what is worse";
+  }
+}
+
+TEST_F(QualityPanel, NamesRoomAndStoreyOfAWorstPlace) {
+  const auto& environment = editor.session.document().imported;
+  const auto& rooms = editor.room_labels.of(environment);
+  ASSERT_FALSE(rooms.empty());
+  const auto& room = rooms.front();
+  const auto* body = editor.room_labels.roomAt(environment, room.anchor);
+  ASSERT_NE(body, nullptr);
+  const Eigen::Vector3d floor(room.anchor.x(), room.anchor.y(), body->box.min.z() - 0.05);
+  EXPECT_EQ(editor.room_labels.roomAt(environment, floor), body) << "its floor lies below it";
+  EXPECT_EQ(editor.room_labels.roomAt(environment, room.anchor + Eigen::Vector3d(0, 0, 100)), nullptr);
+  const auto name = readableName(environment->products[room.product]);
+  showWorstPlace(editor, {floor, "Incidence 87°"});
+  ASSERT_TRUE(editor.view.worst_place);
+  EXPECT_TRUE(editor.view.worst_place->where.starts_with(name)) << editor.view.worst_place->where;
+  EXPECT_NE(editor.view.worst_place->where.find(" · "), std::string::npos) << "and the storey";
+  EXPECT_TRUE(gui.says("Incidence 87°\n" + editor.view.worst_place->where) ||
+              gui.says("Incidence 87°   " + editor.view.worst_place->where));
 }
 
 TEST_F(QualityPanel, TakesABadRowBeforeOneToCheckAndNoneWithoutAPlace) {

@@ -87,7 +87,7 @@ TEST_F(Assess, AClosedRoomIsCoveredButForTheDiscBelowTheInstrument) {
   EXPECT_NE(std::string(std::istreambuf_iterator<char>(in), {}).find("Largest gaps"), std::string::npos);
   const auto worst = row(answer, "coverage")["worst"];
   EXPECT_EQ(worst["product"]["id"], "room");
-  EXPECT_EQ(worst["what"], "Not seen from any station");
+  EXPECT_EQ(worst["what"], fmt::format("Not seen from any station: {:.1f} m²", unseen));
   EXPECT_NEAR(worst["at"][0].get<double>(), 0, 1);
   EXPECT_NEAR(worst["at"][2].get<double>(), 0, 0.01) << "on the floor";
   EXPECT_EQ(row(answer, "coverage")["verdict"], "good");
