@@ -153,7 +153,7 @@ void drawTable(const Model& model, const std::vector<Row>& rows, const char* id)
   ImGui::TableSetupColumn("B", ImGuiTableColumnFlags_WidthStretch, 0.8F);
   ImGui::TableSetupColumn(ui::Label("B against A"), ImGuiTableColumnFlags_WidthStretch, 0.9F);
   ImGui::TableSetupColumn(ui::Label("A blue, B orange"), ImGuiTableColumnFlags_WidthStretch, 1.6F);
-  ImGui::TableHeadersRow();
+  ui::tableHead({1, 2, 3});
   for (const auto& row : rows) drawRow(model, row);
   ImGui::EndTable();
 }
@@ -180,16 +180,20 @@ void lookAt(const Model& model, CompareState& state, Actions& actions, const Com
   state.looked_at = distances;
 }
 
+// Whose points are in the view.
+bool isOfB(const CompareState& state, const CompareAnswer& answer) { return state.looked_at == answer.b_distances; }
+
+// Of the cubic metre with the most of it, which is no largest distance of a point.
 void goToLargest(const CompareState& state, const CompareAnswer& answer, const Model& model, Actions& actions,
                  const std::vector<InspectedCloud>& clouds) {
-  const bool of_b = state.looked_at == answer.b_distances;
+  const bool of_b = isOfB(state, answer);
   const auto& largest = *(of_b ? answer.b_largest : answer.a_largest);
   Eigen::Vector3d at = largest.at_m - model.shift_m();
   if (const auto* cloud = cloudOf(clouds, (of_b ? state.shown_b : state.shown_a).file))
     at = cloud->local_from_cloud * largest.at_m;
   const double d = largest.distance_m;
   const auto far = d < 1 ? figures("{:.0f} mm", d * 1000) : figures("{:.1f} m", d);
-  actions.showWorstPlace({at, trf("{} from the other cloud", far), {}, true});
+  actions.showWorstPlace({at, trf("On average {} in one cubic metre of {}", far, of_b ? "B" : "A"), {}, true});
 }
 
 // Where they differ, in the view: at once when they have been compared.
@@ -205,9 +209,12 @@ void drawDifferences(const Model& model, CompareState& state, Actions& actions, 
   if (ui::button(ICON_EYE "  B by distance to A###difference-b", {}, {0, 0}, "Shows the points of B in the view"))
     lookAt(model, state, actions, state.shown_b, of_b, clouds);
   ImGui::SameLine();
-  const bool any = (state.looked_at == of_b ? answer.b_largest : answer.a_largest).has_value();
-  if (ui::button(ICON_CROSSHAIRS "  Fly to the largest difference###largest-difference",
-                 any ? "" : "The clouds do not differ"))
+  const bool in_b = isOfB(state, answer);
+  const bool any = (in_b ? answer.b_largest : answer.a_largest).has_value();
+  const auto most = trf("The cubic metre where the points of {} are farthest from {}, taken together", in_b ? "B" : "A",
+                        in_b ? "A" : "B");
+  if (ui::button(ICON_CROSSHAIRS "  Fly to where they differ most###most-difference",
+                 any ? "" : "The clouds do not differ", {0, 0}, most.c_str()))
     goToLargest(state, answer, model, actions, clouds);
 }
 

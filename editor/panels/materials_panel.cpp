@@ -131,7 +131,7 @@ void drawUses(const Model& model, MaterialsState& state, Actions& actions, const
   ImGui::TableSetupColumn("m²", ImGuiTableColumnFlags_WidthFixed, area);
   ImGui::TableSetupColumn(wavelength.c_str(), ImGuiTableColumnFlags_WidthFixed, share);
   ImGui::TableSetupColumn("n", ImGuiTableColumnFlags_WidthFixed, count);
-  ImGui::TableHeadersRow();
+  ui::tableHead({1, 2, 3});
   std::stable_partition(uses.begin(), uses.end(), [](const MaterialUse& u) { return u.material.empty(); });
   for (const auto& use : uses) {
     const auto* material = use.material.empty() ? nullptr : materialById(result.assignment, use.material);

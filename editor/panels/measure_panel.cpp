@@ -63,7 +63,7 @@ void drawList(const Model& model, Actions& actions, const Measurements& measurem
   ImGui::TableSetupColumn(ui::Label("Name"), ImGuiTableColumnFlags_WidthStretch, 1.2F);
   ImGui::TableSetupColumn(ui::Label("Kind"), ImGuiTableColumnFlags_WidthStretch, 0.8F);
   ImGui::TableSetupColumn(ui::Label("Result"), ImGuiTableColumnFlags_WidthStretch, 1);
-  ImGui::TableHeadersRow();
+  ui::tableHead({2});
   for (int i = 0; i < static_cast<int>(measurements.size()); ++i) {
     const auto& m = measurements[static_cast<std::size_t>(i)];
     ImGui::PushID(i);

@@ -129,7 +129,7 @@ void drawWorst(const Model& model, Actions& actions, const SimplifiedModel& ligh
   ImGui::TableSetupColumn(ui::Label("Product"), ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("mm", ImGuiTableColumnFlags_WidthFixed, model.px(44));
   ImGui::TableSetupColumn(ui::Label("Triangles"), ImGuiTableColumnFlags_WidthFixed, model.px(96));
-  ImGui::TableHeadersRow();
+  ui::tableHead({1, 2});
   for (std::size_t i = 0; i < shown; ++i) {
     const auto& loss = light.products[order[i]];
     ImGui::PushID(static_cast<int>(i));

@@ -101,7 +101,7 @@ void drawStations(const Model& model, Actions& actions, const Job& job) {
   ImGui::TableSetupColumn(ui::Label("Name"), ImGuiTableColumnFlags_WidthFixed, name);
   ImGui::TableSetupColumn("X  Y  Z", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn(ui::Label("Scans"), ImGuiTableColumnFlags_WidthFixed, scans);
-  ImGui::TableHeadersRow();
+  ui::tableHead({2});
   for (int i = 0; i < static_cast<int>(job.stations.size()); ++i)
     drawStationRow(model, actions, job.stations[static_cast<std::size_t>(i)], i, decimals);
   ImGui::EndTable();

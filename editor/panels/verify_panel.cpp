@@ -127,7 +127,7 @@ void drawMaterial(const Model& model, VerifyState& state, Actions& actions, cons
   ImGui::TableNextColumn();
   drawBox(model, m, reach_db);
   ImGui::TableNextColumn();
-  ui::textRightAligned(m.judged ? figures("{:+.1f}", std::round(m.off_db[2] * 10) / 10 + 0.0) : "?");
+  ui::textRightAligned(m.judged ? figures("{:+.1f}", m.off_db[2]) : "?");
   ImGui::PopID();
 }
 
@@ -147,7 +147,7 @@ void drawMaterials(const Model& model, VerifyState& state, Actions& actions, con
   ImGui::TableSetupColumn(fmt::format("−{0:.0f} … +{0:.0f} dB", view.reach_db).c_str(),
                           ImGuiTableColumnFlags_WidthStretch, 1);
   ImGui::TableSetupColumn("dB", ImGuiTableColumnFlags_WidthFixed, model.px(38));
-  ImGui::TableHeadersRow();
+  ui::tableHead({2});
   for (const auto& m : view.materials) drawMaterial(model, state, actions, m, view.reach_db);
   ImGui::EndTable();
 }

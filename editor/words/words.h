@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <filesystem>
@@ -51,7 +52,13 @@ std::string tr(std::string_view english);
 std::string trFormatted(fmt::string_view english, fmt::format_args arguments);
 std::string trCounted(fmt::string_view one, fmt::string_view many, std::size_t count, fmt::format_args arguments);
 
-// A number as an argument of a text that is drawn: with the decimal sign of the language.
+// Whether all digits of a number that was written so are zeros.
+inline bool isZeroAsWritten(std::string_view number) {
+  return number.find('0') != std::string_view::npos && number.find_first_of("123456789") == std::string_view::npos;
+}
+
+// A number as an argument of a text that is drawn: with the decimal sign of the language, and without the minus of what
+// is rounded to zero.
 template <std::floating_point Number>
 struct DrawnNumber {
   Number value;
@@ -96,6 +103,10 @@ struct fmt::formatter<standpoint::DrawnNumber<Number>> : fmt::formatter<Number> 
     fmt::memory_buffer plain;
     Context into(fmt::appender(plain), context.args(), context.locale());
     fmt::formatter<Number>::format(number.value, into);
+    if (std::signbit(number.value) && standpoint::isZeroAsWritten({plain.data(), plain.size()})) {
+      plain.clear();
+      fmt::formatter<Number>::format(Number{0}, into);  // "0.0", not "-0.0"
+    }
     return std::replace_copy(plain.begin(), plain.end(), context.out(), '.', standpoint::decimalSign());
   }
 };

@@ -96,6 +96,17 @@ TEST_F(DrawnFigures, OfLengthsPlacesAndSizesHaveIt) {
   EXPECT_EQ(readableSize(1234567), "1,2 MB");
 }
 
+TEST_F(DrawnFigures, ThatAreRoundedToZeroHaveNoMinus) {
+  EXPECT_EQ(figures("{:.1f} %", -0.04), "0.0 %");
+  EXPECT_EQ(figures("{:+.1f} %", -0.04), "+0.0 %");
+  EXPECT_EQ(figures("{:.0f}", -0.0), "0");
+  EXPECT_EQ(figures("{:6.1f}", -0.04F), "   0.0");
+  EXPECT_EQ(figures("{:+.1f} %", -0.06), "-0.1 %");
+  EXPECT_EQ(figures("{:.3g}", -0.00001), "-1e-05");
+  EXPECT_EQ(figures("{:.1f}", -std::numeric_limits<double>::infinity()), "-inf");
+  EXPECT_EQ(trf("{:.2f} m", -0.001), "0.00 m");
+}
+
 TEST_F(DrawnFigures, InATableForASpreadsheetHaveIt) {
   const Measurement measurement{.name = "1.01", .kind = MeasurementKind::distance, .points = {{1, 2, -3}, {1, 2, -4}}};
   const auto copied = [&] { return figuresIn(measurementText(measurement, {100, 0, 0})); };

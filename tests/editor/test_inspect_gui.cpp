@@ -371,12 +371,12 @@ TEST_F(Inspect, ShowsWhereTwoCloudsDifferOnceTheyAreCompared) {
   ASSERT_NE(editor.pointLegend(), nullptr);
   EXPECT_EQ(editor.pointLegend()->unit, "mm");
   EXPECT_TRUE(gui.says("Distance to the other cloud, mm"));
-  ASSERT_TRUE(gui.click("###largest-difference"));
+  ASSERT_TRUE(gui.click("###most-difference"));
   gui.frames(2);
   ASSERT_TRUE(editor.view.worst_place);
   EXPECT_LT((editor.view.worst_place->at - (answer->a_largest->at_m - editor.shift_m())).norm(), 1e-6);
   EXPECT_TRUE(editor.cloud()) << "among the points that differ";
-  EXPECT_TRUE(gui.says("from the other cloud"));
+  EXPECT_TRUE(gui.says("in one cubic metre of A")) << "no distance of a single point";
   ASSERT_TRUE(gui.click("###difference-b"));
   gui.frames(2);
   EXPECT_EQ(editor.cloud()->points.size(), answer->b_distances->place_m.size());
