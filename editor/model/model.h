@@ -113,6 +113,12 @@ struct ViewBeforeStation {
   std::optional<double> cut_height_m;
 };
 
+// A new station by typed numbers.
+struct TypedStation {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // local frame
+  bool refused = false;                              // a number that was typed last: nothing is known of that place
+};
+
 // Of a figure.
 struct FigurePlace {
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  // local frame
@@ -165,7 +171,7 @@ struct ViewportState {
   int dragged_station = -1;         // by the pointer
   bool station_drag_begun = false;  // it has left the place where it was taken
   std::optional<RefusedPlace> refused_place;
-  std::optional<Eigen::Vector3d> typed_station;  // centre of a new one by typed numbers, local frame
+  std::optional<TypedStation> typed_station;
   std::optional<Eigen::Vector2d> placed_at;  // the pointer, until it leaves the place where it has just set a station
   std::optional<Eigen::Vector3d> row_from;   // where a row of stations begins, on the floor
   RowSteps row{.count = 3, .spacing_m = {}};

@@ -40,6 +40,13 @@ double nearestRange_m(const Model& model) {
   return instrument != nullptr ? instrument->min_range_m : 0;
 }
 
+const PlaceVerdict* verdictOfStation(const Model& model, const Eigen::Vector3d& centre, bool on_tripod) {
+  const auto* placement = model.placement.placement();
+  const auto scene = model.picker.scene();
+  if (placement == nullptr || &placement->scene() != scene.get()) return nullptr;
+  return model.placement.judgeStation(centre, on_tripod, nearestRange_m(model));
+}
+
 std::string freeStationName(const Job& job) { return nextStationName(job, "S0"); }
 
 void duplicateStation(Model& model) {

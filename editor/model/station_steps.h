@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/survey.h"
+#include "survey/quality/place_verdict.h"
 
 namespace standpoint {
 
@@ -16,6 +17,9 @@ std::string whyNoStation(const Model& model);
 
 // The shortest range of the instrument that the next scan is set to; 0 where there is none.
 double nearestRange_m(const Model& model);
+// Whether it could stand there: `centre` of the instrument, local frame. Null while the scene is prepared. It is valid
+// until others are asked for.
+const PlaceVerdict* verdictOfStation(const Model& model, const Eigen::Vector3d& centre, bool on_tripod);
 // A name that no station has yet: "S1", "S2", …
 std::string freeStationName(const Job& job);
 // Another one of its height and heading, on the nearest place beside it where one can stand.

@@ -24,7 +24,6 @@ namespace {
 struct NewStationState {
   bool shown = false;
   SurveyEdit edit;
-  KeptVerdict verdict, pointed;
 };
 
 // In the middle of the storey where a survey begins; metres, the frame of the model's file.
@@ -60,6 +59,7 @@ void drawNewStation(const Model& model, PanelStates& states, Actions& actions) {
     return;
   }
   auto& edit = state.edit;
+  const bool was_refused = edit.refused;
   if (!std::exchange(state.shown, true)) {
     edit = {};
     edit.at = usualPlace(model);
@@ -70,7 +70,7 @@ void drawNewStation(const Model& model, PanelStates& states, Actions& actions) {
   if (view.hover && !view.typed_station) {
     // On its way to the fields the pointer crosses walls and roofs.
     const Eigen::Vector3d pointed = view.hover->position + Eigen::Vector3d(0, 0, kUsualHeight_m);
-    const auto* found = placeVerdict(model, state.pointed, pointed, true);
+    const auto* found = verdictOfStation(model, pointed, true);
     if (found != nullptr && found->verdict != Verdict::bad) edit.at = pointed + shift;
   }
   const auto name = freeStationName(*model.session.document().job);
@@ -79,20 +79,23 @@ void drawNewStation(const Model& model, PanelStates& states, Actions& actions) {
   if (ui::beginProperties("new-station", 0.36F)) {
     const bool typed = placeRows(edit, "###new-station", model.typing_wanted);
     if (model.typing_wanted) actions.typingBegun();
+    if (typed) edit.problem.clear();
     if (typed && edit.at.z() == before.z()) putOnFloor(model, edit.at);
-    if (typed) actions.holdNewStation(edit.at - shift);
+    if (typed || edit.refused != was_refused) actions.holdNewStation({edit.at - shift, edit.refused});
     if (const auto storey = storeyNameAt(model, edit.at.z() - shift.z() - kUsualHeight_m); !storey.empty())
       ui::property("Storey", storey);
     ui::endProperties();
   }
-  drawPlaceVerdict(model, state.verdict, edit.at - shift, true);
+  if (!edit.refused && edit.problem.empty()) drawPlaceVerdict(model, edit.at - shift, true);
   drawProblem(edit);
-  const auto* found = placeVerdict(model, state.verdict, edit.at - shift, true);
+  const auto* found = verdictOfStation(model, edit.at - shift, true);
   const bool bad = found != nullptr && found->verdict == Verdict::bad;
-  const auto why = bad ? found->brief : model.session.whyNot("station");
+  const auto why = edit.refused ? "Correct the number in the red frame first"
+                   : bad        ? found->brief
+                                : model.session.whyNot("station");
   if (ui::button(trf(ICON_CHECK "  Add {} here###add-typed", name).c_str(), why, {-FLT_MIN, 0},
                  "Add the station at these coordinates")) {
-    actions.holdNewStation(edit.at - shift);
+    actions.holdNewStation({edit.at - shift});
     startEdit(actions, edit, StationOptions{.add = name, .at = edit.at}, trf("Add station {}", name));
     actions.chooseStation(name);
   }

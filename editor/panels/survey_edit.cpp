@@ -57,12 +57,13 @@ bool nameRow(const Model& model, Actions& actions, SurveyEdit& edit) {
 bool placeRows(SurveyEdit& edit, const char* id, bool focus_first) {
   static constexpr const char* kAxes[] = {"X", "Y", "Z"};
   bool changed = false;
+  edit.refused = false;
   for (Eigen::Index i = 0; i < 3; ++i) {
     ui::propertyLabel(kAxes[i]);
     if (focus_first && i == 0) ui::focusNext();
-    changed = ui::numberField(fmt::format("{}-{}", id, kAxes[i]).c_str(), edit.at[i],
-                              {.kind = {.unit = "m"}, .decimals = 3}) ||
-              changed;
+    const auto field = fmt::format("{}-{}", id, kAxes[i]);
+    changed = ui::numberField(field.c_str(), edit.at[i], {.kind = {.unit = "m"}, .decimals = 3}) || changed;
+    edit.refused = ui::isNumberRefused(field.c_str()) || edit.refused;
   }
   return changed;
 }

@@ -23,6 +23,7 @@ struct SurveyEdit {
   Eigen::Vector3d at = Eigen::Vector3d::Zero();
   double heading_deg = 0, height_m = 0, tilt_deg = 0, tilt_towards_deg = 0;
   std::string asked, problem;  // the title of the task, and why it was refused
+  bool refused = false;        // a number of its place that was typed cannot be taken
 };
 
 // True when the fields are to be filled: another thing, or it has changed.

@@ -10,6 +10,7 @@
 #include <imgui.h>
 
 #include "core/units.h"
+#include "editor/model/station_steps.h"
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
 #include "editor/panels/place_verdict_row.h"
@@ -34,7 +35,6 @@ namespace {
 
 struct SurveyInspectorState {
   SurveyEdit station, target, underlay;
-  KeptVerdict verdict;
   std::set<std::string> free_stations;  // that are held or hang: their places are checked so
 };
 
@@ -125,6 +125,16 @@ void stationFieldRows(const Model& model, SurveyInspectorState& state, Actions& 
   ui::endProperties();
 }
 
+// Of where it stands; while a place that was typed is refused, of that place, and why stands below the fields.
+void drawVerdict(const Model& model, const SurveyEdit& edit, const Station& station, bool on_tripod) {
+  if (edit.refused) return;
+  if (edit.problem.empty()) return drawPlaceVerdict(model, station.true_pose.translation, on_tripod);
+  const auto* typed = verdictOfStation(model, edit.at - model.shift_m(), on_tripod);
+  if (typed == nullptr || typed->verdict != Verdict::bad) return;
+  ui::verdict(Verdict::bad);
+  ui::wrapped(withVerdictWord(Verdict::bad, trSentence(typed->brief)));
+}
+
 void drawStation(const Model& model, PanelStates& states, Actions& actions, const Station& station) {
   auto& state = states.of<SurveyInspectorState>();
   SurveyEdit& edit = state.station;
@@ -138,7 +148,7 @@ void drawStation(const Model& model, PanelStates& states, Actions& actions, cons
     edit.tilt_towards_deg = edit.tilt_deg > 0 ? tilt.towards_rad / kRadPerDeg : 0;
   }
   ui::heading(model, (trf("Station {}", station.name)).c_str());
-  drawPlaceVerdict(model, state.verdict, station.true_pose.translation, !state.free_stations.contains(station.name));
+  drawVerdict(model, edit, station, !state.free_stations.contains(station.name));
   stationFieldRows(model, state, actions, station);
   drawProblem(edit);
   drawRefusal(model, station);

@@ -54,7 +54,7 @@ class PanelActions final : public Actions {
   void chooseStation(const std::string& name) override;
   void chooseTrajectory(const std::string& name) override;
   void renameBegun() override;
-  void holdNewStation(const Eigen::Vector3d& centre) override;
+  void holdNewStation(const TypedStation& station) override;
   void typingBegun() override;
   void set(const ScanChoice& scan) override;
   void set(const CarriedScan& scan) override;

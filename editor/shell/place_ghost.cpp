@@ -100,17 +100,18 @@ std::vector<FigureRow> figureRows(const PlaceForecast& forecast) {
 }
 
 // Of a new station whose numbers are typed, while the pointer holds none.
-void drawTypedStation(Editor& editor, const ViewPen& pen, const Vector3d& centre) {
-  const auto* placement = editor.placement.placement();
+void drawTypedStation(const Editor& editor, const ViewPen& pen, const TypedStation& typed) {
+  if (typed.refused) return;
+  const Vector3d& centre = typed.centre;
+  const auto* verdict = verdictOfStation(editor, centre, true);
+  if (verdict == nullptr) return;
   const auto scene = editor.picker.scene();
-  if (placement == nullptr || &placement->scene() != scene.get()) return;
   const auto below = scene->intersect(centre, -Vector3d::UnitZ(), kRimReach_m);
   const HeldStation held{"", below ? centre.z() - below->position.z() : kUsualHeight_m, Eigen::Quaterniond::Identity()};
   const Vector3d floor = centre - Vector3d(0, 0, held.height_m);
-  const auto verdict = judgeStation(*placement, centre, true, nearestRange_m(editor));
-  drawHeldStation(editor, pen, held, floor, verdict.verdict);
+  drawHeldStation(editor, pen, held, floor, verdict->verdict);
   if (const auto place = pen.at(centre))
-    pen.verdict({place->x + editor.px(20), place->y + editor.px(16)}, verdict.verdict, trSentence(verdict.brief));
+    pen.verdict({place->x + editor.px(20), place->y + editor.px(16)}, verdict->verdict, trSentence(verdict->brief));
 }
 
 std::string placeTitle(const Editor& editor, const HeldStation& held, const PlaceForecast* forecast) {

@@ -251,6 +251,11 @@ bool numberField(const char* id, double& value, const NumberFormat& format, cons
   return changed;
 }
 
+bool isNumberRefused(const char* id) {
+  const auto found = drafts().of.find(ImGui::GetID(id));
+  return found != drafts().of.end() && !found->second.problem.empty();
+}
+
 bool textField(const char* id, std::string& value, const char* hint) {
   const ImGuiID item = ImGui::GetID(id);
   const double version = static_cast<double>(std::hash<std::string>()(value) >> 12);  // stands for the value

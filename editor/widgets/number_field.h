@@ -24,6 +24,9 @@ namespace ui {
 // units: numberFromText. True in the frame in which the value has become another.
 bool numberField(const char* id, double& value, const NumberFormat& format, const char* help = nullptr);
 
+// Whether what was typed into the field, which has been drawn in this frame, stays there and is not the value.
+bool isNumberRefused(const char* id);
+
 // The same for a text, such as a name: taken over and taken back alike.
 bool textField(const char* id, std::string& value, const char* hint = "");
 

@@ -91,7 +91,8 @@ TEST_F(Placing, AStationIsAddedByTypedNumbersWithoutAClickInTheView) {
   gui.key(kKeyEnter);
   gui.frames(4);
   ASSERT_TRUE(editor.view.typed_station) << "the view shows it there";
-  EXPECT_NEAR((*editor.view.typed_station - Eigen::Vector3d(1.5, 6, 1.6)).norm(), 0, 1e-6) << "on the floor there";
+  EXPECT_NEAR((editor.view.typed_station->centre - Eigen::Vector3d(1.5, 6, 1.6)).norm(), 0, 1e-6)
+      << "on the floor there";
   EXPECT_TRUE(gui.says("Good place"));
   ASSERT_TRUE(gui.click("###add-typed"));
   gui.settle();
@@ -112,8 +113,8 @@ TEST_F(Placing, NumbersOfANewStationFollowThePointerUntilTheyAreTyped) {
   gui.key(kKeyEnter);
   gui.frames(3);
   ASSERT_TRUE(editor.view.typed_station);
-  EXPECT_NEAR(editor.view.typed_station->x(), pointed.x(), 0.2) << "where the pointer left the view";
-  EXPECT_NEAR(editor.view.typed_station->y(), 5, 1e-6);
+  EXPECT_NEAR(editor.view.typed_station->centre.x(), pointed.x(), 0.2) << "where the pointer left the view";
+  EXPECT_NEAR(editor.view.typed_station->centre.y(), 5, 1e-6);
 }
 
 TEST_F(Placing, NumbersOfANewStationKeepTheLastPlaceWhereOneCanStand) {
@@ -127,7 +128,7 @@ TEST_F(Placing, NumbersOfANewStationKeepTheLastPlaceWhereOneCanStand) {
   gui.key(kKeyEnter);
   gui.frames(3);
   ASSERT_TRUE(editor.view.typed_station);
-  EXPECT_NEAR(editor.view.typed_station->x(), 1.5, 0.2);
+  EXPECT_NEAR(editor.view.typed_station->centre.x(), 1.5, 0.2);
 }
 
 TEST_F(Placing, ATypedPlaceThatIsRefusedSaysSoAndAddsNothing) {
@@ -142,6 +143,47 @@ TEST_F(Placing, ATypedPlaceThatIsRefusedSaysSoAndAddsNothing) {
   EXPECT_TRUE(gui.says("cm from wall"));
   ASSERT_NE(gui.find("###add-typed"), nullptr);
   EXPECT_TRUE(gui.find("###add-typed")->disabled);
+}
+
+TEST_F(Placing, ANumberThatCannotBeReadTakesTheVerdictOfThePlaceBeforeAway) {
+  invoke(editor, "add-station-at");
+  gui.frames(4);
+  gui.type(fmt::format("{}", 1.5 + editor.shift_m().x()));
+  gui.key(kKeyTab);
+  gui.frames(3);
+  gui.type(fmt::format("{}", 6 + editor.shift_m().y()));
+  gui.key(kKeyEnter);
+  gui.frames(4);
+  ASSERT_TRUE(gui.says("Good place"));
+  ASSERT_TRUE(gui.click("###new-station-X"));
+  gui.type("three");
+  gui.key(kKeyEnter);
+  gui.frames(4);
+  EXPECT_FALSE(gui.says("Good place")) << "neither in the panel nor in the view";
+  EXPECT_TRUE(gui.find("###add-typed")->disabled);
+  ASSERT_TRUE(gui.click("###new-station-X"));
+  gui.type(fmt::format("{}", 1.5 + editor.shift_m().x()));
+  gui.key(kKeyEnter);
+  gui.frames(4);
+  EXPECT_TRUE(gui.says("Good place"));
+  EXPECT_FALSE(gui.find("###add-typed")->disabled);
+}
+
+TEST_F(Placing, TheInspectorSaysOfAPlaceThatIsRefusedWhatIsWrongThereAndNotHowTheOldOneWas) {
+  editor.choose({.station = 0});
+  gui.frames(4);
+  ASSERT_TRUE(gui.says("Good place"));
+  const auto before = job().stations[0].true_pose.translation;
+  ASSERT_TRUE(gui.click("###inspected-X"));
+  gui.type(fmt::format("{}", 0.2 + editor.shift_m().x()));  // in the wall
+  gui.key(kKeyEnter);
+  gui.settle();
+  gui.frames(3);
+  EXPECT_EQ(job().stations[0].true_pose.translation, before);
+  EXPECT_FALSE(gui.says("Good place"));
+  ASSERT_TRUE(gui.click("###revert-inspected"));
+  gui.frames(3);
+  EXPECT_TRUE(gui.says("Good place"));
 }
 
 TEST_F(Placing, WordsOverTheViewGoUpWhereThePointerComesNearThem) {
