@@ -11,6 +11,7 @@
 #include "core/units.h"
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
+#include "editor/panels/point_colours.h"
 #include "editor/widgets/drop_down.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
@@ -23,25 +24,12 @@ namespace {
 
 using Files = std::vector<std::filesystem::path>;
 
-std::string whyNotBy(const Model& model, ColourBy colour) {
-  if (!model.cloud()) return "Show the points of a scan first";
-  if (colour == ColourBy::deviation)
-    if (auto why = whyNoModel(model.session.document()); !why.empty()) return why;
-  return whyNotColoured(colour, model.cloud()->header);
-}
-
 void drawColour(const Model& model, Actions& actions) {
   ui::propertyLabel("Colour by");
   ImGui::SetNextItemWidth(-1);
   if (!ui::beginDropDown("###points-by", tr(rowOf(model.view.points_by).name).c_str(), ImGuiComboFlags_HeightLarge))
     return;
-  for (const auto& row : coloursBy()) {
-    const auto why = whyNotBy(model, row.colour);
-    ImGui::BeginDisabled(!why.empty());
-    if (ui::choice(ui::Label(row.name), model.view.points_by == row.colour)) actions.colourPointsBy(row.colour);
-    ImGui::EndDisabled();
-    ui::tooltip(why);
-  }
+  if (const auto chosen = choosePointColour(model)) actions.colourPointsBy(*chosen);
   ui::endDropDown();
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "editor/panels/point_colours.h"
 #include "editor/panels/quality_panel.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/panel_actions.h"
@@ -36,10 +37,7 @@ void measureKind(Editor& e) {
 
 template <ColourBy by>
 std::string whyColourNot(const Editor& e) {
-  if (!e.cloud()) return "Show the points of a scan first";
-  if (by == ColourBy::deviation)
-    if (auto why = whyNoModel(e); !why.empty()) return why;
-  return whyNotColoured(by, e.cloud()->header);
+  return whyNoPointColour(e, by);
 }
 
 template <ColourBy by>

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "editor/model/station_steps.h"
+#include "editor/panels/point_colours.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/coverage_overlay.h"
 #include "editor/shell/dialogs.h"
@@ -46,6 +47,16 @@ const char* colourName(ColourMode mode) {
     case ColourMode::coverage_incidence: return "Incidence";
   }
   return "";
+}
+
+// Of the points that are shown instead of the model.
+void pointColourChip(Editor& editor) {
+  const auto label = fmt::format("{}  {}", ICON_PAINT, pointColourName(editor));
+  ImGui::SetNextItemWidth(chipWidth(editor, label, 152));
+  if (!ui::beginDropDown("###colour", label.c_str(), ImGuiComboFlags_NoArrowButton | ImGuiComboFlags_HeightLarge))
+    return;
+  if (const auto chosen = choosePointColour(editor)) editor.view.points_by = *chosen;
+  ui::endDropDown();
 }
 
 void colourChip(Editor& editor) {
@@ -451,9 +462,14 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   editor.overlay_end = origin.x + size.x - editor.px(kMargin);
   editor.beside_cube = origin.y + editor.px(kMargin) + ImGui::GetFrameHeight() / 2;
   editor.cube_corner = {cube.x, cube.y};
-  colourChip(editor);
-  wavelengthChip(editor);
-  sideChip(editor);
+  const bool points = editor.cloud() != nullptr;  // and no colours of the model
+  if (points) {
+    pointColourChip(editor);
+  } else {
+    colourChip(editor);
+    wavelengthChip(editor);
+    sideChip(editor);
+  }
   cutChip(editor);
   cloudChip(editor);
   locateChip(editor);
@@ -464,8 +480,10 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   toggle(editor, ICON_WALK, "walkable", editor.view.walkable);
   toggle(editor, ICON_CUBES, "shapes", editor.view.shapes);
   toggle(editor, ICON_EYE, "show-all", false);
-  expectedChips(editor);
-  coverageChips(editor);
+  if (!points) {
+    expectedChips(editor);
+    coverageChips(editor);
+  }
   placeChip(editor);
   rowChips(editor);
   trajectoryChips(editor);
@@ -477,9 +495,11 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   editor.overlay_size = {drawn.x, drawn.y};
   ImGui::PopStyleColor();
   drawNavigationCube(editor, origin, size);
-  drawReflectanceLegend(editor, origin, size);
-  drawConfidenceLegend(editor, origin, size);
-  drawDeviationLegend(editor, origin, size);
+  if (!points) {
+    drawReflectanceLegend(editor, origin, size);
+    drawConfidenceLegend(editor, origin, size);
+    drawDeviationLegend(editor, origin, size);
+  }
   drawToolHint(editor, origin, size);
   drawCloudTrouble(editor, origin, size);
 }

@@ -272,6 +272,12 @@ TEST_F(Inspect, ScansAreShownTogetherAndWhereRegistrationBelievesThemToBe) {
   ASSERT_TRUE(editor.cloud());
   ASSERT_EQ(editor.cloud()->points.size(), 4u);
   const auto before = editor.cloud()->points;
+  EXPECT_FALSE(gui.says("Model colours")) << "the picture shows none";
+  ASSERT_TRUE(gui.click("###colour"));
+  gui.frames(2);
+  ASSERT_TRUE(gui.click(rowOf(ColourBy::height).name));
+  gui.frames(2);
+  EXPECT_EQ(editor.view.points_by, ColourBy::height);
 
   job.stations[1].solved_pose = job.stations[1].true_pose;
   job.stations[1].solved_pose->translation.x() += 0.5;
@@ -293,6 +299,7 @@ TEST_F(Inspect, ScansAreShownTogetherAndWhereRegistrationBelievesThemToBe) {
   ASSERT_TRUE(gui.click("###show-together"));
   gui.settle();
   EXPECT_FALSE(editor.cloud()) << "back to the model";
+  EXPECT_TRUE(gui.says("Model colours"));
 }
 
 Eigen::Vector3d placeOf(const Cloud& cloud, std::size_t point) {
