@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/motion/carriers.h"
 #include "core/units.h"
+#include "editor/bodies/under_way.h"
 #include "editor/colours/colour_scale.h"
 #include "editor/model/outliner_rows.h"
 #include "editor/model/trajectory_steps.h"
@@ -92,14 +94,55 @@ Vector3d across(const Vector3d& way) {
   return side.norm() < 1e-9 ? Vector3d(0, 0, 0) : Vector3d(side.normalized() * kRibbonHalf_m);
 }
 
-void quad(const ViewPen& pen, const std::array<Vector3d, 4>& corners, ImU32 tone) {
+// A part of the picture.
+struct Frame {
+  ImVec2 low{1e9F, 1e9F}, high{-1e9F, -1e9F};
+  void extend(ImVec2 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  bool meets(const Frame& other) const {
+    return low.x < other.high.x && other.low.x < high.x && low.y < other.high.y && other.low.y < high.y;
+  }
+};
+
+// What the instrument and whoever bears it take up in the picture: the way is not drawn over them. Nothing where it is
+// not shown, or reaches behind the eye.
+std::optional<Frame> frameOfBearer(const ViewState& state, const ViewPen& pen, const TrajectoryWay& way,
+                                   double after_s) {
+  if (!state.under_way || !way.motion.truth) return std::nullopt;
+  const Pose pose = way.motion.truth->pose(way.motion.truth->first_s() + after_s);
+  for (const auto& carried : state.under_way->carried) {
+    if ((carried.pose.translation - pose.translation).norm() > 1e-6) continue;
+    constexpr float kInstrument_m = 0.2F;  // half of one
+    auto corners = bearerOf(carried).positions;
+    for (int i = 0; i < 8; ++i)
+      corners.push_back(pose.translation.cast<float>() + kInstrument_m * Eigen::Vector3f((i & 1) != 0 ? 1 : -1,
+                                                                                         (i & 2) != 0 ? 1 : -1,
+                                                                                         (i & 4) != 0 ? 1 : -1));
+    Frame frame;
+    for (const auto& corner : corners) {
+      const auto pixel = pen.at(corner.cast<double>());
+      if (!pixel) return std::nullopt;
+      frame.extend(*pixel);
+    }
+    return frame;
+  }
+  return std::nullopt;
+}
+
+// False where it is not drawn: behind the eye, or over `spared`.
+bool quad(const ViewPen& pen, const std::array<Vector3d, 4>& corners, ImU32 tone, const std::optional<Frame>& spared) {
   std::array<ImVec2, 4> pixels;
+  Frame frame;
   for (std::size_t i = 0; i < 4; ++i) {
     const auto pixel = pen.at(corners[i]);
-    if (!pixel) return;
-    pixels[i] = *pixel;
+    if (!pixel) return false;
+    frame.extend(pixels[i] = *pixel);
   }
+  if (spared && frame.meets(*spared)) return false;
   ImGui::GetWindowDrawList()->AddQuadFilled(pixels[0], pixels[1], pixels[2], pixels[3], tone);
+  return true;
 }
 
 // Which way it goes.
@@ -111,7 +154,7 @@ void arrow(const ViewPen& pen, const Vector3d& at, const Vector3d& way, ImU32 to
 
 // Where something hides it, it shines through.
 void drawRibbon(const Editor& editor, const ViewState& state, const ViewPen& pen, const TrajectoryWay& way,
-                const RibbonScale& scale, bool chosen) {
+                const RibbonScale& scale, bool chosen, const std::optional<Frame>& spared = {}) {
   const auto& samples = way.samples;
   if (samples.size() < 2) return;
   const std::size_t step = std::max<std::size_t>(1, samples.size() / (chosen ? kSegments : kSegmentsOfOthers));
@@ -128,10 +171,11 @@ void drawRibbon(const Editor& editor, const ViewState& state, const ViewPen& pen
     if (leg.norm() < 1e-4) continue;  // it stands
     const Vector3d side = across(leg), before = side_before.isZero() ? side : side_before;
     const bool seen = editor.picker.sees(editor.view.camera.eyeOf(to), to, state);
-    quad(pen, {from + before, to + side, to - side, from - before},
-         thinned(scale.toneOf(way, there), seen ? (chosen ? 215 : 150) : (chosen ? 70 : 40)));
+    const bool drawn =
+        quad(pen, {from + before, to + side, to - side, from - before},
+             thinned(scale.toneOf(way, there), seen ? (chosen ? 215 : 150) : (chosen ? 70 : 40)), spared);
     since_arrow += leg.norm();
-    if (since_arrow > kArrowEvery_m && seen) {
+    if (since_arrow > kArrowEvery_m && seen && drawn) {
       arrows.push_back({to, leg});
       since_arrow = 0;
     }
@@ -162,12 +206,14 @@ void drawObstacles(const ViewPen& pen, LabelBoard& labels, const TrajectoryWay& 
 }
 
 void drawWaypointsOf(const Editor& editor, const ViewPen& pen, LabelBoard& labels,
-                     const std::vector<Waypoint>& waypoints, double height_m, bool flown, int chosen) {
+                     const std::vector<Waypoint>& waypoints, double height_m, bool flown, int chosen,
+                     const std::optional<Frame>& spared = {}) {
   auto& list = *ImGui::GetWindowDrawList();
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
     const auto& waypoint = waypoints[i];
     const Vector3d knob = waypoint.floor_m + Vector3d(0, 0, kRibbonAbove_m);
     const auto at = pen.at(knob);
+    if (at && spared && spared->meets({*at, *at})) continue;
     if (flown) pen.line(knob, knob + Vector3d(0, 0, height_m), thinned(tone::kAccent, 120), 1.5F);
     if (waypoint.look_rad)
       pen.rod(knob, knob + 0.6 * Vector3d(std::cos(*waypoint.look_rad), std::sin(*waypoint.look_rad), 0), tone::kAccent,
@@ -186,9 +232,11 @@ void drawWaypointsOf(const Editor& editor, const ViewPen& pen, LabelBoard& label
 void drawOf(const Editor& editor, const ViewState& state, const ViewPen& pen, LabelBoard& labels,
             const CarriedTrajectory& trajectory, std::size_t index, const TrajectoryWay* way, bool chosen,
             RibbonColour colours) {
+  std::optional<Frame> spared;
   if (way != nullptr && way->problem.empty()) {
     const RibbonColour by = chosen ? colours : RibbonColour::plain;
-    drawRibbon(editor, state, pen, *way, scaleOf(*way, by, chosen ? tone::kAccent : tone::kStation), chosen);
+    if (chosen && editor.path_moment.plays) spared = frameOfBearer(state, pen, *way, shownMoment_s(editor));
+    drawRibbon(editor, state, pen, *way, scaleOf(*way, by, chosen ? tone::kAccent : tone::kStation), chosen, spared);
     drawObstacles(pen, labels, *way, chosen);
   } else {
     for (std::size_t i = 0; i + 1 < trajectory.waypoints.size(); ++i)
@@ -196,7 +244,7 @@ void drawOf(const Editor& editor, const ViewState& state, const ViewPen& pen, La
   }
   if (chosen)
     drawWaypointsOf(editor, pen, labels, trajectory.waypoints, carriedHeight_m(trajectory.carrier, trajectory.height_m),
-                    trajectory.carrier == "uav", editor.survey.waypoint);
+                    trajectory.carrier == "uav", editor.survey.waypoint, spared);
   if (!editor.view.labels) return;
   const auto begin = !trajectory.waypoints.empty()             ? std::optional(trajectory.waypoints.front().floor_m)
                      : way != nullptr && !way->samples.empty() ? std::optional(way->samples.front().position_m)

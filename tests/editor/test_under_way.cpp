@@ -15,6 +15,7 @@
 #include "editor/shell/actions.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keyboard.h"
+#include "editor/widgets/theme.h"
 #include "item_probe.h"
 #include "survey/instruments.h"
 #include "tests/temporary_folder.h"
@@ -264,6 +265,58 @@ TEST_F(UnderWay, TheViewGoesAlongWhileItPlaysAndIsWhereItWasAtTheEnd) {
   gui.frames(2);
   EXPECT_EQ(editor.view.camera, before);
   EXPECT_EQ(editor.visibility.cut_height_m, 1.5);
+}
+
+// How much of the way, in the colour of the chosen one, is drawn over a pixel; `anywhere`: over any.
+bool ribbonOver(ImVec2 p, bool anywhere = false) {
+  const auto cross = [](ImVec2 a, ImVec2 b, ImVec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); };
+  const ImU32 accent = tone::kAccent;
+  const auto& drawn = *ImGui::GetDrawData();
+  for (int l = 0; l < drawn.CmdListsCount; ++l) {
+    const auto& list = *drawn.CmdLists[l];
+    for (const auto& command : list.CmdBuffer)
+      for (unsigned i = 0; i + 2 < command.ElemCount; i += 3) {
+        const auto corner = [&](unsigned k) -> const ImDrawVert& {
+          return list.VtxBuffer[static_cast<int>(command.VtxOffset) +
+                                list.IdxBuffer[static_cast<int>(command.IdxOffset + i + k)]];
+        };
+        const ImU32 alpha = corner(0).col >> IM_COL32_A_SHIFT;
+        if ((corner(0).col & ~IM_COL32_A_MASK) != (accent & ~IM_COL32_A_MASK) || (alpha != 215 && alpha != 70))
+          continue;
+        if (anywhere) return true;
+        const float a = cross(corner(0).pos, corner(1).pos, p), b = cross(corner(1).pos, corner(2).pos, p),
+                    c = cross(corner(2).pos, corner(0).pos, p);
+        if ((a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0)) return true;
+      }
+  }
+  return false;
+}
+
+TEST_F(UnderWay, ItsWayDoesNotCoverWhoeverBearsItWhileItPlays) {
+  add("W1", {{1, 1}, {4.2, 1}, {4.2, 7}});
+  choose(0);
+  EXPECT_TRUE(ribbonOver({}, true));
+  ASSERT_TRUE(gui.click("###play-trajectory"));
+  gui.frames(60);
+  bool drawn = false;
+  for (int i = 0; i < 12; ++i) {
+    gui.frames(15);
+    ASSERT_TRUE(editor.path_moment.plays);
+    ASSERT_FALSE(shown().empty());
+    const auto& carried = shown().at(0);
+    const auto* window = ImGui::FindWindowByName("###viewport");
+    drawn = drawn || ribbonOver({}, true);
+    for (const double above_m : {0.4, 0.8, 1.2}) {
+      Eigen::Vector3d place = carried.pose.translation;
+      place.z() += above_m - carried.height_m;
+      const auto pixel = project(editor.view.camera, place, editor.view.size);
+      ASSERT_TRUE(pixel);
+      EXPECT_FALSE(
+          ribbonOver({window->Pos.x + static_cast<float>(pixel->x()), window->Pos.y + static_cast<float>(pixel->y())}))
+          << above_m << " m over the floor";
+    }
+  }
+  EXPECT_TRUE(drawn) << "it is seen around them";
 }
 
 TEST_F(UnderWay, ADragTakesTheViewWhileItPlaysOnAndEscEndsBoth) {
