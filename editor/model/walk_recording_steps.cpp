@@ -6,8 +6,7 @@
 #include <filesystem>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "editor/model/file_kinds.h"
 #include "editor/model/model.h"
 #include "editor/model/scan_form.h"
 #include "editor/model/trajectory_steps.h"
@@ -28,15 +27,6 @@ PaceLimits limitsOf(const Model& model) {
   return carried == nullptr ? PaceLimits() : paceLimits(*carried);
 }
 
-// A name that no file of the folder has yet.
-fs::path freeFile(const fs::path& folder, const std::string& stem, const std::string& extension) {
-  std::error_code ignored;
-  for (int i = 1;; ++i) {
-    auto file = folder / (i == 1 ? stem + extension : fmt::format("{}-{}{}", stem, i, extension));
-    if (!fs::exists(file, ignored)) return file;
-  }
-}
-
 // Into a file of the project.
 Result<fs::path> writeWalk(const RecordedWalk& walk, const fs::path& folder, const std::string& name,
                            const Georeference& georeference) {
@@ -46,7 +36,7 @@ Result<fs::path> writeWalk(const RecordedWalk& walk, const fs::path& folder, con
   if (error) return failure(ErrorKind::file_system, error.message(), folder.string());
   const TrajectoryFormat* const format = trajectoryFormat("csv");
   TRY_ASSIGN(const auto frame, fileFrame(georeference, format->id));
-  auto file = freeFile(folder, name, format->extension);
+  auto file = freeFile(folder / (name + format->extension));
   TRY(format->write(file, trajectory, frame));
   return file;
 }
@@ -242,7 +232,7 @@ void scanWalked(Model& model) {
   const fs::path folder = model.session.ownFolder() / "scans";
   std::error_code error;
   fs::create_directories(folder, error);
-  options.output = freeFile(folder, name, ".e57");
+  options.output = freeFile(folder / (name + ".e57"));
   if (!model.startScan(options, trf("Scan along {}", name))) return;
   dropLivePoints(model);
 }
