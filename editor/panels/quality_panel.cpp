@@ -38,15 +38,23 @@ void drawProfile(QualityState& state) {
   ui::endProperties();
 }
 
-// The product and, nearer, the place itself.
+std::string productName(const ProductIdentity& product) {
+  return tr(readableClass(product.ifc_class)) + " " + (product.name.empty() ? product.id : product.name);
+}
+
+// The place, or, where none is known, the product: selected, it would have one colour all over, as if nothing else were
+// to be seen there.
 void goTo(const Model& model, Actions& actions, const AssessPlace& place) {
   const auto& products = model.environment()->products;
   actions.select({});
-  for (std::uint32_t p = 0; place.product && p < products.size(); ++p)
-    if (products[p].id == place.product->id) actions.reveal(p);
-  if (place.at)
-    actions.showWorstPlace(
-        {*place.at - model.shift_m(), place.what.empty() ? tr("Worst place") : trSentence(place.what), place.stations});
+  if (!place.at) {
+    for (std::uint32_t p = 0; place.product && p < products.size(); ++p)
+      if (products[p].id == place.product->id) actions.reveal(p);
+    return;
+  }
+  std::string what = place.what.empty() ? tr("Worst place") : trSentence(place.what);
+  if (place.product) what += " · " + productName(*place.product);
+  actions.showWorstPlace({*place.at - model.shift_m(), std::move(what), place.stations});
 }
 
 std::string placeText(const Model& model, const AssessPlace& place) {
@@ -55,8 +63,7 @@ std::string placeText(const Model& model, const AssessPlace& place) {
   if (place.at)
     if (const auto where = placeName(model, *place.at - model.shift_m()); !where.empty()) text += "\n" + where;
   if (!place.stations.empty()) text += fmt::format("\n{}", fmt::join(place.stations, " – "));
-  if (const auto& p = place.product)
-    text += fmt::format("\n{} {}", tr(readableClass(p->ifc_class)), p->name.empty() ? p->id : p->name);
+  if (place.product) text += "\n" + productName(*place.product);
   return text;
 }
 

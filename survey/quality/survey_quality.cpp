@@ -382,11 +382,15 @@ std::optional<WorstCell> worstPlace(const std::vector<Vector3d>& places, const s
     double value = 0;
     std::size_t count = 0;
   };
-  std::map<std::array<std::int64_t, 3>, Sum> cells;
+  using Index = std::array<std::int64_t, 3>;
+  const auto cellOf = [](const Vector3d& place) {
+    const Cell cell = cellAt(place, kCell_m);
+    return Index{cell.x(), cell.y(), cell.z()};
+  };
+  std::map<Index, Sum> cells;
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (!places[i].allFinite()) continue;
-    const Cell cell = cellAt(places[i], kCell_m);
-    auto& sum = cells[{cell.x(), cell.y(), cell.z()}];
+    auto& sum = cells[cellOf(places[i])];
     sum.place += places[i];
     sum.value += values[i];
     ++sum.count;
@@ -396,12 +400,19 @@ std::optional<WorstCell> worstPlace(const std::vector<Vector3d>& places, const s
     const double mean = sum.value / static_cast<double>(sum.count);
     return sum.count < kFewest ? mean * 1e-6 : mean;  // of few only where there is nothing else
   };
-  const Sum* worst = nullptr;
-  for (const auto& [cell, sum] : cells)
-    if (worst == nullptr || worth(sum) > worth(*worst)) worst = &sum;
+  const std::pair<const Index, Sum>* worst = nullptr;
+  for (const auto& cell : cells)
+    if (worst == nullptr || worth(cell.second) > worth(worst->second)) worst = &cell;
   if (worst == nullptr) return std::nullopt;
-  const auto count = static_cast<double>(worst->count);
-  return WorstCell{worst->place / count, by == WorstBy::mean ? worst->value / count : worst->value};
+  const auto count = static_cast<double>(worst->second.count);
+  // Between two faces of a slab nothing could be shown.
+  const Vector3d middle = worst->second.place / count;
+  const Vector3d* nearest = nullptr;
+  for (const auto& place : places)
+    if (place.allFinite() && cellOf(place) == worst->first &&
+        (nearest == nullptr || (place - middle).squaredNorm() < (*nearest - middle).squaredNorm()))
+      nearest = &place;
+  return WorstCell{*nearest, by == WorstBy::mean ? worst->second.value / count : worst->second.value};
 }
 
 double fractile(std::vector<double>& values, double fraction) {
