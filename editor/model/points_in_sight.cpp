@@ -89,7 +89,7 @@ Bounds boundsOfMost(const Cloud& cloud, const KeptPlace& kept) {
 }
 
 void bringPointsIntoView(Model& model) {
-  constexpr double kEnough = 0.1, kElevation_rad = 0.85;
+  constexpr double kEnough = 0.1, kElevation_rad = 0.85, kRoomAround = 1.2;
   const auto cloud = model.cloud();
   if (!cloud || cloud->points.empty() || model.proof || model.preview.isOpen()) return;
   auto& view = model.view;
@@ -108,6 +108,7 @@ void bringPointsIntoView(Model& model) {
   view.camera.view_angle_rad = Camera().view_angle_rad;
   view.camera.elevation_rad = kElevation_rad;
   model.bringIntoView(around);
+  view.camera.distance_m *= kRoomAround;
   model.say(tr("The view has gone to the points of the scan. Alt+Left leads back."));
 }
 
