@@ -34,7 +34,8 @@ Eigen::Vector3d usualPlace(const Model& model) {
     place = (storeys.front().box.min + storeys.front().box.max) / 2;
     place.z() = storeys.front().floor_m;
   }
-  return place + Eigen::Vector3d(0, 0, kUsualHeight_m) + model.shift_m();
+  const Eigen::Vector3d at = place + Eigen::Vector3d(0, 0, kUsualHeight_m) + model.shift_m();
+  return (1000 * at.array()).round() / 1000;  // nobody types more than millimetres
 }
 
 // On the floor there that is nearest to the height that it has.

@@ -71,7 +71,7 @@ bool placeRows(SurveyEdit& edit, const char* id, bool focus_first) {
 void drawProblem(SurveyEdit& edit) {
   if (edit.problem.empty()) return;
   ImGui::PushStyleColor(ImGuiCol_Text, tone::kBad);
-  ui::wrapped(edit.problem);
+  ui::wrapped(shownSentence(edit.problem));
   ImGui::PopStyleColor();
   if (ui::button("Revert###revert-inspected")) edit = {};
 }
