@@ -32,15 +32,18 @@ void drawNumber(OptionField& field) {
                    .step = whole ? 1.0 : 0.0});
 }
 
-// Units and axes stay as they are.
-std::string readableChoice(const std::string& choice) {
-  return choice.size() > 2 ? tr(readableOption(choice.c_str())) : choice;
+// Units, axes and the names of formats and datasets stay as they are.
+std::string readableChoice(const Parameter& parameter, const std::string& choice) {
+  const std::string_view of = parameter.name;
+  return choice.size() > 2 && of != "format" && of != "dataset" ? tr(readableOption(choice.c_str())) : choice;
 }
 
 void drawChoice(OptionField& field) {
-  if (!ui::beginDropDown("###value", readableChoice(field.text).c_str())) return;
-  for (const char* choice : field.parameter->choices)
-    if (ui::choice((readableChoice(choice) + "###" + choice).c_str(), field.text == choice)) field.text = choice;
+  const auto& parameter = *field.parameter;
+  if (!ui::beginDropDown("###value", readableChoice(parameter, field.text).c_str())) return;
+  for (const char* choice : parameter.choices)
+    if (ui::choice((readableChoice(parameter, choice) + "###" + choice).c_str(), field.text == choice))
+      field.text = choice;
   ui::endDropDown();
 }
 
