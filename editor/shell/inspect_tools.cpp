@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/shell/inspect_tools.h"
 
+#include <algorithm>
+
 #include "editor/shell/editor.h"
 #include "editor/shell/label_board.h"
 #include "editor/shell/view_pen.h"
@@ -43,7 +45,7 @@ void drawDot(const ViewPen& pen, const Editor& editor, const Eigen::Vector3d& pl
   if (!at) return;
   auto& list = *ImGui::GetWindowDrawList();
   list.AddCircleFilled(*at, editor.px(4), tone);
-  list.AddCircle(*at, editor.px(4), IM_COL32(16, 18, 22, 220), 0, editor.px(1.2F));
+  list.AddCircle(*at, editor.px(4), IM_COL32(16, 18, 22, 220 * (tone >> IM_COL32_A_SHIFT) / 255), 0, editor.px(1.2F));
 }
 
 void drawShape(const ViewPen& pen, const Editor& editor, const Measurement& m, ImU32 tone) {
@@ -67,13 +69,31 @@ void drawShape(const ViewPen& pen, const Editor& editor, const Measurement& m, I
   for (const auto& place : p) drawDot(pen, editor, place, tone);
 }
 
+// Of its ends, or of its middle: they lie on walls and floors, a little off which one looks.
+bool isInSight(const Editor& editor, const ViewState& state, const Measurement& m) {
+  constexpr double kOff_m = 0.02;
+  const auto seen = [&](const Eigen::Vector3d& p) {
+    const Eigen::Vector3d eye = editor.view.camera.eyeOf(p);
+    return editor.picker.sees(eye, p + kOff_m * (eye - p).normalized(), state);
+  };
+  return state.cloud || std::any_of(m.points.begin(), m.points.end(), seen) || seen(labelPlace(m));
+}
+
+ImU32 faint(ImU32 tone) { return (tone & ~IM_COL32_A_MASK) | (64U << IM_COL32_A_SHIFT); }
+
 void drawKept(Editor& editor, const ViewPen& pen, LabelBoard& labels) {
   const auto& kept = editor.session.document().measurements;
   if (!kept || !editor.view.measurements) return;
+  const ViewState state = editor.viewState();
   for (std::size_t i = 0; i < kept->size(); ++i) {
     const auto& m = (*kept)[i];
     const bool chosen = editor.survey.measurement == static_cast<int>(i);
-    drawShape(pen, editor, m, toneOf(chosen));
+    const auto in_picture = [&](const Eigen::Vector3d& p) { return keeps(state, p, kMarkAboveFloor_m); };
+    if (std::none_of(m.points.begin(), m.points.end(), in_picture)) continue;
+    const bool seen = isInSight(editor, state, m);
+    const ImU32 tone = toneOf(chosen);
+    drawShape(pen, editor, m, seen ? tone : faint(tone));
+    if (!seen && !chosen && !editor.view.labels_through_walls) continue;
     const auto result = figuresIn(figureText(figuresOf(m)[0]));
     if (const auto at = pen.at(labelPlace(m)); at && editor.view.labels)
       labels.over({LabelKind::measurement, i}, *at, {m.name + "   " + result, result},

@@ -44,7 +44,8 @@ void ViewPen::line(const Eigen::Vector3d& a, const Eigen::Vector3d& b, ImU32 ton
 }
 
 void ViewPen::rod(const Eigen::Vector3d& a, const Eigen::Vector3d& b, ImU32 tone, float width_pt) const {
-  line(a, b, IM_COL32(16, 18, 22, 170), width_pt + 2);
+  const ImU32 alpha = 170 * (tone >> IM_COL32_A_SHIFT) / 255;
+  line(a, b, IM_COL32(16, 18, 22, alpha), width_pt + 2);
   line(a, b, tone, width_pt);
 }
 
