@@ -144,8 +144,8 @@ std::vector<PhysicalMaterial> withOwn(std::vector<PhysicalMaterial> library, con
 std::vector<std::string> gapsOf(const PhysicalMaterial& material) {
   auto gaps = material.gaps;
   if (isGap(material)) return gaps;
-  if (material.variation == 0) gaps.push_back("variation within the class: no data");
-  if (material.texture_scale_m == 0) gaps.push_back("texture scale: no data");
+  if (material.variation == 0) gaps.push_back("How much one piece of this material differs from another is not known");
+  if (material.texture_scale_m == 0) gaps.push_back("The size of this material's texture is not known");
   return gaps;
 }
 

@@ -60,13 +60,14 @@ FileListing listFolder(const std::filesystem::path& folder, std::span<const std:
   return listing;
 }
 
-std::uint64_t folderSize(const std::filesystem::path& folder) {
+std::uint64_t folderSize(const std::filesystem::path& folder, std::string_view extension) {
   using std::filesystem::directory_options, std::filesystem::recursive_directory_iterator;
   std::uint64_t bytes = 0;
   std::error_code error, gone;
   for (recursive_directory_iterator at(folder, directory_options::skip_permission_denied, error), end;
        !error && at != end; at.increment(error))
-    if (at->is_regular_file(gone) && !at->is_symlink(gone))
+    if (at->is_regular_file(gone) && !at->is_symlink(gone) &&
+        (extension.empty() || at->path().extension() == extension))
       if (const auto size = at->file_size(gone); !gone) bytes += size;
   return bytes;
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace standpoint {
@@ -30,7 +31,7 @@ FileListing listFolder(const std::filesystem::path& folder, std::span<const std:
 
 bool isProjectFolder(const std::filesystem::path& folder);
 std::string readableSize(std::uint64_t bytes);  // "2.4 MB"
-// Of all files in it, as far as it can be read; 0 where there is none.
-std::uint64_t folderSize(const std::filesystem::path& folder);
+// Of all files in it, or of those with that ending, as far as it can be read; 0 where there is none.
+std::uint64_t folderSize(const std::filesystem::path& folder, std::string_view extension = {});
 
 }  // namespace standpoint

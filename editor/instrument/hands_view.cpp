@@ -8,6 +8,7 @@
 #include "editor/widgets/drop_down.h"
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/figures.h"
 
 namespace standpoint {
 
@@ -65,7 +66,7 @@ void drawHands(InstrumentDesk& desk, Editor& editor) {
     stationChoice(desk, document);
     ui::property("Battery", device.shown("battery"));
     ui::property("Memory", tr(device.shown("card")));
-    ui::property("Tilt", device.shown("tilt"));
+    ui::property("Tilt", asFigure(device.shown("tilt")));
     ui::endProperties();
   }
   std::string group;

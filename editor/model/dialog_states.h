@@ -73,7 +73,8 @@ struct DialogStates {
   bool shortcuts = false;
   bool about = false;
   bool preferences = false;
-  std::uint64_t unsaved_bytes = 0;  // of the scans of unsaved projects, as the preferences were opened
+  // Of the scans of unsaved projects with what draws them, and of that alone, as the preferences were opened.
+  std::uint64_t unsaved_bytes = 0, unsaved_drawn_bytes = 0;
   bool unsaved = false;
   std::function<void()> after_unsaved;  // what the user was about to do
   std::function<void()> after_save;     // once the save that the prompt started has gone well

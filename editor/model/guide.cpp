@@ -70,7 +70,7 @@ GuideStep optimiseStep(const Model& model) {
     step.state = State::attention;
     step.status = trf("{} triangles, no budget", groupedDigits(triangles));
   } else {
-    step.status = "The model is already light";
+    step.status = trf("{} triangles, light already; a budget makes it lighter", groupedDigits(triangles));
     step.advice = step.command = "";
   }
   return step;

@@ -452,11 +452,7 @@ ViewState Model::viewState() const {
   if (const auto& around = place_points.shown(); around && view.place_points) state.underlays.push_back(*around);
   state.quick_points = recording.live.active();
   if (document.job && !visibility.alone()) {
-    // Of one that stands on a storey which is cut open, all is shown.
-    const auto kept_at = [&](const Eigen::Vector3d& centre, double height_m) {
-      return (!state.cut_height_m || centre.z() - height_m < *state.cut_height_m) &&
-             (!state.clip || state.clip->contains(centre));
-    };
+    const auto kept_at = [&](const Eigen::Vector3d& centre, double height_m) { return keeps(state, centre, height_m); };
     const auto kept = [&](const Station& s) { return kept_at(s.true_pose.translation, s.instrument_height_m); };
     auto scene = standing_.of(*document.job, held, scan_choice.instrument, view.camera.eye(), kept);
     state.instruments = std::move(scene.still);

@@ -298,7 +298,7 @@ void Session::clear() {
 
 void Session::undo() {
   if (!whyNotUndo().empty()) return;
-  say(LogLevel::note, "", trf("Undone: {}", trSentence(history_.undoDescription())));
+  say(LogLevel::note, "", fmt::format("Undone: {}", history_.undoDescription()));
   const Document before = document();
   history_.undo();
   countStep(before);
@@ -306,7 +306,7 @@ void Session::undo() {
 
 void Session::redo() {
   if (!whyNotRedo().empty()) return;
-  say(LogLevel::note, "", trf("Redone: {}", trSentence(history_.redoDescription())));
+  say(LogLevel::note, "", fmt::format("Redone: {}", history_.redoDescription()));
   const Document before = document();
   history_.redo();
   countStep(before);
@@ -319,7 +319,7 @@ std::string Session::whyNotGoTo(std::size_t step) const {
 
 void Session::goTo(std::size_t step) {
   if (!whyNotGoTo(step).empty()) return;
-  say(LogLevel::note, "", trf("Went to step: {}", history_.description(step)));
+  say(LogLevel::note, "", fmt::format("Went to step: {}", history_.description(step)));
   const Document before = document();
   history_.goTo(step);
   countStep(before);
@@ -487,7 +487,7 @@ void Session::fail(const VerbTask& task, const Error& error) {
                         task.seconds(),
                         {}});
   if (cancelled) {
-    say(LogLevel::note, "", trf("{} cancelled", task.title()));
+    say(LogLevel::note, "", fmt::format("{} cancelled", task.title()));
     return;
   }
   if (keeps && keeping_problem_ == describe(error)) return;  // said before

@@ -22,6 +22,11 @@ Result<PixelPicture> SceneView::pixels(const ViewState&, int, int) {
   return failure(ErrorKind::unusable, "nothing draws pictures here: OpenGL is missing");
 }
 
+bool keeps(const ViewState& state, const Eigen::Vector3d& place, double above_floor_m) {
+  return (!state.cut_height_m || place.z() - above_floor_m < *state.cut_height_m) &&
+         (!state.clip || state.clip->contains(place));
+}
+
 bool isDrawnApart(const ViewState& state, std::uint32_t product) {
   return state.doors && product < state.doors->products.size() && state.doors->products[product].inScene();
 }

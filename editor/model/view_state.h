@@ -93,6 +93,10 @@ struct ViewState {
   bool operator==(const ViewState&) const = default;
 };
 
+// Whether what stands there, that far above its floor, is in the picture: not beside the clip box, nor on a floor that
+// is cut away. Of what stands on a storey that is cut open, all is.
+bool keeps(const ViewState& state, const Eigen::Vector3d& place, double above_floor_m);
+constexpr double kMarkAboveFloor_m = 1.5;  // of a mark whose floor is not known
 // Drawn where it stands open, not where the model has it.
 bool isDrawnApart(const ViewState& state, std::uint32_t product);
 bool isTerrain(const Product& product);  // the ground around what is built

@@ -13,6 +13,7 @@
 #include "core/readable_name.h"
 #include "editor/model/fieldwork.h"
 #include "editor/model/model.h"
+#include "editor/words/sentences.h"
 #include "editor/words/words.h"
 #include "optimizer/walk/landing.h"
 
@@ -55,6 +56,7 @@ bool begin(Model& model, const std::shared_ptr<const WalkedGround>& ground, cons
   model.views.push(before);
   model.view.tool = Tool::walk;
   model.visibility.cut_height_m.reset();  // rooms have walls and ceilings for whoever stands in them
+  if (place.no_ground_outside) model.say(tr("No way in from outside: the walk begins behind the entrance"));
   return true;
 }
 
@@ -120,14 +122,14 @@ void startWalking(Model& model) {
 std::string whyNoLanding(const Landing& landing, const Model& model) {
   if (!landing.why_not.empty()) return landing.why_not;
   const bool far = model.walk.active() && (landing.feet - model.walk.feet()).norm() > kReach_m;
-  return far ? "out of reach" : "";
+  return far ? fmt::format("out of reach: more than {:.0f} m away", kReach_m) : "";
 }
 
 void teleport(Model& model, const RayHit& hit) {
   jump(model, [&model, hit, body = model.walker](const WalkedGround& ground) -> Result<StartPlace> {
     const auto landing = landingOn(ground, body, hit.position, hit.normal);
     const auto why = whyNoLanding(landing, model);
-    if (!why.empty()) return tl::unexpected(nowhere(trf("Cannot stand there: {}", why)));
+    if (!why.empty()) return tl::unexpected(nowhere(trf("Cannot stand there: {}", trSentence(why))));
     return StartPlace{landing.feet, {}};
   });
 }

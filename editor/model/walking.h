@@ -49,14 +49,14 @@ struct TeleportAim {
   bool active() const { return by_key || by_click; }
 };
 
-// From where one looks. What is needed for it is prepared first.
+// From where one looks, or at the entrance. What is needed for it is prepared first.
 void startWalking(Model& model);
 // Stands at a place that is pointed at, in a room, or at the station of that index, and walks on from there.
 void teleport(Model& model, const RayHit& hit);
 void jumpToRoom(Model& model, std::uint32_t product);
 void jumpToStorey(Model& model, std::int32_t node);  // index into Environment::spatial
 void jumpToStation(Model& model, std::size_t station);
-// "" or why nobody can be put where that is.
+// "" or why nobody can be put where that is, as trSentence() knows it.
 std::string whyNoLanding(const Landing& landing, const Model& model);
 
 void stopWalking(Model& model);

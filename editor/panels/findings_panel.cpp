@@ -25,6 +25,26 @@ struct FindingsState {
   std::vector<MaterialFinding> all;  // of that revision
 };
 
+// Ids of materials, which verifying knows them by, as the lists call them.
+std::string withMaterialNames(const Model& model, const std::string& english) {
+  const auto isOfId = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
+  std::string named;
+  for (std::size_t at = 0; at < english.size();) {
+    const auto end = static_cast<std::size_t>(
+        std::find_if_not(english.begin() + static_cast<std::ptrdiff_t>(at), english.end(), isOfId) - english.begin());
+    const auto word = english.substr(at, std::max<std::size_t>(end - at, 1));
+    const bool may_be_id = word.find('_') != std::string::npos || (at > 0 && english[at - 1] == '\'');
+    const auto* material = may_be_id ? model.offeredMaterial(word) : nullptr;
+    named += material == nullptr ? word : material->label;
+    at += word.size();
+  }
+  return named;
+}
+
+std::string shownMessage(const Model& model, const std::string& english) {
+  return withReadableClasses(shownSentence(withMaterialNames(model, english)));
+}
+
 void choose(FindingsState& state, Actions& actions, const MaterialFinding& finding) {
   state.chosen = finding.id;
   state.because = finding.because;
@@ -58,7 +78,7 @@ void drawList(const Model& model, FindingsState& state, Actions& actions,
       ImGui::SameLine();
       const auto area = figures("{:.1f} m²", finding.area_m2);
       const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(area.c_str()).x - model.px(14);
-      ui::fitted(withReadableClasses(shownSentence(finding.message)), room);
+      ui::fitted(shownMessage(model, finding.message), room);
       ImGui::SameLine();
       ui::textRightAligned(area);
       ImGui::PopID();
@@ -73,7 +93,7 @@ void drawRemedy(const Model& model, Actions& actions, const Remedy& remedy, cons
   const std::string blocked = !why.empty() ? why : known == nullptr ? "Select a material in the list first" : "";
   const std::string text = open ? fmt::format("{}: {}", shownSentence(remedy.text),
                                               known == nullptr ? tr("Select a material") : tr(known->label))
-                                : shownSentence(remedy.text);
+                                : shownMessage(model, remedy.text);
   if (ui::button(fmt::format("{}  {}###{}{}", ICON_MAGIC, text, remedy.selector, remedy.material).c_str(), blocked,
                  {-FLT_MIN, 0}))
     actions.start(MaterialsOptions{{.assign = overridesBy(remedy, material)}}, remedy.text);
@@ -97,9 +117,9 @@ void drawAcceptance(const Model& model, FindingsState& state, Actions& actions, 
 }
 
 void drawFinding(const Model& model, FindingsState& state, Actions& actions, const MaterialFinding& finding) {
-  ui::wrapped(withReadableClasses(shownSentence(finding.message)));
+  ui::wrapped(shownMessage(model, finding.message));
   ImGui::PushStyleColor(ImGuiCol_Text, tone::kDim);
-  ui::wrapped(withReadableClasses(shownSentence(finding.why)));
+  ui::wrapped(shownMessage(model, finding.why));
   ImGui::PopStyleColor();
   if (ui::iconButton(ICON_CROSSHAIRS "  Isolate###look", "Hides everything else and frames the products",
                      finding.products.empty() ? "This finding has no products" : ""))

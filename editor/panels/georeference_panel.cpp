@@ -30,6 +30,8 @@ struct GeoreferenceState {
   Result<MapFactors> derived = MapFactors();
 };
 
+constexpr double kSameNorth_rad = 1e-5;
+
 double rotationDeg(const MapConversion& m) { return std::atan2(m.x_axis_ordinate, m.x_axis_abscissa) / kRadPerDeg; }
 
 void drawStated(const Georeference& g) {
@@ -46,6 +48,20 @@ void drawStated(const Georeference& g) {
     ui::property("Site in the file", figures("{:.6f}°  {:.6f}°", g.site->latitude_deg, g.site->longitude_deg));
   if (g.true_north_rad) ui::property("True north", trf("{:.3f}° clockwise from +Y", *g.true_north_rad / kRadPerDeg));
   ui::endProperties();
+  if (g.true_north_rad && std::abs(*g.true_north_rad) > kSameNorth_rad)
+    ui::dimWrapped(
+        "True north is what the file says of the compass, and turns nothing. Rotation is how the model is turned on "
+        "the map: from east to its X axis, counter-clockwise.");
+}
+
+// As the file's true north asks for: what it is clockwise from +Y, the X axis is counter-clockwise from east.
+void offerTrueNorth(GeoreferenceState& state, const Georeference& g) {
+  if (!g.true_north_rad || std::abs(*g.true_north_rad - state.rotation_deg * kRadPerDeg) < kSameNorth_rad) return;
+  const double north_deg = *g.true_north_rad / kRadPerDeg;
+  if (ui::button(
+          (trf("Turn to true north, {:.3f}°", north_deg) + "###take-north").c_str(), {}, {0, 0},
+          "Sets the rotation so that true north of the file points north on the map; the convergence is left out"))
+    state.rotation_deg = north_deg;
 }
 
 void drawUtm(double latitude_deg, double longitude_deg) {
@@ -94,7 +110,7 @@ void fill(GeoreferenceState& state, const Georeference& g) {
   state.rotation_deg = rotationDeg(*g.map_from_file);
 }
 
-void drawForm(const Model& model, GeoreferenceState& state, Actions& actions) {
+void drawForm(const Model& model, GeoreferenceState& state, const Georeference& g, Actions& actions) {
   ui::heading(model, "Set");
   if (ui::beginProperties("form", 0.42F)) {
     ui::propertyLabel("CRS");
@@ -109,7 +125,9 @@ void drawForm(const Model& model, GeoreferenceState& state, Actions& actions) {
       ui::numberField(fmt::format("###origin{}", i).c_str(), state.origin_m[i], {.kind = {.unit = "m"}, .decimals = 3});
     }
     ui::propertyLabel("Rotation");
-    ui::numberField("###rotation", state.rotation_deg, {.kind = {.unit = "°"}, .decimals = 6});
+    ui::numberField("###rotation", state.rotation_deg, {.kind = {.unit = "°"}, .decimals = 6},
+                    "From east on the map to the model's X axis, counter-clockwise");
+    offerTrueNorth(state, g);
     ui::endProperties();
   }
   if (!ui::primaryButton(ICON_GLOBE "  Set georeference###georeference", model.session.whyNot("georeference"),
@@ -128,7 +146,7 @@ void draw(const Model& model, GeoreferenceState& state, Actions& actions) {
   fill(state, *georeference);
   drawStated(*georeference);
   drawDerived(model, state, *georeference);
-  drawForm(model, state, actions);
+  drawForm(model, state, *georeference, actions);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ void drawStep(const Model& model, Actions& actions, std::size_t step) {
   if (ImGui::Selectable(label.c_str(), current, ImGuiSelectableFlags_SpanAllColumns) && !current) actions.goTo(step);
   ImGui::PopStyleColor();
   ImGui::EndDisabled();
-  ui::tooltip(!why.empty() ? why : current ? "This is the current step" : undone ? "Redo up to here" : "Undo to here");
+  ui::tooltip(why);
   ImGui::TableNextColumn();
   if (history.isSaved(step)) ui::dimText("saved");
   ImGui::PopID();
@@ -47,7 +47,7 @@ void draw(const Model& model, HistoryState& state, Actions& actions) {
     ui::dimText("No steps. Each change appears here; click a step to go back to it.");
     return;
   }
-  ui::heading(model, "History");
+  ui::heading(model, "History: click a step to undo or redo to it");
   ui::copyTable("steps", [&] {
     TableRows table = {{"n", tr("Step"), tr("State")}};
     for (std::size_t i = 0; i < history.size(); ++i)

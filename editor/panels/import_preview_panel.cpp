@@ -144,15 +144,16 @@ void drawIssue(const Model& model, Actions& actions, const LogEntry& issue, int 
   ImGui::TextColored(colour(shade), "%s", issue.level == LogLevel::note ? ICON_INFO : ICON_WARNING);
   ImGui::TableNextColumn();
   const ImVec2 at = ImGui::GetCursorPos();
+  const std::string text = (issue.source.empty() ? "" : issue.source + "  ") + shownSentence(issue.message);
+  const float height = ImGui::CalcTextSize(text.c_str(), nullptr, false, ImGui::GetContentRegionAvail().x).y;
   if (product && ImGui::Selectable("###issue", model.preview_selection.contains(*product),
-                                   ImGuiSelectableFlags_AllowItemOverlap)) {
+                                   ImGuiSelectableFlags_AllowItemOverlap, {0, height})) {
     actions.selectInPreview(*product);
     actions.frameSelection();
   }
   ImGui::SetCursorPos(at);
-  const std::string text = (issue.source.empty() ? "" : issue.source + "  ") + shownSentence(issue.message);
   if (product) ImGui::PushStyleColor(ImGuiCol_Text, tone::kLink);
-  ui::fitted(text, ImGui::GetContentRegionAvail().x);
+  ui::wrapped(text);
   if (product) ImGui::PopStyleColor();
   ImGui::PopID();
 }
@@ -181,13 +182,15 @@ void drawIssues(const Model& model, ImportPreviewState& state, Actions& actions)
     return;
   ImGui::TableSetupColumn("level", ImGuiTableColumnFlags_WidthFixed, model.px(18));
   ImGui::TableSetupColumn("text", ImGuiTableColumnFlags_WidthStretch);
-  ImGuiListClipper clipper;
-  clipper.Begin(static_cast<int>(shown.size()));
-  while (clipper.Step())
-    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-      const int issue = shown[static_cast<std::size_t>(i)];
-      drawIssue(model, actions, entries[static_cast<std::size_t>(issue)], issue);
-    }
+  constexpr std::size_t kMost = 1000;  // rows of different heights are all laid out in each frame
+  for (std::size_t i = 0; i < std::min(shown.size(), kMost); ++i)
+    drawIssue(model, actions, entries[static_cast<std::size_t>(shown[i])], shown[i]);
+  if (shown.size() > kMost) {
+    ImGui::TableNextRow();
+    ImGui::TableSetColumnIndex(1);
+    ui::dimWrapped(
+        trf("and {} more, which the log has once the model is imported", groupedDigits(shown.size() - kMost)));
+  }
   ImGui::EndTable();
 }
 

@@ -184,13 +184,21 @@ std::vector<std::pair<std::int32_t, std::string>> materialsOf(const MaterialAssi
   return found;
 }
 
+// "rule 12 of default.json" says nothing to whoever has not written it.
+std::string withoutFileOfRules(std::string reason) {
+  constexpr std::string_view kFile = "default.json";
+  if (reason.ends_with(kFile)) reason.replace(reason.size() - kFile.size(), kFile.size(), tr("the built-in rules"));
+  return reason;
+}
+
 void assign(const Model& model, Actions& actions, const PhysicalMaterial& material) {
   std::vector<MaterialOverride> overrides;
   for (const auto p : model.selection.products())
     overrides.push_back({selectorOf(model.environment()->products[p]), material.id});
   const auto count = model.selection.products().size();
-  actions.start(MaterialsOptions{{.assign = std::move(overrides)}},
-                trf("Assign {} to {}", tr(material.label), trn("{} product", "{} products", count, count)));
+  actions.start(
+      MaterialsOptions{{.assign = std::move(overrides)}},
+      trf("Assign {} to {}", tr(material.label), trn("{} product", "{} products", count, groupedDigits(count))));
 }
 
 void drawAssign(const Model& model, InspectorState& state, Actions& actions, const std::string& current) {
@@ -276,7 +284,7 @@ void drawPhysicalMaterial(const Model& model, InspectorState& state, Actions& ac
     ui::swatch(model, materialColour(&m));
     ImGui::SameLine();
     ui::wrapped(tr(m.label));
-    if (!reason.empty()) ui::tooltip(trf("Matched by: {}", trSentence(reason)));
+    if (!reason.empty()) ui::tooltip(trf("Matched by: {}", withoutFileOfRules(trSentence(reason))));
     drawPhysics(m);
   }
 }
@@ -332,7 +340,7 @@ void drawButtons(Actions& actions) {
 
 void drawMany(const Model& model, InspectorState& state, Actions& actions) {
   const auto& products = model.selection.products();
-  ui::heading(model, trn("{} product", "{} products", products.size(), products.size()).c_str());
+  ui::heading(model, trn("{} product", "{} products", products.size(), groupedDigits(products.size())).c_str());
   std::map<std::string, int> classes;
   std::uint64_t triangles = 0;
   std::vector<std::uint8_t> chosen(model.environment()->products.size(), 0);

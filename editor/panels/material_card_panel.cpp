@@ -16,6 +16,7 @@
 #include "editor/widgets/number_field.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
+#include "editor/words/sentences.h"
 #include "editor/words/words.h"
 #include "materials/materials.h"
 
@@ -204,7 +205,7 @@ void drawGaps(const Model& model, const PhysicalMaterial& m) {
   const auto gaps = gapsOf(m);
   if (gaps.empty()) return;
   ui::heading(model, "Unknown");
-  for (const auto& gap : gaps) ui::dimWrapped(gap);
+  for (const auto& gap : gaps) ui::dimWrapped(shownSentence(gap));
 }
 
 void drawSources(const Model& model, const PhysicalMaterial& m) {
@@ -238,8 +239,9 @@ void drawNothing(const Model& model) {
         model, ICON_PAINT, "No material selected",
         "Select a material in the list or a surface in the view to see its spectrum, angular response and "
         "scanner readings.");
-  const auto what = selected.size() == 1 ? productLabel(model.environment()->products[selected.front()])
-                                         : trn("{} product", "{} products", selected.size(), selected.size());
+  const auto what = selected.size() == 1
+                        ? productLabel(model.environment()->products[selected.front()])
+                        : trn("{} product", "{} products", selected.size(), groupedDigits(selected.size()));
   ui::emptyState(model, ICON_PAINT, "No material yet",
                  trf("{}: no physical material is assigned. Assign materials by rules, or choose one in the "
                      "Inspector.",

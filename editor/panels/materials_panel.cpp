@@ -191,7 +191,7 @@ void drawAssign(const Model& model, const MaterialsState& state, Actions& action
                                        : model.session.whyNot("materials");
   const auto what = wanted.size() == 1 && wanted[0] < products.size()
                         ? productLabel(products[wanted[0]])
-                        : trn("{} product", "{} products", wanted.size(), wanted.size());
+                        : trn("{} product", "{} products", wanted.size(), groupedDigits(wanted.size()));
   const auto text = wanted.empty() ? tr("Assign to selection") : trf("Assign to {}", what);
   const float width = ImGui::GetContentRegionAvail().x;
   const auto label = ui::fittingText(ICON_PAINT "  " + text, width - 2 * ImGui::GetStyle().FramePadding.x);
@@ -227,7 +227,7 @@ void drawBulk(const Model& model, MaterialsState& state, Actions& actions) {
                                          : model.session.whyNot("materials");
   if (ui::button(ICON_PAINT "  Assign selected###bulk-assign", why, {width, 0}))
     actions.start(MaterialsOptions{{.assign = {{state.bulk, material->id}}}},
-                  trf("Assign {} to {} products", tr(material->label), meant.size()));
+                  trf("Assign {} to {} products", tr(material->label), groupedDigits(meant.size())));
 }
 
 void drawListSwitch(MaterialsState& state) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "editor/desktop/file_list.h"
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
 #include "editor/widgets/icons.h"
@@ -97,7 +98,7 @@ void drawStations(const Model& model, const PlanAnswer& answer) {
   const auto row = [](const std::string& name, const std::string& sees, std::int64_t points, std::int64_t bytes) {
     ImGui::TableNextRow();
     for (const auto& text : {name, sees, figures("{:.1f} M", static_cast<double>(points) / 1e6),
-                             fmt::format("{:.0f} MB", static_cast<double>(bytes) / 1e6)}) {
+                             readableSize(static_cast<std::uint64_t>(bytes))}) {
       ImGui::TableNextColumn();
       ui::fitted(text, ImGui::GetContentRegionAvail().x);
     }

@@ -12,6 +12,7 @@
 #include <imgui_stdlib.h>
 
 #include "core/units.h"
+#include "editor/desktop/file_list.h"
 #include "editor/model/scan_form.h"
 #include "editor/panels/actions.h"
 #include "editor/panels/panel.h"
@@ -143,10 +144,11 @@ void drawOutput(const Model& model, ScanState& state, Actions& actions,
   }
   ui::propertyLabel("Folder");
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x);
+  ImGui::InputTextWithHint("###folder", tr("Automatic").c_str(), &state.folder);
   const bool unsaved = model.session.folder().empty();
-  ImGui::InputTextWithHint("###folder", tr(unsaved ? "Scans of unsaved projects" : "Project scans").c_str(),
-                           &state.folder);
-  if (state.folder.empty()) ui::tooltip(standardFolder(model).string());
+  ui::tooltip(!state.folder.empty() ? state.folder
+                                    : tr(unsaved ? "Scans of unsaved projects" : "Project scans") + "\n" +
+                                          standardFolder(model).string());
   ImGui::SameLine();
   if (ui::iconButton(ICON_FOLDER_OPEN "###choose-folder", "Choose…"))
     actions.askForFile(FileDialogState::Purpose::saveFolder, "Scan folder", "Choose", {".none"}, "scans",
@@ -208,10 +210,6 @@ std::vector<std::size_t> stationsWanted(const Model& model, const ScanState& sta
   return wanted;
 }
 
-std::string bytesText(double bytes) {
-  return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : figures("{:.2f} GB", bytes / 1e9);
-}
-
 // Grid and time at once; points and size as soon as some rays have said what there is to see.
 void drawForecast(const Model& model, const ScanState& state, const ScanChoice& asked, Actions& actions,
                   const Instrument& instrument, const ScanSettings& settings) {
@@ -232,7 +230,10 @@ void drawForecast(const Model& model, const ScanState& state, const ScanChoice& 
   const std::string waiting = wanted.empty() ? tr("no stations") : "…";
   ui::property("Points", outlook ? trf("about {:.1f} million", outlook->points / 1e6) : waiting);
   ui::tooltip("Estimated from some thousand rays in clear air");
-  ui::property("As E57", outlook ? trf("about {}", bytesText(outlook->bytes)) : waiting);
+  ui::property("As E57", outlook ? trf("about {}", readableSize(static_cast<std::uint64_t>(outlook->bytes))) : waiting);
+  ui::tooltip(
+      "Of the files of the scans. What draws a scan lies beside its file, is about as large, and is made again when "
+      "needed.");
   ui::property("Pulses per station", trf("{:.1f} million,  {} × {}",
                                          static_cast<double>(settings.columns) * settings.rows * settings.passes / 1e6,
                                          settings.columns, settings.rows));

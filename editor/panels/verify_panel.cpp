@@ -153,9 +153,10 @@ void drawMaterials(const Model& model, VerifyState& state, Actions& actions, con
 }
 
 std::string titleOf(const Model& model, const VerifiedProposal& p) {
-  const auto count = p.whole_material
-                         ? std::string()
-                         : " (" + trn("{} product", "{} products", p.products.size(), p.products.size()) + ")";
+  const auto count =
+      p.whole_material
+          ? std::string()
+          : " (" + trn("{} product", "{} products", p.products.size(), groupedDigits(p.products.size())) + ")";
   return trf("{}{} behaves like {}", labelOf(model, p.material), count, labelOf(model, p.behaves_like));
 }
 

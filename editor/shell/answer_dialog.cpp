@@ -85,11 +85,18 @@ std::string linesInWords(const std::string& text) {
   return all;
 }
 
+// Other whole numbers may be years, seeds or codes.
+bool isCount(std::string_view key) {
+  constexpr std::array kCounts = {"points",  "triangles",        "products",       "pulses", "returns",
+                                  "faces",   "vertices",         "cells",          "kept",   "removed",
+                                  "samples", "triangles_before", "triangles_after"};
+  return std::find(kCounts.begin(), kCounts.end(), key) != kCounts.end();
+}
+
 // Sizes as a folder shows them, large counts in groups of digits.
 std::string figureText(std::string_view key, const json& value) {
   if (key == "bytes" && value.is_number_integer()) return readableSize(value.get<std::uint64_t>());
-  if ((key == "points" || key == "triangles") && value.is_number_integer())
-    return groupedDigits(value.get<std::uint64_t>());
+  if (isCount(key) && value.is_number_integer() && value >= 0) return groupedDigits(value.get<std::uint64_t>());
   if (isSaid(key)) return trSentence(scalarText(value));
   return value.is_primitive() ? scalarText(value) : rowText(value);
 }

@@ -44,6 +44,7 @@ struct Editor : Model {
   bool quit = false;          // confirmed
 
   LabelLayout label_layout;               // of the view
+  std::optional<LabelOf> pointed_label;   // one that acts as a button, under the pointer in the frame drawn last
   Eigen::Vector2f overlay_size = {0, 0};  // of the controls over the viewport, as drawn last
   // Where they must end on the right, on the screen; and the lower left corner of the navigation cube, beside which all
   // rows from `beside_cube` on are.

@@ -10,12 +10,25 @@
 
 namespace standpoint {
 
+void chooseGraphics(Editor& editor, GraphicsChoice choice) {
+  editor.settings.graphics = choice;
+  editor.graphics.choose(choice);
+  const auto& means = editor.graphics.means();
+  if (choice == GraphicsChoice::automatic)
+    editor.say(trf("Graphics: Automatic, now {}", tr(graphicsName(editor.graphics.level()))));
+  else if (means && means->by_processor)
+    editor.say(trf("Graphics: {}; without a graphics card all of it shows while the view is at rest",
+                   tr(graphicsName(choice))));
+  else
+    editor.say(trf("Graphics: {}", tr(graphicsName(choice))));
+}
+
 void drawGraphicsChoices(Editor& editor, float width_pt) {
   editor.costs_wanted = editor.shown() && editor.graphics.notMeasured();
   for (const auto choice : kGraphicsChoices) {
     if (ui::radioButton(fmt::format("{}###graphics-{}", tr(graphicsName(choice)), graphicsKey(choice)).c_str(),
                         editor.settings.graphics == choice))
-      editor.settings.graphics = choice;
+      chooseGraphics(editor, choice);
     const float inset = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x;
     ImGui::Indent(inset);
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - editor.px(6));

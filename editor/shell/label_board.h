@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,10 +24,12 @@ class LabelBoard {
   void around(LabelOf of, ImVec2 p, std::vector<std::string> texts, ImU32 tone) {
     add(of, p, std::move(texts), tone, false, true);
   }
+  // Around `p`, and what a click on it does is its maker's.
+  void button(LabelOf of, ImVec2 p, std::string text);
   // Of what is drawn over the labels: they keep away from it.
   void keepFree(ImVec2 low, ImVec2 high);
-  // `layout` is that of the frame before.
-  void draw(ImDrawList& list, LabelLayout& layout) const;
+  // `layout` is that of the frame before. The button at `pointer`, if there is one.
+  std::optional<LabelOf> draw(ImDrawList& list, LabelLayout& layout, std::optional<ImVec2> pointer) const;
 
  private:
   void add(LabelOf of, ImVec2 p, std::vector<std::string> texts, ImU32 tone, bool chosen, bool centred);
@@ -34,6 +38,7 @@ class LabelBoard {
   float scale_;
   std::vector<WantedLabel> wanted_;
   std::vector<ImU32> tones_;
+  std::set<LabelOf> buttons_;
   std::vector<Eigen::AlignedBox2d> kept_free_;
 };
 

@@ -6,6 +6,7 @@
 
 #include <imgui.h>
 
+#include "editor/model/stairs.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/holes_overlay.h"
 #include "editor/shell/label_board.h"
@@ -20,6 +21,8 @@
 namespace standpoint {
 
 namespace {
+
+constexpr float kHidden = 0.25F;  // how strong a mark is that something hides
 
 ImU32 faded(ImU32 packed, float alpha) {
   ImVec4 c = colour(packed);
@@ -78,6 +81,11 @@ bool isDrawnAsBody(const Editor& editor, const ViewState& state, const Station& 
   return state.instruments && std::any_of(state.instruments->still.begin(), state.instruments->still.end(), here);
 }
 
+// The model hides nothing where points are shown instead of it.
+bool isInSight(const Editor& editor, const ViewState& state, const Eigen::Vector3d& place) {
+  return state.cloud || editor.picker.sees(editor.view.camera.eyeOf(place), place, state);
+}
+
 void drawStations(Editor& editor, Pen& pen, const ViewState& state) {
   const auto& job = editor.session.document().job;
   if (!job) return;
@@ -85,11 +93,12 @@ void drawStations(Editor& editor, Pen& pen, const ViewState& state) {
     const auto& station = job->stations[i];
     const Eigen::Vector3d centre = station.true_pose.translation;
     if ((centre - editor.view.camera.eye()).norm() < kInsideInstrument_m) continue;  // one looks out of it
+    if (!keeps(state, centre, station.instrument_height_m)) continue;
     const auto place = pen.at(centre);
     if (!place) continue;
-    const bool seen = editor.picker.sees(editor.view.camera.eyeOf(centre), centre, state);
+    const bool seen = isInSight(editor, state, centre);
     const bool chosen = editor.survey.station == static_cast<int>(i);
-    const float strength = seen ? 1.0F : 0.45F;
+    const float strength = seen ? 1.0F : kHidden;
     const ImU32 tone = faded(chosen ? tone::kAccent : tone::kStation, strength);
     if (seen && isDrawnAsBody(editor, state, station)) {
       if (chosen) pen.circle(*place, 6, IM_COL32(20, 22, 26, 60), tone);
@@ -99,7 +108,7 @@ void drawStations(Editor& editor, Pen& pen, const ViewState& state) {
       if (!station.scans.empty()) pen.circle(*place, 2, tone, tone);
     }
     if (editor.view.labels && (seen || chosen || editor.view.labels_through_walls))
-      pen.labels.over({LabelKind::station, i}, *place, {station.name}, faded(tone::kText, strength), chosen);
+      pen.labels.over({LabelKind::station, i}, *place, {station.name}, tone::kText, chosen);
   }
 }
 
@@ -109,13 +118,13 @@ void drawTargets(Editor& editor, Pen& pen, const ViewState& state) {
   for (std::size_t i = 0; i < job->targets.size(); ++i) {
     const auto& target = job->targets[i];
     const auto place = pen.at(target.centre);
-    if (!place) continue;
-    const bool seen = editor.picker.sees(editor.view.camera.eyeOf(target.centre), target.centre, state);
+    if (!place || !keeps(state, target.centre, kMarkAboveFloor_m)) continue;
+    const bool seen = isInSight(editor, state, target.centre);
     const bool chosen = editor.survey.target == static_cast<int>(i);
-    const ImU32 tone = faded(chosen ? tone::kAccent : tone::kGood, seen ? 1.0F : 0.45F);
-    pen.circle(*place, 5, faded(IM_COL32(245, 245, 245, 255), seen ? 0.9F : 0.35F), tone);
+    const ImU32 tone = faded(chosen ? tone::kAccent : tone::kGood, seen ? 1.0F : kHidden);
+    pen.circle(*place, 5, faded(IM_COL32(245, 245, 245, 255), seen ? 0.9F : kHidden), tone);
     if (editor.view.labels && (seen || chosen || editor.view.labels_through_walls))
-      pen.labels.over({LabelKind::target, i}, *place, {target.name}, faded(tone::kText, seen ? 1.0F : 0.45F), chosen);
+      pen.labels.over({LabelKind::target, i}, *place, {target.name}, tone::kText, chosen);
   }
 }
 
@@ -144,53 +153,14 @@ void drawRoomNames(Editor& editor, Pen& pen, const ViewState& state) {
   }
 }
 
-// Where the straight way from outside meets the box; nothing from inside, or where it misses.
-std::optional<Eigen::Vector3d> entryOf(const Bounds& box, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  double enters = 0, leaves = 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double way = to[axis] - from[axis];
-    if (std::abs(way) < 1e-9) {
-      if (from[axis] < box.min[axis] || from[axis] > box.max[axis]) return std::nullopt;
-      continue;
-    }
-    const double low = (box.min[axis] - from[axis]) / way, high = (box.max[axis] - from[axis]) / way;
-    enters = std::max(enters, std::min(low, high));
-    leaves = std::min(leaves, std::max(low, high));
-  }
-  if (enters <= 0 || enters >= leaves) return std::nullopt;
-  return from + enters * (to - from);
-}
-
-// The storey that begins there; null: none does.
-const StoreyLevel* storeyAt(const Editor& editor, double height_m) {
-  constexpr double kNear_m = 1;
-  const auto& storeys = editor.storeys();
-  const auto nearest = std::min_element(storeys.begin(), storeys.end(), [&](const auto& a, const auto& b) {
-    return std::abs(a.elevation_m - height_m) < std::abs(b.elevation_m - height_m);
-  });
-  return nearest != storeys.end() && std::abs(nearest->elevation_m - height_m) < kNear_m ? &*nearest : nullptr;
-}
-
-// Where a stair leads from the storey of whoever walks, as long as he sees it and is not on it.
-void drawStairNames(Editor& editor, Pen& pen, const ViewState& state) {
-  constexpr double kFarthest_m = 15, kChest_m = 1.2, kBefore_m = 0.05;
-  if (!editor.walk.active() || !editor.view.room_names || editor.cloud()) return;
-  const Eigen::Vector3d eye = editor.view.camera.eye(), feet = editor.walk.feet();
-  for (const auto& stair : editor.room_labels.stairsOf(editor.session.document().imported)) {
-    const double low = stair.box.min.z(), high = stair.box.max.z();
-    const bool up = feet.z() < (low + high) / 2;
-    const auto* storey = storeyAt(editor, up ? high : low);
-    if (storey == nullptr || feet.z() < low - kChest_m || feet.z() > high + kChest_m) continue;
-    Eigen::Vector3d anchor = (stair.box.min + stair.box.max) / 2;
-    anchor.z() = std::clamp(feet.z() + kChest_m, low, high);
-    const auto entry = entryOf(stair.box, eye, anchor);
-    if (!entry || (*entry - eye).norm() > kFarthest_m) continue;
-    const Eigen::Vector3d before = *entry - kBefore_m * (*entry - eye).normalized();
-    const auto place = pen.at(anchor);
-    const auto& name = editor.environment()->spatial[static_cast<std::size_t>(storey->node)].name;
-    if (place && !name.empty() && editor.picker.sees(eye, before, state))
-      pen.labels.around({LabelKind::stair, stair.product}, *place, {trf("Stair to {}", name)}, tone::kText);
-  }
+// Where a stair leads from the storey of whoever walks; a click on its name goes there.
+void drawStairNames(const Editor& editor, Pen& pen, const ViewState& state) {
+  if (!editor.view.room_names || editor.cloud()) return;
+  for (const auto& stair : stairsAhead(editor, state))
+    if (const auto place = pen.at(stair.anchor))
+      pen.labels.button({LabelKind::stair, stair.product}, *place,
+                        stair.up ? trf("{}  Stair up to {}  (Q)", ICON_ARROW_UP, stair.storey)
+                                 : trf("{}  Stair down to {}  (Q)", ICON_ARROW_DOWN, stair.storey));
 }
 
 // Where a handheld scanner shall be carried.

@@ -64,7 +64,7 @@ void drawMarksOver(Editor& editor, const Camera& camera, PixelPicture& picture) 
     LabelLayout layout;
     drawMarkers(editor, origin, labels);
     drawInspectMarks(editor, origin, labels);
-    labels.draw(list, layout);
+    labels.draw(list, layout, std::nullopt);
   }
   std::vector<ImDrawList*> lists = {&list};
   ImDrawData drawing;

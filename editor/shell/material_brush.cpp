@@ -57,8 +57,9 @@ void drawMaterialMenu(Editor& editor) {
   ui::dimText(trf("{} on", tr(material->label)));
   for (const auto& scope :
        materialScopes(*editor.environment(), hit, editor.session.document().georeference->shift_m)) {
-    const auto label = scope.products > 1 ? trf("{}   {} products###{}", scope.title, scope.products, scope.selector)
-                                          : fmt::format("{}###{}", scope.title, scope.selector);
+    const auto label = scope.products > 1
+                           ? trf("{}   {} products###{}", scope.title, groupedDigits(scope.products), scope.selector)
+                           : fmt::format("{}###{}", scope.title, scope.selector);
     if (ImGui::MenuItem(label.c_str(), nullptr, false, why.empty()))
       editor.materials_asked |= editor.session.start(MaterialsOptions{{.assign = {{scope.selector, material->id}}}},
                                                      trf("Assign {} to {}", tr(material->label), scope.title));

@@ -252,7 +252,10 @@ void drawLanguages(Editor& editor) {
 
 void drawPreferences(Editor& editor) {
   if (!ui::beginModal(editor, "Preferences###preferences", editor.dialogs.preferences, 460)) return;
-  if (ImGui::IsWindowAppearing()) editor.dialogs.unsaved_bytes = folderSize(unsavedRoot());
+  if (ImGui::IsWindowAppearing()) {
+    editor.dialogs.unsaved_bytes = folderSize(unsavedRoot());
+    editor.dialogs.unsaved_drawn_bytes = folderSize(unsavedRoot(), ".octree");
+  }
   if (ui::beginProperties("preferences", 0.5F)) {
     ui::propertyLabel("Interface size");
     if (ui::beginDropDown("###scale", fmt::format("{:.0f} %", editor.settings.user_scale * 100).c_str())) {
@@ -284,6 +287,9 @@ void drawPreferences(Editor& editor) {
               fmt::format(ICON_FOLDER_OPEN "  {}###unsaved-scans", readableSize(editor.dialogs.unsaved_bytes)).c_str(),
               {}, {0, 0}, "Show in folder"))
         editor.folder_opener.open(unsavedRoot(), editor.wake);
+      if (editor.dialogs.unsaved_drawn_bytes > 0)
+        ui::dimWrapped(trf("{} of it only draws them, and is made again when needed",
+                           readableSize(editor.dialogs.unsaved_drawn_bytes)));
     }
     ui::propertyLabel("Instrument sounds");
     ui::checkbox("###sounds", &editor.settings.sounds);

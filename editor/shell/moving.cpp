@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <numbers>
 #include <string>
 
+#include "editor/model/stairs.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/editor.h"
 #include "editor/shell/live_overlay.h"
@@ -60,6 +62,8 @@ std::string walkLine(const Editor& editor) {
 }  // namespace
 
 void clickWalking(Editor& editor) {
+  if (const auto label = editor.pointed_label; label && label->kind == LabelKind::stair)
+    return takeStair(editor, static_cast<std::uint32_t>(label->index));
   if (!instrumentInReach(editor)) return;
   constexpr double kRadius_m = 0.25;  // around the beam's origin: the whole of any instrument
   const ImVec2 p = ImGui::GetIO().MousePos, low = ImGui::GetItemRectMin();
@@ -91,6 +95,7 @@ void handleHands(Editor& editor) {
     if (const auto why = whyNotPickUp(editor); !why.empty()) return editor.say(tr(why));
     return pickUpInstrument(editor);
   }
+  if (keyboard::pressed('Q')) return invokeOrSay(editor, "take-stair");
   if (keyboard::pressed('H')) return invokeOrSay(editor, "step-out-of-sight");
   if (keyboard::pressed('R')) return invokeOrSay(editor, "return-to-instrument");
   if (keyboard::pressed('B') && !putUpSphere(editor)) editor.say(tr("No surface within 3 m to put a sphere on"));
@@ -148,7 +153,7 @@ void handleWheel(Editor& editor, ImVec2 origin) {
 bool movesByKey(const Editor& editor, int key) {
   const bool letter = key > 0 && key < 128;
   if (editor.fieldwork.at_screen && key == 'F') return true;
-  if (editor.view.tool == Tool::walk && letter && std::strchr("FGBHR", key) != nullptr) return true;
+  if (editor.view.tool == Tool::walk && letter && std::strchr("FGBHRQ", key) != nullptr) return true;
   return moves(editor) && letter && std::strchr("WASDCEQ", key) != nullptr;
 }
 
@@ -179,27 +184,54 @@ void movingChips(Editor& editor) {
   ImGui::NewLine();
 }
 
-const char* movingHint(const Editor& editor) {
+namespace {
+
+std::string hints(std::initializer_list<const char*> parts) {
+  std::string joined;
+  for (const char* part : parts)
+    if (*part != 0) joined += (joined.empty() ? "" : "   ") + tr(part);
+  return joined;
+}
+
+// What is at hand first, then how one goes on.
+std::string walkingHint(const Editor& editor) {
+  constexpr const char* kGo = "W A S D to walk, drag to look, Shift to run, C to crouch";
+  constexpr const char* kElsewhere = "T to teleport to the pointer, Ctrl+G to go to a room or upstairs";
+  constexpr const char* kLeave = "Esc to leave";
+  const auto& walk = editor.walk;
+  if (walk.goesByItself()) return hints({"W A S D to stop here", "Alt+Left for the previous view", kLeave});
+  const char* back = canUndoJump(editor) ? "Alt+Left for the previous view" : "";
+  const bool door = walk.doorInReach(editor.view.camera);
+  const auto stairs = stairsAhead(editor, editor.viewState());
+  const char* stair = stairs.empty()      ? ""
+                      : stairs.front().up ? "Q, or a click on its label, to walk up the stair"
+                                          : "Q, or a click on its label, to walk down the stair";
+  return hints({door ? "E to open or close the door" : "", stair, back, kGo,
+                door ? "T to teleport to the pointer" : kElsewhere, kLeave});
+}
+
+}  // namespace
+
+std::optional<std::string> movingHint(const Editor& editor) {
   if (editor.view.tool == Tool::fly)
-    return "W A S D to fly, E up, Q down, Shift faster, U to walk, drag to look around   Esc to leave";
-  if (editor.fieldwork.at_screen) return "F to look up   Esc to leave";
-  if (editor.view.tool != Tool::walk) return nullptr;
+    return tr("W A S D to fly, E up, Q down, Shift faster, U to walk, drag to look around   Esc to leave");
+  if (editor.fieldwork.at_screen) return tr("F to look up   Esc to leave");
+  if (editor.view.tool != Tool::walk) return std::nullopt;
   // Who scans looks at what is scanned; the button over the view ends it, too.
   if (const auto& recording = editor.recording; recording.live.active())
-    return recording.record.seconds() < kHint_s ? "W A S D to walk, drag to look   Ctrl+Shift+L to end the scan" : "";
-  if (editor.held.carried) return "G to put the instrument down here   W A S D to walk, Shift to run   Esc to leave";
+    return recording.record.seconds() < kHint_s ? tr("W A S D to walk, drag to look   Ctrl+Shift+L to end the scan")
+                                                : std::string();
+  if (editor.held.carried)
+    return tr("G to put the instrument down here   W A S D to walk, Shift to run   Esc to leave");
   if (instrumentInReach(editor))
-    return "F to look at the instrument's screen, G to carry it, H to step out of its sight, B to put up a sphere   "
-           "W A S D to walk   Esc to leave";
+    return tr(
+        "F to look at the instrument's screen, G to carry it, H to step out of its sight, B to put up a sphere   "
+        "W A S D to walk   Esc to leave");
   if (!editor.held.instrument.empty() && !editor.walk.doorInReach(editor.view.camera))
-    return "R to return to the instrument, H to step out of its sight   W A S D to walk, T to teleport to the pointer, "
-           "B to put up a "
-           "sphere   Esc to leave";
-  return editor.walk.doorInReach(editor.view.camera) ? "E to open or close the door   W A S D to walk, drag to look, "
-                                                       "Shift to run, T to teleport to the pointer   Esc to leave"
-                                                     : "W A S D to walk, drag to look, Shift to run, C to crouch   T "
-                                                       "to teleport to the pointer, Ctrl+G to go to a room or "
-                                                       "upstairs   Esc to leave";
+    return tr(
+        "R to return to the instrument, H to step out of its sight   W A S D to walk, T to teleport to the pointer, "
+        "B to put up a sphere   Esc to leave");
+  return walkingHint(editor);
 }
 
 float drawMovingLine(const Editor& editor, ImVec2 origin, ImVec2 size, float above_pt) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include <imgui.h>
 
 namespace standpoint {
@@ -19,7 +22,7 @@ bool movesByKey(const Editor& editor, int key);
 void movingChips(Editor& editor);
 // What whoever walks clicks on.
 void clickWalking(Editor& editor);
-const char* movingHint(const Editor& editor);  // the keys; null when nobody does
+std::optional<std::string> movingHint(const Editor& editor);  // the keys; nothing when nobody does
 // Where whoever walks or flies is, in the frame of the file, and what stops them; its height, px, 0: nobody does.
 float drawMovingLine(const Editor& editor, ImVec2 origin, ImVec2 size, float above_pt);
 // What keeps the agent out of rooms, as long as the walkable area is shown or one of them was flown to.

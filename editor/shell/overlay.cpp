@@ -264,13 +264,15 @@ ui::Text toolHint(const Editor& editor) {
   if (editor.walk_ground.preparing())
     return trf("Preparing the walkable surface … {:.0f} %   Esc to cancel", 100 * editor.walk_ground.fraction());
   if (view.teleport.active())
-    return view.teleport.by_key ? "Aim with the pointer, release T or click to stand there   Esc to cancel"
-                                : "Click where to stand   Esc to cancel";
-  if (goesOnByClick(editor)) return "Teleported to the pointer; click to go farther   Alt+Left to go back";
+    return view.teleport.by_key
+               ? "Aim with the pointer, release T or click to stand there   Alt+Left then comes back   Esc to cancel"
+               : "Click where to stand   Alt+Left then comes back   Esc to cancel";
+  if (goesOnByClick(editor)) return "Teleported to the pointer; click to go farther   Alt+Left for the previous view";
   if (editor.bearer_view.active()) return "The view follows the scanner; drag to look around yourself   Esc to stop";
   if (view.tool == Tool::select && looksFromStation(editor)) return "Drag to look around   Alt+Left to go back";
+  if (const auto moving = movingHint(editor)) return *moving;
   std::string measuring;
-  const char* hint = movingHint(editor);
+  const char* hint = nullptr;
   switch (view.tool) {
     case Tool::placeStation:
       hint = "Click the floor to add a station, or type its coordinates in Survey   Esc to leave";
@@ -298,8 +300,7 @@ ui::Text toolHint(const Editor& editor) {
     case Tool::fly:
     case Tool::select: break;
   }
-  if (editor.environment() && !editor.picker.ready() && hint != nullptr && movingHint(editor) == nullptr)
-    hint = "Preparing the model for picking …";
+  if (editor.environment() && !editor.picker.ready() && hint != nullptr) hint = "Preparing the model for picking …";
   return hint != nullptr ? hint : "";
 }
 

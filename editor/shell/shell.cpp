@@ -155,7 +155,8 @@ void viewMenu(Editor& editor) {
   submenu(editor, "", "More labels###menu-labels", {"room-names", "labels-through-walls"});
   items(editor, {"", "walk", "teleport", "go-to", "look-from-station"});
   submenu(editor, "", "More moves###menu-moves",
-          {"fly", "door", "record-walk", "scan-walk", "step-out-of-sight", "return-to-instrument", "add-bookmark"});
+          {"take-stair", "view-before", "", "fly", "door", "record-walk", "scan-walk", "step-out-of-sight",
+           "return-to-instrument", "add-bookmark"});
   ImGui::Separator();
   submenu(editor, ICON_PAINT, "Colour by###menu-colour",
           {"colour-model", "colour-material", "colour-reflectance", "colour-confidence", "colour-intensity",
@@ -166,6 +167,7 @@ void viewMenu(Editor& editor) {
   ImGui::Separator();
   graphicsMenu(editor);
   items(editor, {editor.settings.theme == Theme::light ? "theme-dark" : "theme-light", "sounds"});
+  submenu(editor, "", "Language###menu-language", {"language-system", "language-en", "language-de", "language-uk"});
   submenu(editor, "", "Interface size###menu-size", {"interface-larger", "interface-smaller", "interface-usual"});
 }
 
@@ -256,9 +258,9 @@ void markStep(const Editor& editor, const GuideStep& step) {
   ui::tooltipAbove(step.status.empty() ? tr(step.title) : fmt::format("{}: {}", tr(step.title), tr(step.status)));
   const bool attention = step.state == GuideStep::State::attention;
   if (!editor.environment() || (!attention && step.state != GuideStep::State::done)) return;
-  const ImVec2 corner = ImGui::GetItemRectMin();
   const float size = ImGui::GetFontSize() * 0.62F;
-  ImGui::GetWindowDrawList()->AddText(ImGui::GetFont(), size, {corner.x + editor.px(2), corner.y + editor.px(1)},
+  ImGui::GetWindowDrawList()->AddText(ImGui::GetFont(), size,
+                                      {ImGui::GetItemRectMax().x - size, ImGui::GetItemRectMin().y - editor.px(1)},
                                       attention ? tone::kWarning : tone::kGood, attention ? ICON_WARNING : ICON_CHECK);
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/shell/teleport.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "editor/shell/editor.h"
 #include "editor/widgets/keyboard.h"
+#include "editor/words/sentences.h"
 
 namespace standpoint {
 
@@ -56,11 +58,14 @@ struct AimPen {
     if (from && to) ImGui::GetWindowDrawList()->AddLine(*from, *to, tone, editor.px(2.5F));
   }
   void text(const Eigen::Vector3d& p, const std::string& words) const {
-    const auto place = at(p);
-    if (!place) return;
+    if (const auto place = at(p)) text(*place, words);
+  }
+  void text(ImVec2 p, const std::string& words) const {
     const ImVec2 size = ImGui::CalcTextSize(words.c_str());
     const float pad = editor.px(4);
-    const ImVec2 low(place->x - size.x / 2 - pad, place->y + editor.px(14));
+    const float room = static_cast<float>(editor.view.size.x()) - size.x - 3 * pad;  // all of it is in the view
+    const ImVec2 low(origin.x + std::clamp(p.x - origin.x - size.x / 2 - pad, pad, std::max(room, pad)),
+                     p.y + editor.px(14));
     auto& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(low, {low.x + size.x + 2 * pad, low.y + size.y + 2 * pad}, IM_COL32(24, 26, 30, 230), pad);
     list.AddText({low.x + pad, low.y + pad}, IM_COL32(255, 255, 255, 255), words.c_str());
@@ -114,15 +119,19 @@ bool clickAfterTap(Editor& editor) {
 void drawTeleport(const Editor& editor, ImVec2 origin) {
   if (!editor.view.teleport.active()) return;
   const auto landing = landingUnderPointer(editor);
-  if (!landing) return;
-  const bool possible = landing->why_not.empty();
+  const bool possible = landing && landing->why_not.empty();
   const AimPen pen{editor, origin, possible ? kCanStand : kCannot};
+  if (!landing) {
+    const bool ready = editor.walk_ground.of(editor.session.document(), editor.walker) != nullptr;
+    if (ready && ImGui::IsMousePosValid()) pen.text(ImGui::GetIO().MousePos, tr("no surface under the pointer"));
+    return;
+  }
   const double radius = editor.walker.radius_m;
   const Eigen::Vector3d& feet = landing->feet;
   drawAimRing(pen, feet, radius);
   if (!possible) {
     drawAimCross(pen, feet, radius);
-    pen.text(feet, landing->why_not);
+    pen.text(feet, trSentence(landing->why_not));
     return;
   }
   const double azimuth = editor.view.camera.azimuth_rad;

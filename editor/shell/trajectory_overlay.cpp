@@ -50,7 +50,7 @@ struct NamedRibbon {
   const char *name, *unit;
 };
 constexpr std::array kRibbons = {
-    NamedRibbon{RibbonColour::plain, "plain", ""}, NamedRibbon{RibbonColour::time, "time", "s"},
+    NamedRibbon{RibbonColour::plain, "one colour", ""}, NamedRibbon{RibbonColour::time, "time", "s"},
     NamedRibbon{RibbonColour::speed, "speed", "m/s"}, NamedRibbon{RibbonColour::turn, "turn rate", "°/s"},
     NamedRibbon{RibbonColour::error, "expected error", "mm"}};
 
@@ -170,6 +170,10 @@ void drawRibbon(const Editor& editor, const ViewState& state, const ViewPen& pen
     const Vector3d to = onRibbon(way, samples[there]), leg = to - from;
     if (leg.norm() < 1e-4) continue;  // it stands
     const Vector3d side = across(leg), before = side_before.isZero() ? side : side_before;
+    if (!keeps(state, to, kMarkAboveFloor_m)) {
+      from = to, side_before = side;
+      continue;
+    }
     const bool seen = editor.picker.sees(editor.view.camera.eyeOf(to), to, state);
     const bool drawn =
         quad(pen, {from + before, to + side, to - side, from - before},
@@ -185,10 +189,11 @@ void drawRibbon(const Editor& editor, const ViewState& state, const ViewPen& pen
   for (const auto& [at, leg] : arrows) arrow(pen, at, leg, IM_COL32(20, 22, 26, chosen ? 235 : 150));
 }
 
-void drawObstacles(const ViewPen& pen, LabelBoard& labels, const TrajectoryWay& way, bool named) {
+void drawObstacles(const ViewState& state, const ViewPen& pen, LabelBoard& labels, const TrajectoryWay& way,
+                   bool named) {
   for (std::size_t i = 0; i < way.obstacles.size(); ++i) {
     const auto at = pen.at(way.obstacles[i].place_m);
-    if (!at) continue;
+    if (!at || !keeps(state, way.obstacles[i].place_m, kMarkAboveFloor_m)) continue;
     const bool opens = way.obstacles[i].closed_door;  // who walks there opens it
     const ImU32 tone = opens ? ImU32(tone::kText) : verdictTone(Verdict::bad);
     const char* const icon = opens ? ICON_INFO : ICON_WARNING;
@@ -211,6 +216,7 @@ void drawWaypointsOf(const Editor& editor, const ViewPen& pen, LabelBoard& label
   auto& list = *ImGui::GetWindowDrawList();
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
     const auto& waypoint = waypoints[i];
+    if (!keeps(state, waypoint.floor_m, 0)) continue;
     const Vector3d knob = waypoint.floor_m + Vector3d(0, 0, kRibbonAbove_m);
     const auto at = pen.at(knob);
     if (at && spared && spared->meets({*at, *at})) continue;
@@ -237,7 +243,7 @@ void drawOf(const Editor& editor, const ViewState& state, const ViewPen& pen, La
     const RibbonColour by = chosen ? colours : RibbonColour::plain;
     if (chosen && editor.path_moment.plays) spared = frameOfBearer(state, pen, *way, shownMoment_s(editor));
     drawRibbon(editor, state, pen, *way, scaleOf(*way, by, chosen ? tone::kAccent : tone::kStation), chosen, spared);
-    drawObstacles(pen, labels, *way, chosen);
+    drawObstacles(state, pen, labels, *way, chosen);
   } else {
     for (std::size_t i = 0; i + 1 < trajectory.waypoints.size(); ++i)
       pen.line(trajectory.waypoints[i].floor_m, trajectory.waypoints[i + 1].floor_m, thinned(tone::kAccent, 120), 1.5F);
@@ -249,7 +255,7 @@ void drawOf(const Editor& editor, const ViewState& state, const ViewPen& pen, La
   const auto begin = !trajectory.waypoints.empty()             ? std::optional(trajectory.waypoints.front().floor_m)
                      : way != nullptr && !way->samples.empty() ? std::optional(way->samples.front().position_m)
                                                                : std::nullopt;
-  if (const auto at = begin ? pen.at(*begin) : std::nullopt)
+  if (const auto at = begin && keeps(state, *begin, kMarkAboveFloor_m) ? pen.at(*begin) : std::nullopt)
     labels.over({LabelKind::trajectory, index}, *at, {trajectory.name}, tone::kText, chosen);
 }
 
@@ -337,9 +343,9 @@ void drawTrajectories(Editor& editor, const ViewState& state, ImVec2 origin, Lab
   const auto* way = draft.waypoints.size() < 2 ? nullptr : editor.trajectory_ways.draft();
   if (way != nullptr && way->problem.empty()) {
     drawRibbon(editor, state, pen, *way, scaleOf(*way, colours, tone::kAccent), true);
-    drawObstacles(pen, labels, *way, true);
+    drawObstacles(state, pen, labels, *way, true);
   }
-  drawWaypointsOf(editor, pen, labels, draft.waypoints, carriedHeight_m(draft.carrier, draft.height_m),
+  drawWaypointsOf(editor, state, pen, labels, draft.waypoints, carriedHeight_m(draft.carrier, draft.height_m),
                   draft.carrier == "uav", -1);
 }
 

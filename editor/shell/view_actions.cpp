@@ -7,7 +7,9 @@
 #include "editor/desktop/interface_scale.h"
 #include "editor/model/bookmark_steps.h"
 #include "editor/model/floor_plan.h"
+#include "editor/model/stairs.h"
 #include "editor/shell/editor.h"
+#include "editor/shell/graphics_choice.h"
 #include "editor/shell/moving.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keyboard.h"
@@ -100,8 +102,8 @@ bool isColouredBy(const Editor& e) {
   return e.view.colour == mode;
 }
 template <GraphicsChoice choice>
-void chooseGraphics(Editor& e) {
-  e.settings.graphics = choice;
+void chooseGraphicsBy(Editor& e) {
+  chooseGraphics(e, choice);
 }
 template <GraphicsChoice choice>
 bool isGraphics(const Editor& e) {
@@ -244,6 +246,12 @@ const std::array kView = {
            [](const Editor& e) {
              return e.walk.doorInReach(e.view.camera) ? std::string() : std::string("Walk up to a door first");
            }},
+    Action{"take-stair",
+           "Walk up or down the stair in sight (Q)",
+           ICON_STOREY,
+           {},
+           [](Editor& e) { takeStair(e); },
+           [](const Editor& e) { return whyNoStair(e); }},
     Action{"step-out-of-sight",
            "Step out of sight of the scanner (H)",
            ICON_EYE_OFF,
@@ -387,28 +395,28 @@ const std::array kView = {
            "Graphics: Automatic",
            "",
            {},
-           chooseGraphics<GraphicsChoice::automatic>,
+           chooseGraphicsBy<GraphicsChoice::automatic>,
            nullptr,
            isGraphics<GraphicsChoice::automatic>},
     Action{"graphics-low",
            "Graphics: Low",
            "",
            {},
-           chooseGraphics<GraphicsChoice::low>,
+           chooseGraphicsBy<GraphicsChoice::low>,
            nullptr,
            isGraphics<GraphicsChoice::low>},
     Action{"graphics-medium",
            "Graphics: Medium",
            "",
            {},
-           chooseGraphics<GraphicsChoice::medium>,
+           chooseGraphicsBy<GraphicsChoice::medium>,
            nullptr,
            isGraphics<GraphicsChoice::medium>},
     Action{"graphics-high",
            "Graphics: High",
            "",
            {},
-           chooseGraphics<GraphicsChoice::high>,
+           chooseGraphicsBy<GraphicsChoice::high>,
            nullptr,
            isGraphics<GraphicsChoice::high>},
     Action{"theme-dark", "Dark theme", "", {}, chooseTheme<Theme::dark>, nullptr},
@@ -420,10 +428,34 @@ const std::array kView = {
            [](Editor& e) { e.settings.sounds = !e.settings.sounds; },
            nullptr,
            [](const Editor& e) { return e.settings.sounds; }},
-    Action{"language-system", "Language: as the system", "", {}, [](Editor& e) { chooseLanguage(e, ""); }, nullptr},
-    Action{"language-en", "Language: English", "", {}, [](Editor& e) { chooseLanguage(e, "en"); }, nullptr},
-    Action{"language-de", "Language: Deutsch", "", {}, [](Editor& e) { chooseLanguage(e, "de"); }, nullptr},
-    Action{"language-uk", "Language: Українська", "", {}, [](Editor& e) { chooseLanguage(e, "uk"); }, nullptr},
+    Action{"language-system",
+           "Language: as the system",
+           "",
+           {},
+           [](Editor& e) { chooseLanguage(e, ""); },
+           nullptr,
+           [](const Editor& e) { return e.settings.language.empty(); }},
+    Action{"language-en",
+           "Language: English",
+           "",
+           {},
+           [](Editor& e) { chooseLanguage(e, "en"); },
+           nullptr,
+           [](const Editor& e) { return e.settings.language == "en"; }},
+    Action{"language-de",
+           "Language: Deutsch",
+           "",
+           {},
+           [](Editor& e) { chooseLanguage(e, "de"); },
+           nullptr,
+           [](const Editor& e) { return e.settings.language == "de"; }},
+    Action{"language-uk",
+           "Language: Українська",
+           "",
+           {},
+           [](Editor& e) { chooseLanguage(e, "uk"); },
+           nullptr,
+           [](const Editor& e) { return e.settings.language == "uk"; }},
 };
 
 }  // namespace

@@ -336,7 +336,9 @@ void drawViewport(Editor& editor) {
   drawClip(editor, both ? right : origin);
   drawInspectMarks(editor, both ? right : origin, labels);
   labels.keepFree(origin, controlsCorner(editor, origin));
-  labels.draw(*ImGui::GetWindowDrawList(), editor.label_layout);
+  const auto pointer = hovered ? std::optional(ImGui::GetIO().MousePos) : std::nullopt;
+  editor.pointed_label = labels.draw(*ImGui::GetWindowDrawList(), editor.label_layout, pointer);
+  if (editor.pointed_label && !view.dragging) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   drawOverlay(editor, origin, whole);
   drawStationHandles(editor, both ? right : origin);
   drawRow(editor, both ? right : origin);

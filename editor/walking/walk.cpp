@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -30,6 +31,8 @@ bool Walk::start(std::shared_ptr<const WalkedGround> ground, const Body& body, c
   walker_ = walker;
   if (ground_ != ground || !doors_) doors_ = std::make_unique<SwingingDoors>(ground->doors);
   ground_ = std::move(ground);
+  way_.reset();
+  held_up_ = false;
   body_ = own;
   camera.orthographic = false;
   camera.view_angle_rad = view_angle_rad_;
@@ -43,6 +46,7 @@ void Walk::stop(Camera& camera) {
   if (!walker_) return;
   camera.view_angle_rad = view_angle_before_rad_;
   walker_.reset();
+  way_.reset();
   doors_.reset();
   ground_.reset();
 }
@@ -73,16 +77,48 @@ void Walk::changeSpeed(double steps) {
 void Walk::go(const WalkKeys& keys, double seconds, Camera& camera) {
   if (!walker_) return;
   clock_s_ += seconds;
+  if (!keys.way.isZero() || keys.crouch) {
+    way_.reset();
+    held_up_ = false;
+  }
+  if (way_) return follow(seconds, camera);
   const Eigen::Vector2d right(std::cos(camera.azimuth_rad), std::sin(camera.azimuth_rad)), ahead(-right.y(), right.x());
   WalkWish wish{Eigen::Vector2d::Zero(), keys.crouch};
   if (!keys.way.isZero()) {
     const double speed = keys.crouch ? kCrouching * factor_ : speed_mps(keys.fast);
     wish.velocity = (right * keys.way.x() + ahead * keys.way.y()).normalized() * speed;
   }
+  move(wish, seconds);
+  lookFromEyes(camera);
+}
+
+void Walk::move(const WalkWish& wish, double seconds) {
   doors_->follow(feet(), wish.velocity.normalized(), seconds);
   tripods_in_way_.follow(tripods_, feet(), body_);
   walker_->alsoMeet(doors_->shut(), tripods_in_way_.obstacles());
   walker_->go(wish, seconds);
+}
+
+void Walk::follow(double seconds, Camera& camera) {
+  constexpr double kTurn_s = 0.2;  // for most of a turn of the head
+  constexpr double kStep_m = 0.4, kStandFrom_m = 0.1;
+  for (double left = seconds; way_ && left > 0; left -= WayWalk::kLongestStep_s) {
+    const double step = std::min(left, WayWalk::kLongestStep_s);
+    const auto velocity = way_->velocity(feet(), step);
+    if (!velocity) {
+      held_up_ = !way_->arrived();
+      way_.reset();
+      break;
+    }
+    // On a narrow spiral stair a body slides off where the surface leads on: it takes the step to a place that has
+    // room.
+    if (const auto corner = way_->heldUpBefore(); corner && (*corner - feet()).norm() < kStep_m)
+      walker_->stand(*corner + Eigen::Vector3d(0, 0, kStandFrom_m), 2 * kStandFrom_m);
+    const double off =
+        std::remainder(std::atan2(-velocity->x(), velocity->y()) - camera.azimuth_rad, 2 * std::numbers::pi);
+    camera.azimuth_rad = std::remainder(camera.azimuth_rad + off * std::min(1.0, step / kTurn_s), 2 * std::numbers::pi);
+    move({*velocity, false}, step);
+  }
   lookFromEyes(camera);
 }
 
@@ -90,6 +126,7 @@ std::string Walk::note() const {
   if (walker_->wasBroughtBack()) return tr("Fell; returned to the last floor");
   if (const auto& headroom = walker_->headroom())
     return trf("headroom {:.2f} m, body {:.2f} m", *headroom, body_.height_m);
+  if (held_up_) return tr("Stopped: something is in the way");
   return {};
 }
 

@@ -14,6 +14,7 @@
 #include "editor/walking/swinging_doors.h"
 #include "editor/walking/tripods_in_way.h"
 #include "editor/walking/walk_ground.h"
+#include "editor/walking/way_walk.h"
 #include "optimizer/walk/start.h"
 #include "optimizer/walk/walker.h"
 
@@ -43,6 +44,10 @@ class Walk {
   // What else stands there, from now on.
   void goAmong(std::vector<Tripod> tripods) { tripods_ = std::move(tripods); }
   void go(const WalkKeys& keys, double seconds, Camera& camera);
+  // Goes along it by itself, as fast as is said, and looks where it goes; a key to go ends that.
+  void goAlong(std::vector<Eigen::Vector3d> corners, double speed_mps) { way_.emplace(std::move(corners), speed_mps); }
+  bool goesByItself() const { return way_.has_value(); }
+  void stay() { way_.reset(); }
   // Seconds that were walked or stood, of go(): what is walked in them is as fast as it says.
   double clock_s() const { return clock_s_; }
   // Faster (> 0) or slower, from a quarter to four times a walk.
@@ -51,7 +56,7 @@ class Walk {
 
   const WalkedGround& ground() const { return *ground_; }
   Eigen::Vector3d feet() const { return walker_->feet(); }
-  bool moves() const { return walker_ && (walker_->moves() || doors_->moves()); }
+  bool moves() const { return walker_ && (way_ || walker_->moves() || doors_->moves()); }
   double eyeHeight_m() const { return walker_->height() - Walker::kCrownAboveEyes_m; }  // now, crouched or not
   // Of whoever stands upright, 1.0 to 2.0 m, and the view angle, 45° to 80°; both last.
   double uprightEyes_m() const { return body_.height_m - Walker::kCrownAboveEyes_m; }
@@ -68,10 +73,14 @@ class Walk {
   std::string note() const;
 
  private:
+  void move(const WalkWish& wish, double seconds);
+  void follow(double seconds, Camera& camera);
   void lookFromEyes(Camera& camera) const;
 
   std::shared_ptr<const WalkedGround> ground_;
   std::optional<Walker> walker_;
+  std::optional<WayWalk> way_;            // while it goes by itself
+  bool held_up_ = false;                  // it gave up, and nobody has gone on since
   std::unique_ptr<SwingingDoors> doors_;  // while there is a walker
   std::vector<Tripod> tripods_;
   TripodsInWay tripods_in_way_;

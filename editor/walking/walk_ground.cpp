@@ -58,9 +58,9 @@ Landing landingOn(const WalkedGround& ground, const Body& body, const Eigen::Vec
   Landing landing = landingAt(ground.obstacles, body, point, normal);
   if (!landing.why_not.empty()) return landing;
   if (isRoofOrCeiling(*ground.environment, landing.product))
-    landing.why_not = "roof";
+    landing.why_not = "on a roof";
   else if (!isNear(ground.map, landing.feet) && !isNear(ground.crouched_map, landing.feet))
-    landing.why_not = "not walkable";
+    landing.why_not = "outside the walkable surface";
   return landing;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "core/number_breaks.h"
+#include "core/number_text.h"
 #include "editor/words/words.h"
 
 namespace standpoint {
@@ -66,6 +67,35 @@ bool hasUnit(std::string_view text, std::size_t end) {
       if (behind > next) return hasUnit(text, behind);
     }
   return false;
+}
+
+std::string countsIn(std::string text) {
+  static constexpr std::array<std::string_view, 34> kCounted = {
+      "points",    "triangles", "products",  "files",       "faces",   "vertices",  "elements", "surfaces", "collision",
+      "shapes",    "nodes",     "lines",     "entries",     "samples", "times",     "colours",  "meshes",   "pulses",
+      "returns",   "rays",      "cells",     "places",      "pixels",  "numbers",   "entities", "bodies",   "objects",
+      "instances", "indices",   "positions", "intensities", "similar", "duplicate", "distinct"};
+  constexpr std::size_t kUngrouped = 3;  // digits
+  const auto counts = [&](std::size_t end) {
+    const auto rest = std::string_view(text).substr(end);
+    if (!rest.starts_with(' ')) return false;
+    const auto word = rest.substr(1, rest.find_first_of(" ,;.:()\n", 1) - 1);
+    return std::find(kCounted.begin(), kCounted.end(), word) != kCounted.end();
+  };
+  for (std::size_t begin = 0; begin < text.size(); ++begin) {
+    const auto end = endOfDigits(text, begin);
+    if (end == begin) continue;
+    const auto last = endOfDigits(text, end + 4);
+    const bool of_many = std::string_view(text).substr(end).starts_with(" of ") && last > end + 4 && counts(last);
+    if (end - begin > kUngrouped && end - begin < 19 && standsFree(text, begin) && (counts(end) || of_many)) {
+      const auto grouped = groupedDigits(std::stoull(text.substr(begin, end - begin)));
+      text.replace(begin, end - begin, grouped);
+      begin += grouped.size();
+    } else {
+      begin = end;
+    }
+  }
+  return text;
 }
 
 std::string figuresIn(std::string text) {

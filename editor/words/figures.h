@@ -12,6 +12,10 @@ namespace standpoint {
 // A number that was written with a point, as the language writes it: "1,6" for "1.6". Another text stays.
 std::string asFigure(std::string number);
 
+// The English text with its counts of things in groups of digits, as they are drawn elsewhere: "23 842 triangles",
+// "11 920 of 23 842 triangles". Ids, years and codes stay.
+std::string countsIn(std::string text);
+
 // The text with each number that a unit follows ("0.35 m", "2.5 to 3 m", "≥ 97.5 %"), or that is a field behind a tab,
 // as the language writes it. Names, versions and places ("IFC4.3", "Room 1.01", "1.5,2,0") stay.
 std::string figuresIn(std::string text);

@@ -108,13 +108,29 @@ struct Said {
 };
 Said said(std::string_view english, Sign sign);
 
+// A name within a place, "IfcWall 'North'", in the quotation marks of the language.
+std::string quoted(std::string text) {
+  const auto open = text.find('\''), close = text.rfind('\'');
+  const bool named = open != std::string::npos && close > open + 1 && (open == 0 || text[open - 1] == ' ') &&
+                     (close + 1 == text.size() || text[close + 1] == ' ') && text.find('\'', open + 1) == close;
+  if (!named) return text;
+  return text.substr(0, open) + trf("'{}'", text.substr(open + 1, close - open - 1)) + text.substr(close + 1);
+}
+
 // What stands in a place, in the language that is spoken. In quotes is what somebody has typed.
 std::string inPlace(std::string_view sentence, std::string_view place, Sign sign) {
   const auto begin = static_cast<std::size_t>(place.data() - sentence.data());
   const auto before = sentence.substr(0, begin);
   const bool typed = before.ends_with('\'') && place.find('.') != std::string_view::npos;
   if (place == sentence || typed) return tr(place);
-  if (sign == Sign::point || !isFigure(place)) return said(place, sign).text;
+  if (sign == Sign::point) return said(place, sign).text;
+  if (!isFigure(place)) {
+    auto text = said(place, sign).text;
+    const auto end = place.find("; ");
+    if (text == place && end != std::string_view::npos)  // a list, of materials say
+      return inPlace(sentence, place.substr(0, end), sign) + "; " + inPlace(sentence, place.substr(end + 2), sign);
+    return quoted(std::move(text));
+  }
   return hasUnit(sentence, begin + place.size()) || announcesFigure(before) ? asFigure(std::string(place))
                                                                             : std::string(place);
 }
@@ -147,7 +163,9 @@ const std::vector<std::string>& sentences() {
   return all;
 }
 
-std::string trSentence(std::string_view english) { return said(english, Sign::of_language).text; }
+std::string trSentence(std::string_view english) {
+  return said(countsIn(std::string(english)), Sign::of_language).text;
+}
 
 void printReportsAsSpoken() {
   printReportsIn(std::make_shared<const ReportWords>(ReportWords{
@@ -175,7 +193,7 @@ void capitalise(std::string& text) {
 }  // namespace
 
 std::string shownSentence(std::string_view english) {
-  Said shown = said(english, Sign::of_language);
+  Said shown = said(countsIn(std::string(english)), Sign::of_language);
   std::string text = std::move(shown.text);
   if (shown.name_first) return text;
   const auto word = text.substr(0, text.find(' '));

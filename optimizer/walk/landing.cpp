@@ -78,13 +78,13 @@ Landing landingAt(const Obstacles& obstacles, const Body& body, const Vector3d& 
   Landing landing{point, {}};
   const double slope = std::acos(std::clamp(normal.z(), -1.0, 1.0)) * 180 / std::numbers::pi;
   if (slope > kSteepestSlopeDeg + 0.1) {
-    landing.why_not = fmt::format("too steep {:.0f}°", slope);
+    landing.why_not = fmt::format("too steep: {:.0f}°, at most {:.0f}°", slope, kSteepestSlopeDeg);
     return landing;
   }
   const Vector3d up(0, 0, 1);
   const auto floor = obstacles.ray(point + 0.1 * up, point - kHighestStep * up);
   if (!floor) {
-    landing.why_not = "no floor";
+    landing.why_not = "no floor here";
     return landing;
   }
   landing.feet = floor->point;
@@ -99,15 +99,16 @@ Landing landingAt(const Obstacles& obstacles, const Body& body, const Vector3d& 
       above = over();
     }
   if (above) {
-    landing.why_not = fmt::format("headroom {:.1f} m", above->point.z() - landing.feet.z());
+    landing.why_not =
+        fmt::format("no headroom: {:.2f} m, at least {:.2f} m", above->point.z() - landing.feet.z(), low.height_m);
     return landing;
   }
   const Vector3d aside = besideEdges(obstacles, low.radius_m, besideWalls(obstacles, low, landing.feet));
   Avatar avatar(obstacles, low);
   if ((aside - landing.feet).norm() > kAside || !avatar.stand(aside, kHighestStep))
-    landing.why_not = "too narrow";
+    landing.why_not = fmt::format("too narrow: somebody is {:.2f} m wide", 2 * low.radius_m);
   else if (!hasRoomForAStep(obstacles, low, avatar.feet()))
-    landing.why_not = "too small";
+    landing.why_not = "too small to stand on";
   else
     landing.feet = avatar.feet();
   return landing;

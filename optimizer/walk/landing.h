@@ -14,7 +14,7 @@ namespace standpoint {
 struct Landing {
   Eigen::Vector3d feet = Eigen::Vector3d::Zero();
   std::uint32_t product = 0;  // that is stood on, where there is a floor
-  std::string why_not;        // "too steep 52°", in at most five words; empty: one can stand there
+  std::string why_not;        // "too steep: 52°, at most 45°", in a few words; empty: one can stand there
 };
 
 // `normal`: of the surface at `point`. Beside a wall or an edge over which one would fall it is as near to it as the

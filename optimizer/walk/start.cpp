@@ -27,6 +27,7 @@ constexpr double kSmallestIsland = 2;    // m²
 constexpr double kHead = 1.1;            // m above the feet: over tables, below ceilings
 constexpr double kHighestCover = 60;     // m
 constexpr double kBehindEntrance = 0.8;  // m
+constexpr double kStepsBefore = 1.5;     // m, the highest flight to an entrance
 constexpr double kRoomStep = 0.25;       // m between the places that are compared in a room
 constexpr double kWideEnough = 2;        // m of clearance; more is no better
 constexpr double kLongView = 50;         // m
@@ -56,24 +57,30 @@ class Places {
     return feet && good(*feet) ? std::optional(StartPlace{*feet, {}}) : std::nullopt;
   }
 
-  // The outer door with the largest island behind it; of several the widest, then the lowest.
+  // The outer door with the largest island behind it; of several the lowest, then that into the room with the most
+  // doors, which a hall is and the room at a terrace is not, then the widest.
   std::optional<StartPlace> mainEntrance() {
     struct Entrance {
       double area_m2, width_m, low_m;
+      std::size_t leads_on;
       StartPlace place;
     };
-    const auto rank = [](const Entrance& e) { return std::tuple(e.area_m2, e.low_m, e.width_m); };
+    const auto rank = [](const Entrance& e) {
+      return std::tuple(e.area_m2, std::round(e.low_m / kStepHeight), e.leads_on, e.width_m);
+    };
+    const auto doors_of = doorsOfRooms();
     std::optional<Entrance> best;
     for (const bool by_rooms : {true, false}) {  // not every model has them, and an entrance may have a porch
       for (const auto& door : collision_.doors) {
         const auto place = behind(door, by_rooms);
         if (!place) continue;
         const auto triangle = islands_.at(place->feet);
+        const auto room = spaceAt(spaces_, place->feet + up(kHead));
         const Entrance entrance{triangle ? islands_.islandArea(*triangle) : 0, door.clear_width_m, -place->feet.z(),
-                                *place};
+                                room ? doors_of.at(*room) : 0, *place};
         if (!best || rank(entrance) > rank(*best)) best = entrance;
       }
-      if (best) return best->place;
+      if (best) return before(best->place);
     }
     return std::nullopt;
   }
@@ -135,6 +142,36 @@ class Places {
     if (!feet || !good(*feet)) return std::nullopt;
     const Vector2d through = passage->through.head<2>();
     return StartPlace{*feet, ahead_inside ? through : Vector2d(-through)};
+  }
+
+  std::map<std::uint32_t, std::size_t> doorsOfRooms() const {
+    std::map<std::uint32_t, std::size_t> count;
+    for (const auto& space : spaces_) count[space.product] = 0;
+    for (const auto& door : collision_.doors) {
+      const auto passage = passageOf(environment_, door.product);
+      for (const double side : {-1.0, 1.0}) {
+        const auto room = passage
+                              ? spaceAt(spaces_, passage->middle + up(kHead) +
+                                                     side * (passage->half_depth + kBehindEntrance) * passage->through)
+                              : std::nullopt;
+        if (room) ++count[*room];
+      }
+    }
+    return count;
+  }
+
+  // From just behind an entrance to where one comes to it from outside and sees it; the same where nobody can.
+  StartPlace before(const StartPlace& behind) {
+    const auto inside_island = islands_.at(behind.feet);
+    const Vector3d out(-behind.facing->x(), -behind.facing->y(), 0);
+    for (const double away : {4.0, 3.5, 3.0, 2.5, 2.0}) {
+      const auto feet = standing(behind.feet + away * out + up(kStepHeight), kStepsBefore);
+      const auto island = feet ? islands_.at(*feet) : std::nullopt;
+      if (!island || !inside_island || islands_.islandOf(*island) != islands_.islandOf(*inside_island) || !bears(*feet))
+        continue;
+      if (!obstacles_.ray(*feet + up(kHead), behind.feet + up(kHead))) return {*feet, behind.facing};
+    }
+    return {behind.feet, behind.facing, true};
   }
 
   std::optional<StartPlace> nearestOf(std::uint32_t island, const Vector3d& centre, bool indoors, double lowest_m,

@@ -18,11 +18,13 @@ struct Onlooker {
 struct StartPlace {
   Eigen::Vector3d feet = Eigen::Vector3d::Zero();
   std::optional<Eigen::Vector2d> facing;  // unit; nothing: as the onlooker does
+  bool no_ground_outside = false;         // behind the main entrance, as nobody can come to it from outside
 };
 
 // Where walking begins, the first of: the floor at most 3 m below the eye, inside the building; the floor that is
-// looked at; just behind the main entrance; the middle of the largest island. Never on a roof or a ceiling, nor on an
-// island of less than 2 m². Nothing where there is no such place.
+// looked at; before the main entrance, or just behind it; the middle of the largest island. Never on a roof or a
+// ceiling, nor on an island of less than 2 m². Nothing where there is no such place. The main entrance is the outer
+// door with the largest island behind it, of several that into the room with the most doors.
 std::optional<StartPlace> startPlace(const Environment& environment, const CollideResult& collision,
                                      const Obstacles& obstacles, const Body& body, const Onlooker& onlooker);
 

@@ -205,6 +205,14 @@ TEST_F(Dialogs, PreferencesSayWhatScansOfUnsavedProjectsTake) {
   gui.frames(3);
   ASSERT_NE(gui.find("###unsaved-scans"), nullptr);
   EXPECT_TRUE(gui.says("2.4 MB"));
+  EXPECT_FALSE(gui.says("only draws them"));
+  editor.dialogs.preferences = false;
+  gui.frames(3);
+  std::ofstream(unsavedRoot() / "house" / "scans" / "S1.octree") << std::string(1500000, ' ');
+  editor.dialogs.preferences = true;
+  gui.frames(3);
+  EXPECT_TRUE(gui.says("3.9 MB"));
+  EXPECT_TRUE(gui.says("1.5 MB of it only draws them"));
   unsetenv("XDG_DATA_HOME");
 }
 

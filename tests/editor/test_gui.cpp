@@ -257,6 +257,21 @@ TEST_F(Gui, TicksSwitchesThatAreOnAndTheChoiceThatHolds) {
     EXPECT_TRUE((once && twice) || (once != before && twice == before)) << action.id;
   }
   EXPECT_GT(ticked, 15);
+  chooseLanguage(editor, "en");
+}
+
+TEST_F(Gui, ChoosesItsLanguageInTheMenuViewToo) {
+  open();
+  ASSERT_TRUE(gui.click("View"));
+  gui.frames(2);
+  ASSERT_TRUE(gui.click("Language###menu-language"));
+  gui.frames(2);
+  ASSERT_TRUE(gui.click("###language-de"));
+  gui.frames(3);
+  EXPECT_EQ(editor.settings.language, "de");
+  EXPECT_EQ(tr("Undo"), "Rückgängig");
+  EXPECT_TRUE(findAction("language-de")->on(editor));
+  chooseLanguage(editor, "en");
 }
 
 TEST_F(Gui, SaysNothingOfATrajectoryAtEnterWhereNoneIsAdded) {
@@ -347,6 +362,38 @@ TEST_F(Gui, ShowsTheLabelsOfItsFieldsWholeInALanguageWithLongerWords) {
   gui.frames(3);
   EXPECT_TRUE(gui.says("Ursprung auf der Karte"));
   speak("en");
+}
+
+TEST(GeoreferencePanel, OffersTheRotationThatTheTrueNorthOfAFileAsksFor) {
+  auto table = verbsWithDemo();
+  table.push_back({"with-north",
+                   "Make the demo house with a true north",
+                   VerbScope::creates,
+                   {},
+                   [](const Document&, const nlohmann::json&, Progress&) -> Result<Outcome> {
+                     Outcome outcome;
+                     outcome.document = demoHouse();
+                     auto georeference = *outcome.document.georeference;
+                     georeference.true_north_rad = 0.5;
+                     outcome.document.georeference = std::make_shared<const Georeference>(georeference);
+                     outcome.description = "Made the demo house";
+                     return outcome;
+                   }});
+  Editor editor(table, [] {});
+  GuiDriver gui(editor);
+  ASSERT_TRUE(editor.session.start("demo", nlohmann::json::object()));
+  gui.settle();
+  openPanel(editor, Workspace::georeference, "georeference");
+  gui.frames(3);
+  EXPECT_EQ(gui.find("###take-north"), nullptr) << "its file states none";
+  ASSERT_TRUE(editor.session.start("with-north", nlohmann::json::object()));
+  gui.settle();
+  gui.frames(3);
+  EXPECT_TRUE(gui.says("turns nothing"));
+  ASSERT_TRUE(gui.click("###take-north"));
+  gui.frames(3);
+  EXPECT_EQ(gui.find("###take-north"), nullptr);
+  EXPECT_TRUE(gui.says("28.647890"));
 }
 
 TEST_F(Gui, TypingDoesNotTriggerShortcuts) {

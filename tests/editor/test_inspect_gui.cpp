@@ -187,6 +187,32 @@ TEST_F(Inspect, AFaceOfTheClipBoxIsPulledAndEscPutsItBack) {
   gui.frames(2);
 }
 
+TEST_F(Inspect, StationsTargetsAndMeasurementsBesideTheClipBoxAreNotDrawn) {
+  gui.key('M');
+  clickAt({1.5, 5, 0});
+  clickAt({3.5, 6, 0});
+  gui.key(kKeyEscape);
+  gui.frames(3);
+  for (const char* name : {"S1", "S2", "T1", "M1   "}) EXPECT_TRUE(gui.says(name)) << name;
+  Bounds around;
+  around.extend(Eigen::Vector3d(2.5, 1.5, 0));
+  around.extend(Eigen::Vector3d(4, 2.5, 2));
+  editor.workspace = Workspace::environment;  // its panels list none of them
+  editor.view.clip.box = clipAround(around, 0);
+  gui.frames(3);
+  EXPECT_TRUE(gui.says("S1"));
+  for (const char* name : {"S2", "T1", "M1   "}) EXPECT_FALSE(gui.says(name)) << name;
+}
+
+TEST_F(Inspect, AStationOnAFloorThatIsCutAwayIsNotDrawn) {
+  editor.workspace = Workspace::environment;
+  gui.frames(3);
+  EXPECT_TRUE(gui.says("S1")) << "higher than the cut, but of the storey that is cut open";
+  editor.visibility.cut_height_m = -0.1;
+  gui.frames(3);
+  EXPECT_FALSE(gui.says("S1"));
+}
+
 TEST_F(Inspect, TheClipBoxIsUndoneByStepsOfWhichADragIsOne) {
   const auto& history = editor.session.history();
   const auto steps = history.size();

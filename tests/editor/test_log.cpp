@@ -112,6 +112,20 @@ TEST_F(LogPanel, AMessageOfTheLogCallsProductsAsTheEditorDoes) {
   EXPECT_NE(std::find(texts.begin(), texts.end(), "Met Door #9 'A'"), texts.end());
 }
 
+TEST_F(LogPanel, SaysWhatWasUndoneInALanguageThatIsChosenAfterwards) {
+  open();
+  openPanel(editor, Workspace::environment, "log");
+  ASSERT_TRUE(editor.session.start("target", {{"add", "D"}, {"at", {500004, 5800002, 51.5}}}));
+  gui.settle();
+  editor.session.undo();
+  gui.frames(2);
+  EXPECT_TRUE(gui.says("Undone: Added target D"));
+  speak("de");
+  gui.frames(2);
+  EXPECT_TRUE(gui.says("Rückgängig gemacht: Zielmarke D hinzugefügt"));
+  speak("en");
+}
+
 TEST_F(LogPanel, AMessageThatTheLogHasNoRoomForIsWholeInItsTooltip) {
   std::string text = "Scanned";
   for (int i = 0; i < 60; ++i) text += " word" + std::to_string(i);

@@ -508,11 +508,57 @@ TEST_F(Walking, SaysWhereTheStairLeadsThatIsInSightAndHowElseOneGetsUpstairs) {
     itemProbe().listens = false;
     return itemProbe().texts;
   };
-  EXPECT_THAT(said(0), testing::Contains("Stair to Upper floor"));
+  EXPECT_THAT(said(0), testing::Contains(testing::HasSubstr("Stair up to Upper floor  (Q)")));
+  EXPECT_THAT(said(0), testing::Contains(testing::HasSubstr("Q, or a click on its label, to walk up the stair")));
   EXPECT_THAT(said(0), testing::Contains(testing::HasSubstr("Ctrl+G to go to a room or upstairs")));
-  EXPECT_THAT(said(std::numbers::pi), testing::Not(testing::Contains("Stair to Upper floor")));
+  EXPECT_THAT(said(std::numbers::pi), testing::Not(testing::Contains(testing::HasSubstr("Stair up to"))));
   editor.view.room_names = false;
-  EXPECT_THAT(said(0), testing::Not(testing::Contains(testing::HasSubstr("Stair to"))));
+  EXPECT_THAT(said(0), testing::Not(testing::Contains(testing::HasSubstr("Stair up to"))));
+}
+
+// The slab over the demo's stair is whole.
+TEST_F(Walking, SaysWhereTheHeadroomEndsOfAStairThatNobodyCanTake) {
+  jumpToStation(editor, 1);
+  editor.walk_ground.wait();
+  gui.frames(30);
+  editor.view.camera.azimuth_rad = 0;
+  gui.frames(2);
+  const Eigen::Vector3d feet = editor.walk.feet();
+  gui.key('Q');
+  gui.frames(30);
+  EXPECT_EQ(editor.walk.feet(), feet);
+  EXPECT_FALSE(editor.walk.goesByItself());
+  EXPECT_THAT(editor.notice.text, testing::HasSubstr("No way to Upper floor by this stair: headroom 1.10 m at "));
+}
+
+TEST_F(Walking, SaysThatNoStairIsInSight) {
+  EXPECT_NE(whyNot(*findAction("take-stair"), editor), "");
+  jumpToStation(editor, 1);
+  editor.walk_ground.wait();
+  gui.frames(30);
+  editor.view.camera.azimuth_rad = std::numbers::pi;
+  gui.frames(2);
+  gui.key('Q');
+  EXPECT_EQ(editor.notice.text, "Walk to where a stair is in sight first");
+}
+
+TEST_F(Walking, SaysWhyNobodyCanStandWhereTheTeleportAimsAndHowOneComesBack) {
+  walk();
+  editor.view.camera.azimuth_rad = 0;
+  gui.frame();
+  const Eigen::Vector3d from = editor.walk.feet();
+  ASSERT_TRUE(invoke(editor, "teleport"));
+  EXPECT_TRUE(gui.says("Alt+Left then comes back"));
+  gui.moveTo(pixelOf(from + Eigen::Vector3d(0, 3, 1.6)));  // on a wall
+  gui.frames(2);
+  EXPECT_TRUE(gui.says("too steep: 90°, at most 45°"));
+  gui.moveTo(pixelOf(from + Eigen::Vector3d(1.4, 3.3, 0)));
+  gui.frames(2);
+  EXPECT_FALSE(gui.says("too steep"));
+  gui.press();
+  gui.frames(3);
+  ASSERT_GT((editor.walk.feet() - from).norm(), 1);
+  EXPECT_TRUE(gui.says("Alt+Left for the previous view"));
 }
 
 TEST_F(Walking, LooksFromAnotherHeightAndAngleOnceTheyAreSet) {
@@ -605,18 +651,87 @@ void walkTowards(Editor& editor, GuiDriver& gui, const Eigen::Vector2d& place) {
 }
 
 // Its front door is at x = 7 to 8 in the south, its stair goes up northwards from y = 1.6 at x = 8.65 to 9.65.
-TEST(WalkingInTheSampleHouse, BeginsBehindTheFrontDoorAndLeadsUpstairs) {
-  Editor editor(verbsWithDemo(), [] {});
-  GuiDriver gui(editor);
-  ASSERT_TRUE(editor.session.start("import", {{"files", {(samplesFolder() / "house.ifc").string()}}}));
-  gui.settle();
+class WalkingInTheSampleHouse : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(editor.session.start("import", {{"files", {(samplesFolder() / "house.ifc").string()}}}));
+    gui.settle();
+    gui.frames(3);
+    ASSERT_TRUE(invoke(editor, "walk"));
+    editor.walk_ground.wait();
+    gui.frames(3);
+    ASSERT_TRUE(editor.walk.active());
+  }
+  // In the hall, so that the stair is ahead.
+  void standBeforeTheStair() {
+    walkTowards(editor, gui, {7.5, 1.2});
+    editor.view.camera.azimuth_rad = std::atan2(-1.65, 2);
+    gui.frames(3);
+  }
+  // Until it is there, in seconds.
+  double ride() {
+    double seconds = 0;
+    while (editor.walk.goesByItself() && seconds < 30) {
+      gui.frame();
+      seconds += ImGui::GetIO().DeltaTime;
+    }
+    gui.frames(30);
+    return seconds;
+  }
+  Editor editor{verbsWithDemo(), [] {}};
+  GuiDriver gui{editor};
+};
+
+TEST_F(WalkingInTheSampleHouse, QGoesUpTheStairAheadAndDownAgainAndThePreviousViewComesBack) {
+  standBeforeTheStair();
+  const Eigen::Vector3d from = editor.walk.feet();
+  gui.key('Q');
+  ASSERT_TRUE(editor.walk.goesByItself());
+  EXPECT_TRUE(gui.says("W A S D to stop here"));
+  EXPECT_LT(ride(), 6);
+  EXPECT_NEAR(editor.walk.feet().z(), 2.8, 0.05) << editor.walk.feet().transpose();
+  EXPECT_GT(editor.walk.feet().y(), from.y() + 3) << "beyond the last step";
+  editor.view.camera.azimuth_rad += std::numbers::pi;  // back towards the stair
   gui.frames(3);
-  ASSERT_TRUE(invoke(editor, "walk"));
-  editor.walk_ground.wait();
+  EXPECT_TRUE(gui.says("Stair down to Ground floor"));
+  gui.key('Q');
+  EXPECT_LT(ride(), 6);
+  EXPECT_NEAR(editor.walk.feet().z(), 0, 0.05) << editor.walk.feet().transpose();
+  for (int i = 0; i < 2; ++i) invoke(editor, "view-before");
   gui.frames(3);
-  ASSERT_TRUE(editor.walk.active());
-  EXPECT_NEAR((editor.walk.feet() - Eigen::Vector3d(7.5, 1.1, 0)).norm(), 0, 0.3) << editor.walk.feet().transpose();
-  EXPECT_NEAR(editor.view.camera.azimuth_rad, 0, 0.05) << "into the house";
+  EXPECT_NEAR((editor.walk.feet() - from).norm(), 0, 0.05) << editor.walk.feet().transpose();
+}
+
+TEST_F(WalkingInTheSampleHouse, AClickOnTheNameOfAStairGoesUpAndAKeyStopsThere) {
+  standBeforeTheStair();
+  const auto labels = [&] {
+    std::vector<ImVec2> found;  // where the pointer meets it
+    const auto* scene = gui.find("###scene");
+    for (float y = scene->rect.Min.y + 60; y < scene->rect.Max.y - 90 && found.empty(); y += 6)
+      for (float x = scene->rect.Min.x + 10; x < scene->rect.Max.x && found.empty(); x += 20) {
+        gui.moveTo({x, y});
+        gui.frame();
+        if (editor.pointed_label) found.push_back({x, y});
+      }
+    return found;
+  }();
+  ASSERT_EQ(labels.size(), 1U);
+  gui.press();
+  gui.frames(2);
+  ASSERT_TRUE(editor.walk.goesByItself());
+  while (editor.walk.goesByItself() && editor.walk.feet().z() < 1) gui.frame();
+  gui.key('S');
+  gui.frames(60);
+  EXPECT_FALSE(editor.walk.goesByItself());
+  EXPECT_GT(editor.walk.feet().z(), 0.4);
+  EXPECT_LT(editor.walk.feet().z(), 2) << "it stays where it was stopped";
+}
+
+TEST_F(WalkingInTheSampleHouse, BeginsBeforeTheFrontDoorAndLeadsUpstairs) {
+  EXPECT_NEAR(editor.walk.feet().x(), 7.5, 0.3) << editor.walk.feet().transpose();
+  EXPECT_LT(editor.walk.feet().y(), -1) << "outside";
+  EXPECT_NEAR(editor.view.camera.azimuth_rad, 0, 0.05) << "towards the house";
+  walkTowards(editor, gui, {7.5, 1.2});
   walkTowards(editor, gui, {9.2, 1.2});
   walkTowards(editor, gui, {9.2, 6.3});
   EXPECT_NEAR((editor.walk.feet() - Eigen::Vector3d(9.2, 6.3, 2.8)).norm(), 0, 0.2) << editor.walk.feet().transpose();

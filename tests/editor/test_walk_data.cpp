@@ -13,6 +13,8 @@
 #include "core/ceiling.h"
 #include "core/data_folder.h"
 #include "core/readable_name.h"
+#include "editor/labels/room_labels.h"
+#include "editor/walking/stair_way.h"
 #include "editor/walking/walk.h"
 #include "importers/importers.h"
 #include "optimizer/walk/walkable_map.h"
@@ -291,14 +293,14 @@ class LandingOnTheSurface : public ::testing::Test {
 TEST_F(LandingOnTheSurface, NotWhereItIsTooSmallToWalkThoughOneHasTheHeightAlmostToStand) {
   addOver("IfcBuildingElementProxy", 0.49F, 0, 1.85F);
   addOver("IfcBuildingElementProxy", 2, 1.85F + 1.75F, 4);
-  EXPECT_EQ(whyNotOn({0, 0, 1.85}), "not walkable");
+  EXPECT_EQ(whyNotOn({0, 0, 1.85}), "outside the walkable surface");
   EXPECT_EQ(whyNotOn({2, 0, 0}), "");
 }
 
 // The body is round above, and gets farther under a slope than the surface, which has all of the height.
 TEST_F(LandingOnTheSurface, UnderASteepRoofOnlyAsFarAsOneCrouches) {
   add("IfcRoof", {{{-2, -3, 0.0F}, {0, -3, 4.3F}, {0, 3, 4.3F}, {-2, 3, 0.0F}}}, 0.2F);
-  EXPECT_EQ(whyNotOn({-2 + 1.54 / 2.15, 0, 0}), "not walkable");
+  EXPECT_EQ(whyNotOn({-2 + 1.54 / 2.15, 0, 0}), "outside the walkable surface");
   EXPECT_EQ(whyNotOn({-2 + 1.90 / 2.15, 0, 0}), "") << "crouched";
   EXPECT_EQ(whyNotOn({1, 0, 0}), "");
 }
@@ -337,6 +339,32 @@ TEST(WalkedBuildings, UpASpiralStairByOneKeyThoughOneLeansAgainstItsRailing) {
       }
       EXPECT_GE(walk.feet().z(), 2.6) << outwards_deg << "° outwards, stopped at " << walk.feet().transpose();
     }
+}
+
+// Up and down by itself, from each of several places of the ground floor.
+TEST(WalkedBuildings, UpASpiralStairByTheWayThatIsFound) {
+  const auto file = corpus() / "webifc__AC20-FZK-Haus.ifc";
+  if (!fs::exists(file)) GTEST_SKIP() << "the shared corpus is not here";
+  const auto document = documentOf(file);
+  const auto ground = groundOf(document);
+  ASSERT_TRUE(ground);
+  const auto stairs = stairLabels(*ground->environment);
+  ASSERT_EQ(stairs.size(), 1U);
+  for (const Vector3d& from : {Vector3d(6.3, 2.95, 0), Vector3d(5.5, 4, 0), Vector3d(2, 2, 0)}) {
+    Walk walk;
+    Camera camera;
+    ASSERT_TRUE(walk.start(ground, kVisitor, {from, {}}, camera));
+    for (const double storey_m : {2.7, 0.0}) {
+      const auto way = stairWay(*ground, walk.feet(), stairs[0].box, storey_m);
+      ASSERT_FALSE(way.corners.empty()) << from.transpose();
+      walk.goAlong(way.corners, 2.6);
+      double seconds = 0;
+      for (; walk.goesByItself() && seconds < 20; seconds += 0.1) walk.go({}, 0.1, camera);  // as on a slow machine
+      EXPECT_LT(seconds, 8);
+      EXPECT_EQ(walk.note(), "");
+      EXPECT_NEAR(walk.feet().z(), storey_m, 0.1) << walk.feet().transpose();
+    }
+  }
 }
 
 // The long form: STANDPOINT_WALK_ALL=1.

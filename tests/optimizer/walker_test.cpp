@@ -176,10 +176,11 @@ TEST(Landing, SaysWhyNobodyCanStandThere) {
                                         block({-1, 3.6, 0}, {0, 3.8, 3})});
   const Vector3d up(0, 0, 1);
   EXPECT_EQ(landingAt(obstacles, kBody, {0, 0, 0}, up).why_not, "");
-  EXPECT_EQ(landingAt(obstacles, kBody, {0, 0, 0}, Vector3d(0.78801, 0, 0.61566)).why_not, "too steep 52°");
-  EXPECT_EQ(landingAt(obstacles, kBody, {-4, 0, 0}, up).why_not, "headroom 1.1 m");
-  EXPECT_EQ(landingAt(obstacles, kBody, {9, 0, 0}, up).why_not, "no floor");
-  EXPECT_EQ(landingAt(obstacles, kBody, {-0.5, 3.4, 0}, up).why_not, "too narrow");
+  EXPECT_EQ(landingAt(obstacles, kBody, {0, 0, 0}, Vector3d(0.78801, 0, 0.61566)).why_not,
+            "too steep: 52°, at most 45°");
+  EXPECT_EQ(landingAt(obstacles, kBody, {-4, 0, 0}, up).why_not, "no headroom: 1.10 m, at least 1.20 m");
+  EXPECT_EQ(landingAt(obstacles, kBody, {9, 0, 0}, up).why_not, "no floor here");
+  EXPECT_EQ(landingAt(obstacles, kBody, {-0.5, 3.4, 0}, up).why_not, "too narrow: somebody is 0.50 m wide");
   const auto beside = landingAt(obstacles, kBody, {2.9, 0, 0}, up);
   EXPECT_EQ(beside.why_not, "");
   EXPECT_NEAR(beside.feet.x(), 3 - 0.25, 2e-3) << "away from the wall";
