@@ -271,8 +271,9 @@ void showWorstPlace(Model& model, FigurePlace place) {
   const Eigen::Vector3d at = place.at;
   const double reach_m = surroundings_m(model, at);
   Bounds around;
-  around.extend(at - Eigen::Vector3d::Constant(reach_m));
-  around.extend(at + Eigen::Vector3d::Constant(reach_m));
+  constexpr double kBeyond = 1.4;  // so that walls are in sight beside a floor
+  around.extend(at - Eigen::Vector3d::Constant(kBeyond * reach_m));
+  around.extend(at + Eigen::Vector3d::Constant(kBeyond * reach_m));
   model.place_points.drop();
   if (!place.among_points)
     model.place_points.start({scansOf(model, place), at, 2.5 * reach_m, model.shift_m()}, model.wake);
