@@ -14,8 +14,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kLevel_m = 0.45;     // a floor may be as far from its storey's level
-constexpr double kOffStair_m = 0.35;  // of who has left it, beside its box …
-constexpr double kNearStair_m = 2;    // … and is not elsewhere
+constexpr double kOffStair_m = 0.7;   // of who has left it, beside its box …
+constexpr double kNearStair_m = 2.5;  // … and is not elsewhere
 constexpr double kOntoFloor_m = 0.8;  // from the last step
 constexpr double kSampled_m = 0.1;
 

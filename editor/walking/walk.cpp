@@ -20,6 +20,20 @@ constexpr double kLookAhead_m = 1;  // the camera's target is this far before th
 
 Eigen::Vector2d aheadOf(const Camera& camera) { return {-std::sin(camera.azimuth_rad), std::cos(camera.azimuth_rad)}; }
 
+// On a narrow spiral stair a body meets railing and newel where the surface leads on past them: it takes the step to
+// where it has room, at the corner or a little beside it.
+void stepTo(Walker& walker, const Eigen::Vector3d& corner) {
+  constexpr double kStep_m = 0.45, kStandFrom_m = 0.1, kBeside_m = 0.05;
+  constexpr int kRings = 4, kAround = 12;
+  if ((corner - walker.feet()).norm() > kStep_m) return;
+  for (int ring = 0; ring < kRings; ++ring)
+    for (int i = 0; i < (ring == 0 ? 1 : kAround); ++i) {
+      const double angle = 2 * std::numbers::pi * i / kAround;
+      const Eigen::Vector3d place = corner + ring * kBeside_m * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
+      if (walker.stand(place + Eigen::Vector3d(0, 0, kStandFrom_m), 2 * kStandFrom_m)) return;
+    }
+}
+
 }  // namespace
 
 bool Walk::start(std::shared_ptr<const WalkedGround> ground, const Body& body, const StartPlace& place,
@@ -101,7 +115,6 @@ void Walk::move(const WalkWish& wish, double seconds) {
 
 void Walk::follow(double seconds, Camera& camera) {
   constexpr double kTurn_s = 0.2;  // for most of a turn of the head
-  constexpr double kStep_m = 0.4, kStandFrom_m = 0.1;
   for (double left = seconds; way_ && left > 0; left -= WayWalk::kLongestStep_s) {
     const double step = std::min(left, WayWalk::kLongestStep_s);
     const auto velocity = way_->velocity(feet(), step);
@@ -110,10 +123,7 @@ void Walk::follow(double seconds, Camera& camera) {
       way_.reset();
       break;
     }
-    // On a narrow spiral stair a body slides off where the surface leads on: it takes the step to a place that has
-    // room.
-    if (const auto corner = way_->heldUpBefore(); corner && (*corner - feet()).norm() < kStep_m)
-      walker_->stand(*corner + Eigen::Vector3d(0, 0, kStandFrom_m), 2 * kStandFrom_m);
+    if (const auto corner = way_->heldUpBefore()) stepTo(*walker_, *corner);
     const double off =
         std::remainder(std::atan2(-velocity->x(), velocity->y()) - camera.azimuth_rad, 2 * std::numbers::pi);
     camera.azimuth_rad = std::remainder(camera.azimuth_rad + off * std::min(1.0, step / kTurn_s), 2 * std::numbers::pi);

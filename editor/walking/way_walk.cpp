@@ -7,7 +7,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr double kArrived_m = 0.12, kOtherFloor_m = 0.4;
+constexpr double kArrived_m = 0.16, kOtherFloor_m = 0.4;
 constexpr double kNearer_m = 0.01;  // that counts
 constexpr double kPatience_s = 0.33, kSidestep_s = 0.4;
 constexpr double kAheadInSidestep = 0.3;
