@@ -210,7 +210,7 @@ void drawObstacles(const ViewState& state, const ViewPen& pen, LabelBoard& label
   }
 }
 
-void drawWaypointsOf(const Editor& editor, const ViewPen& pen, LabelBoard& labels,
+void drawWaypointsOf(const Editor& editor, const ViewState& state, const ViewPen& pen, LabelBoard& labels,
                      const std::vector<Waypoint>& waypoints, double height_m, bool flown, int chosen,
                      const std::optional<Frame>& spared = {}) {
   auto& list = *ImGui::GetWindowDrawList();
@@ -249,8 +249,9 @@ void drawOf(const Editor& editor, const ViewState& state, const ViewPen& pen, La
       pen.line(trajectory.waypoints[i].floor_m, trajectory.waypoints[i + 1].floor_m, thinned(tone::kAccent, 120), 1.5F);
   }
   if (chosen)
-    drawWaypointsOf(editor, pen, labels, trajectory.waypoints, carriedHeight_m(trajectory.carrier, trajectory.height_m),
-                    trajectory.carrier == "uav", editor.survey.waypoint, spared);
+    drawWaypointsOf(editor, state, pen, labels, trajectory.waypoints,
+                    carriedHeight_m(trajectory.carrier, trajectory.height_m), trajectory.carrier == "uav",
+                    editor.survey.waypoint, spared);
   if (!editor.view.labels) return;
   const auto begin = !trajectory.waypoints.empty()             ? std::optional(trajectory.waypoints.front().floor_m)
                      : way != nullptr && !way->samples.empty() ? std::optional(way->samples.front().position_m)
