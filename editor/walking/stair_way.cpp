@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "optimizer/walk/avatar.h"
 #include "optimizer/walk/walker.h"
@@ -14,8 +15,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kLevel_m = 0.45;     // a floor may be as far from its storey's level
-constexpr double kOffStair_m = 0.7;   // of who has left it, beside its box …
-constexpr double kNearStair_m = 2.5;  // … and is not elsewhere
+constexpr double kOffStair_m = 0.35;  // of who has left it, beside its box …
+constexpr double kNearStair_m = 2;    // … and is not elsewhere
 constexpr double kOntoFloor_m = 0.8;  // from the last step
 constexpr double kSampled_m = 0.1;
 
@@ -35,12 +36,14 @@ std::vector<Vector3d> wayOn(const WalkableMap& map, const Vector3d& feet, const 
   const auto rough =
       map.cheapestWay(std::span(&from, 1), wanted, [](const Vector3d& a, const Vector3d& b) { return (b - a).norm(); });
   if (rough.empty()) return {};
-  const auto last = map.under(rough.back());
-  Vector3d goal = rough.back();
-  if (last) {
-    const Vector3d on = map.middle(*last) - goal;
-    goal += on * std::min(1.0, kOntoFloor_m / std::max(on.norm(), 1e-9));
-  }
+  // The way ends on the rim of the floor, which it shares with a tread: a little farther one has left the stair.
+  std::optional<std::uint32_t> floor;
+  const auto away_m = [&](std::uint32_t i) { return (nearestIn(map.box(i), rough.back()) - rough.back()).norm(); };
+  for (std::uint32_t i = 0; i < map.size(); ++i)
+    if (wanted(i) && (!floor || away_m(i) < away_m(*floor))) floor = i;
+  Vector3d goal = nearestIn(map.box(*floor), rough.back());
+  const Vector3d on = map.middle(*floor) - goal;
+  goal += on * std::min(1.0, kOntoFloor_m / std::max(on.norm(), 1e-9));
   if (elevation_m > feet.z()) return map.way(from, goal);
   auto corners = map.way(goal, from);  // what leads up leads down: from above a way cuts the corners of a spiral
   std::reverse(corners.begin(), corners.end());

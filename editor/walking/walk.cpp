@@ -21,15 +21,19 @@ constexpr double kLookAhead_m = 1;  // the camera's target is this far before th
 Eigen::Vector2d aheadOf(const Camera& camera) { return {-std::sin(camera.azimuth_rad), std::cos(camera.azimuth_rad)}; }
 
 // On a narrow spiral stair a body meets railing and newel where the surface leads on past them: it takes the step to
-// where it has room, at the corner or a little beside it.
-void stepTo(Walker& walker, const Eigen::Vector3d& corner) {
-  constexpr double kStep_m = 0.45, kStandFrom_m = 0.1, kBeside_m = 0.05;
+// where it has room, at the corner or a little beside it, and never through what somebody slim would not come past.
+void stepTo(const Obstacles& obstacles, Walker& walker, const Eigen::Vector3d& corner) {
+  constexpr double kStep_m = 0.45, kStandFrom_m = 0.1, kBeside_m = 0.05, kOverTreads_m = 0.3;
+  constexpr Body kSlim{0.05, 0.9};
   constexpr int kRings = 4, kAround = 12;
-  if ((corner - walker.feet()).norm() > kStep_m) return;
+  const Eigen::Vector3d feet = walker.feet();
+  if ((corner - feet).norm() > kStep_m) return;
+  const double z = std::max(feet.z(), corner.z()) + kOverTreads_m;
   for (int ring = 0; ring < kRings; ++ring)
     for (int i = 0; i < (ring == 0 ? 1 : kAround); ++i) {
       const double angle = 2 * std::numbers::pi * i / kAround;
       const Eigen::Vector3d place = corner + ring * kBeside_m * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
+      if (obstacles.sweep(kSlim, {feet.x(), feet.y(), z}, {place.x(), place.y(), z})) continue;
       if (walker.stand(place + Eigen::Vector3d(0, 0, kStandFrom_m), 2 * kStandFrom_m)) return;
     }
 }
@@ -123,7 +127,7 @@ void Walk::follow(double seconds, Camera& camera) {
       way_.reset();
       break;
     }
-    if (const auto corner = way_->heldUpBefore()) stepTo(*walker_, *corner);
+    if (const auto corner = way_->heldUpBefore()) stepTo(ground_->obstacles, *walker_, *corner);
     const double off =
         std::remainder(std::atan2(-velocity->x(), velocity->y()) - camera.azimuth_rad, 2 * std::numbers::pi);
     camera.azimuth_rad = std::remainder(camera.azimuth_rad + off * std::min(1.0, step / kTurn_s), 2 * std::numbers::pi);

@@ -362,7 +362,7 @@ TEST(WalkedBuildings, UpASpiralStairByTheWayThatIsFound) {
       for (; walk.goesByItself() && seconds < 20; seconds += 0.1) walk.go({}, 0.1, camera);  // as on a slow machine
       EXPECT_LT(seconds, 8);
       EXPECT_EQ(walk.note(), "");
-      EXPECT_NEAR(walk.feet().z(), storey_m, 0.2) << "a tread away at most, " << walk.feet().transpose();
+      EXPECT_NEAR(walk.feet().z(), storey_m, 0.05) << walk.feet().transpose();
     }
   }
 }
