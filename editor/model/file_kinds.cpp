@@ -25,14 +25,14 @@ std::span<const FileKind> modelKinds() {
 
 std::span<const FileKind> pointKinds() {
   static const std::vector<FileKind> kKinds = {
-      {"E57", ".e57", "All scans in one file, with poses, intensity, colours and labels"},
-      {"LAS", ".las", "All scans in one file, with intensity, colours and labels"},
-      {"PTX, text", ".ptx", "All scans in one file, as whole grids with poses"},
-      {"PLY, binary", ".ply", "A file for each scan, with labels as scalars"},
-      {"PCD, binary", ".pcd", "A file for each scan, in the frame of its scanner"},
-      {"PTS, text", ".pts", "A file for each scan, with the number of its points first"},
-      {"XYZ, text", ".xyz", "A file for each scan, a line for each point"},
-      {"CSV, text", ".csv", "A file for each scan, with the names of its columns first"},
+      {"E57", ".e57", "With pose, intensity, colours and labels"},
+      {"LAS", ".las", "With intensity, colours and labels"},
+      {"PTX, text", ".ptx", "As a whole grid with its pose"},
+      {"PLY, binary", ".ply", "With labels as scalars"},
+      {"PCD, binary", ".pcd", "In the frame of its scanner"},
+      {"PTS, text", ".pts", "With the number of points first"},
+      {"XYZ, text", ".xyz", "A line for each point"},
+      {"CSV, text", ".csv", "With the names of the columns first"},
   };
   return kKinds;
 }

@@ -204,7 +204,15 @@ void Model::jumpTo(const Eigen::Vector3d& place, const Eigen::Vector3d& from) {
 }
 
 void Model::clipAroundSelection() {
-  const Bounds chosen = selectionBounds();
+  Bounds chosen = selectionBounds();
+  const auto& job = session.document().job;
+  if (chosen.empty() && job && survey.station >= 0 && survey.station < static_cast<int>(job->stations.size())) {
+    const auto& station = job->stations[static_cast<std::size_t>(survey.station)];
+    const Eigen::Vector3d& centre = station.true_pose.translation;
+    constexpr double kAround_m = 3, kAbove_m = 1.5;
+    chosen.extend(centre - Eigen::Vector3d(kAround_m, kAround_m, station.instrument_height_m));
+    chosen.extend(centre + Eigen::Vector3d(kAround_m, kAround_m, kAbove_m));
+  }
   view.clip.box = clipAround(chosen.empty() ? buildingBounds() : chosen, chosen.empty() ? 0.1 : 0.3);
 }
 

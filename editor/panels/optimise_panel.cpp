@@ -29,10 +29,13 @@ void drawResult(const Model& model, const OptimiseState& state, const Simplified
                               ? static_cast<double>(all.triangles_after) / static_cast<double>(all.triangles_before)
                               : 1;
   ui::meter(model, fraction, tone::kAccent);
+  // A product may be farther from itself before than from what stands around it.
+  double largest_m = all.max_deviation_m;
+  for (const auto& product : light.products) largest_m = std::max(largest_m, product.max_deviation_m);
   if (ui::beginProperties("result", 0.5F)) {
     ui::property("Triangles before", groupedDigits(all.triangles_before));
     ui::property("Triangles after", figures("{}  ({:.1f} %)", groupedDigits(all.triangles_after), fraction * 100));
-    ui::property("Largest deviation", figures("{:.2f} mm", all.max_deviation_m * 1000));
+    ui::property("Largest deviation", figures("{:.1f} mm", largest_m * 1000));
     ui::property("Mean deviation", figures("{:.3f} mm", all.mean_deviation_m * 1000));
     ui::property("Normal deviation", trf("{:.2f}° mean", all.mean_turn_rad / kRadPerDeg));
     ui::endProperties();
@@ -124,7 +127,8 @@ void drawWorst(const Model& model, Actions& actions, const SimplifiedModel& ligh
     }
     return table;
   });
-  if (!ImGui::BeginTable("worst", 3, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) return;
+  const float height = std::max(ImGui::GetContentRegionAvail().y, model.px(150));  // else the panel is scrolled
+  if (!ImGui::BeginTable("worst", 3, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg, {0, height})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn(ui::Label("Product"), ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("mm", ImGuiTableColumnFlags_WidthFixed, model.px(44));

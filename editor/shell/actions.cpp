@@ -558,6 +558,7 @@ void actionButton(Editor& editor, const char* id, const char* text, float width)
 void chooseLanguage(Editor& editor, const char* code) {
   editor.settings.language = code;
   speak(code);
+  editor.view.worst_place.reset();  // it is named in the language before
 }
 
 void openVerbForm(Editor& editor, const char* verb) {

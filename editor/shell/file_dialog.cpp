@@ -337,6 +337,10 @@ void askForPointsExport(Editor& editor, const std::filesystem::path& cloud) {
   const auto clouds = inspectedClouds(editor.session.document());
   if (clouds.empty()) return;
   auto wanted = cloud;
+  const auto of_station = std::find_if(clouds.begin(), clouds.end(), [&](const InspectedCloud& c) {
+    return c.station >= 0 && c.station == editor.survey.station;
+  });
+  if (wanted.empty() && of_station != clouds.end()) wanted = of_station->file;
   if (wanted.empty() && editor.cloud()) wanted = editor.cloud()->file;
   const auto* chosen = cloudOf(clouds, wanted);
   const auto file = chosen != nullptr ? chosen->file : clouds.front().file;

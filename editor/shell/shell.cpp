@@ -140,7 +140,9 @@ void submenu(Editor& editor, const char* icon, const char* title, std::initializ
 
 void graphicsMenu(Editor& editor) {
   if (!ui::beginMenu("", "Graphics###menu-graphics")) return;
+  const auto before = editor.settings.graphics;
   drawGraphicsChoices(editor, 380);
+  if (editor.settings.graphics != before) ImGui::CloseCurrentPopup();  // and the menu that it is in
   ImGui::EndMenu();
 }
 

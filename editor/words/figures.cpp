@@ -86,7 +86,8 @@ std::string countsIn(std::string text) {
     const auto end = endOfDigits(text, begin);
     if (end == begin) continue;
     const auto last = endOfDigits(text, end + 4);
-    const bool of_many = std::string_view(text).substr(end).starts_with(" of ") && last > end + 4 && counts(last);
+    const auto rest = std::string_view(text).substr(end, 4);
+    const bool of_many = (rest == " of " || rest == " to ") && last > end + 4 && counts(last);
     if (end - begin > kUngrouped && end - begin < 19 && standsFree(text, begin) && (counts(end) || of_many)) {
       const auto grouped = groupedDigits(std::stoull(text.substr(begin, end - begin)));
       text.replace(begin, end - begin, grouped);

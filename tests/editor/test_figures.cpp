@@ -29,6 +29,7 @@ TEST_F(DrawnFigures, GroupTheDigitsOfWhatASentenceCounts) {
   EXPECT_EQ(countsIn("Imported a.ifc: 92 products, 23842 triangles"), "Imported a.ifc: 92 products, 23 842 triangles");
   EXPECT_EQ(countsIn("11920 of 23842 triangles (first of 1234 similar)"),
             "11 920 of 23 842 triangles (first of 1 234 similar)");
+  EXPECT_EQ(countsIn("Optimised 23842 to 6216 triangles"), "Optimised 23 842 to 6 216 triangles");
   for (const char* other : {"#23842 has no shape", "EPSG:25832 is not known", "seed 20240 of 3 scans", "a23842 points",
                             "1550 nm", "999 points", "Solid 397409098", "5800000.00 m", "12 345 points"})
     EXPECT_EQ(countsIn(other), other);

@@ -263,6 +263,16 @@ TEST_F(Inspect, TheClipBoxIsUndoneByStepsOfWhichADragIsOne) {
   EXPECT_FALSE(editor.view.clip.box);
 }
 
+TEST_F(Inspect, AClipBoxIsMadeAroundTheChosenStation) {
+  editor.selection.clear();
+  editor.survey.station = 1;
+  const Eigen::Vector3d centre = editor.session.document().job->stations[1].true_pose.translation;
+  ASSERT_TRUE(invoke(editor, "clip-box"));
+  ASSERT_TRUE(editor.view.clip.box);
+  EXPECT_TRUE(editor.view.clip.box->contains(centre));
+  EXPECT_LT(editor.view.clip.box->half.maxCoeff(), 4);
+}
+
 TEST_F(Inspect, ASectionIsLookedAtAlongItsThinSide) {
   editor.clipSection({2, 5, 1}, Eigen::Vector3d::UnitX());
   editor.lookAlongClip();
@@ -274,6 +284,20 @@ TEST_F(Inspect, ASectionIsLookedAtAlongItsThinSide) {
 std::string ptxAt(const Eigen::Vector3d& place) {
   const auto at = fmt::format("{} {} {}", place.x(), place.y(), place.z());
   return "2\n1\n" + at + "\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n" + at + " 1\n1 0 0 0.5\n0 1 0 0.5\n";
+}
+
+TEST_F(Inspect, ThePointsOfTheChosenStationAreExported) {
+  Document document = editor.session.document();
+  Job job = *document.job;
+  for (auto& station : job.stations) station.scans = {{.file = "/tmp/" + station.name + ".e57", .points = 2}};
+  document.job = std::make_shared<const Job>(job);
+  ASSERT_TRUE(editor.session.adopt({document, {}, {}, "scanned"}));
+  for (const int station : {0, 1}) {
+    editor.survey.station = station;
+    ASSERT_TRUE(invoke(editor, "export-points"));
+    EXPECT_EQ(editor.dialogs.verb.form.find("in")->text, "/tmp/S" + std::to_string(station + 1) + ".e57");
+    editor.dialogs.verb.open = false;
+  }
 }
 
 TEST_F(Inspect, ScansAreShownTogetherAndWhereRegistrationBelievesThemToBe) {

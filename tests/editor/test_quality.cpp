@@ -102,6 +102,18 @@ TEST_F(QualityPanel, MarksTheWorstPlaceAndShowsItInSpaceEvenFromAPlan) {
   EXPECT_FALSE(gui.says("Incidence 87°")) << "Esc takes the mark away";
 }
 
+TEST_F(QualityPanel, ForgetsAWorstPlaceWithTheScansThatItIsOf) {
+  ASSERT_NO_FATAL_FAILURE(scan());
+  showWorstPlace(editor, {Eigen::Vector3d(3, 2, 2.4), "Incidence 87°"});
+  gui.frames(2);
+  ASSERT_TRUE(editor.view.worst_place);
+  while (!inspectedClouds(editor.session.document()).empty()) {
+    gui.key('Z', true);
+    gui.settle();
+  }
+  EXPECT_FALSE(editor.view.worst_place);
+}
+
 TEST_F(QualityPanel, ShowsTheWorstPlaceWithTheRoomAroundIt) {
   const auto& rooms = editor.room_labels.of(editor.session.document().imported);
   ASSERT_FALSE(rooms.empty());
