@@ -315,6 +315,7 @@ void goBackInViews(Model& model) {
   const auto view = model.views.back();
   if (!view) return;
   model.view.worst_place.reset();
+  model.view.teleport.goes_on_to_s = 0;
   stopFlying(model);
   const auto ground = view->feet ? model.walk_ground.of(model.session.document(), model.walker) : nullptr;
   if (ground && model.walk.start(ground, model.walker, {*view->feet, {}}, model.view.camera))

@@ -421,7 +421,7 @@ void drawTrajectoryButtons(const Model& model, Actions& actions, const CarriedTr
 void drawMoment(const Model& model, Actions& actions, const CarriedTrajectory& trajectory, const TrajectoryWay* way) {
   if (way != nullptr && (!way->motion.truth || way->seconds <= 0)) return;
   if (ui::beginProperties("moment", 0.36F)) {
-    ui::propertyLabel("Shown after");
+    ui::propertyLabel("Time");
     double after_s = shownMoment_s(model);
     const double seconds = way == nullptr ? 1 : way->seconds;
     const NumberFormat format{.kind = {.unit = "s", .least = 0, .most = seconds}, .decimals = 1};

@@ -522,25 +522,36 @@ void runShortcuts(Editor& editor) {
   }
 }
 
+namespace {
+
+// With the step that it undoes or redoes.
+std::string titleNow(const Editor& editor, const Action& action, bool possible) {
+  if (possible && std::strcmp(action.id, "undo") == 0)
+    return trf("Undo: {}",
+               undoesJump(editor) ? tr("Teleport") : trSentence(editor.session.history().undoDescription()));
+  if (possible && std::strcmp(action.id, "redo") == 0)
+    return trf("Redo: {}", trSentence(editor.session.history().redoDescription()));
+  return tr(action.title);
+}
+
+}  // namespace
+
 void actionMenuItem(Editor& editor, const char* id) {
   const Action& action = *findAction(id);
   const auto why = whyNot(action, editor);
-  std::string title = tr(action.title);
-  if (std::strcmp(id, "undo") == 0 && why.empty())
-    title =
-        trf("Undo: {}", undoesJump(editor) ? tr("Teleport") : trSentence(editor.session.history().undoDescription()));
-  if (std::strcmp(id, "redo") == 0 && why.empty())
-    title = trf("Redo: {}", trSentence(editor.session.history().redoDescription()));
+  std::string title = titleNow(editor, action, why.empty());
+  if (std::string_view(id).starts_with("language-"))  // its menu says so
+    title = title.substr(title.find(": ") + 2);
   const char* const icon = action.on != nullptr && action.on(editor) ? ICON_CHECK : action.icon;
   if (ui::menuItem(icon, title + "###" + id, shortcutText(action.shortcut).c_str(), why)) action.run(editor);
 }
 
 void actionToolButton(Editor& editor, const char* id) {
   const Action& action = *findAction(id);
-  std::string tip = tr(action.title);
+  const auto why = whyNot(action, editor);
+  std::string tip = titleNow(editor, action, why.empty());
   if (const auto keys = shortcutText(action.shortcut); !keys.empty()) tip += "  (" + keys + ")";
-  if (ui::iconButton((std::string(action.icon) + "###tool_" + id).c_str(), tip.c_str(), whyNot(action, editor)))
-    action.run(editor);
+  if (ui::iconButton((std::string(action.icon) + "###tool_" + id).c_str(), tip.c_str(), why)) action.run(editor);
   ImGui::SameLine();
 }
 

@@ -17,7 +17,7 @@ void chooseGraphics(Editor& editor, GraphicsChoice choice) {
   if (choice == GraphicsChoice::automatic)
     editor.say(trf("Graphics: Automatic, now {}", tr(graphicsName(editor.graphics.level()))));
   else if (means && means->by_processor)
-    editor.say(trf("Graphics: {}; without a graphics card all of it shows while the view is at rest",
+    editor.say(trf("Graphics: {}. Without a graphics card, its full effect shows once the view is at rest.",
                    tr(graphicsName(choice))));
   else
     editor.say(trf("Graphics: {}", tr(graphicsName(choice))));
