@@ -109,7 +109,10 @@ void PanelActions::choose(const ChosenMaterial& material) { editor_.material = m
 void PanelActions::chooseStation(const std::string& name) { editor_.survey_wanted = name; }
 void PanelActions::chooseTrajectory(const std::string& name) { editor_.trajectory_wanted = name; }
 void PanelActions::renameBegun() { editor_.rename_wanted = false; }
-void PanelActions::holdNewStation(const TypedStation& station) { editor_.view.typed_station = station; }
+void PanelActions::holdNewStation(const TypedStation& station) {
+  editor_.view.typed_station = station;
+  editor_.view.refused_place.reset();  // another one
+}
 void PanelActions::typingBegun() { editor_.typing_wanted = false; }
 void PanelActions::set(const ScanChoice& scan) { editor_.scan_choice = scan; }
 void PanelActions::set(const CarriedScan& scan) { editor_.carried_scan = scan; }
