@@ -112,7 +112,7 @@ bool looksFromStation(const Model& model) {
 
 void followStationView(Model& model) {
   auto& before = model.view.before_station;
-  if (!before || looksFromStation(model)) return;
+  if (!before || model.flight.flies() || looksFromStation(model)) return;  // on its way there it is elsewhere
   model.view.camera.view_angle_rad = before->view_angle_rad;
   if (!model.visibility.cut_height_m) model.visibility.cut_height_m = before->cut_height_m;
   before.reset();

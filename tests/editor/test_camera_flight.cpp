@@ -4,6 +4,7 @@
 #include "demo_document.h"
 #include "demo_verbs.h"
 #include "editor/camera/camera_flight.h"
+#include "editor/model/station_steps.h"
 #include "editor/shell/actions.h"
 #include "item_probe.h"
 
@@ -100,6 +101,30 @@ TEST(CameraFlight, IsHowACommandMovesTheViewAndADragEndsIt) {
   const Camera left = editor.view.camera;
   gui.frames(20);
   EXPECT_EQ(editor.view.camera, left);
+}
+
+TEST(CameraFlight, ArrivesAtAStationAndLeavesItAgain) {
+  Editor editor{verbsWithDemo(), [] {}};
+  GuiDriver gui{editor};
+  editor.session.start("demo", nlohmann::json::object());
+  gui.settle();
+  gui.frames(4);
+  editor.flight = CameraFlight(0.25);
+  gui.frames(2);
+  editor.survey.station = 1;
+  const Camera before = editor.view.camera;
+  ASSERT_TRUE(invoke(editor, "look-from-station"));
+  gui.frame();
+  EXPECT_TRUE(editor.flight.flies());
+  gui.frames(40);
+  EXPECT_TRUE(looksFromStation(editor));
+  const double angle_rad = editor.view.camera.view_angle_rad;
+  EXPECT_GT(angle_rad, before.view_angle_rad);
+  ASSERT_TRUE(invoke(editor, "view-corner"));
+  const Camera goal = editor.view.camera;
+  gui.frames(40);
+  EXPECT_LT((editor.view.camera.target - goal.target).norm(), 1e-9);
+  EXPECT_EQ(editor.view.camera.view_angle_rad, before.view_angle_rad);
 }
 
 }  // namespace
