@@ -7,6 +7,7 @@
 
 #include "core/number_text.h"
 #include "editor/model/model.h"
+#include "editor/words/sentences.h"
 #include "editor/words/words.h"
 #include "project/materials/material_findings.h"
 #include "project/survey/assess_verb.h"
@@ -141,7 +142,7 @@ GuideStep inspectStep(const Model& model) {
   }
   const bool good = answer->bad == 0 && answer->warn == 0;
   step.state = good ? State::done : State::attention;
-  step.status = verdictText(*answer);
+  step.status = trSentence(verdictText(*answer));
   step.advice = good ? "" : "Look at the worst places";
   step.command = good ? "" : "worst-place";
   return step;

@@ -202,7 +202,12 @@ void drawDifferences(const Model& model, CompareState& state, Actions& actions, 
   const auto &of_a = answer.a_distances, &of_b = answer.b_distances;
   if (!of_a || !of_b || of_a->distance_m.empty()) return;
   const bool shown = state.looked_at == of_a || state.looked_at == of_b;
-  if (!shown) lookAt(model, state, actions, state.shown_a, of_a, clouds);
+  // First the one that has more to show: the points of A may all be near B, and not the other way round.
+  const auto most_m = [](const auto& largest) { return largest ? largest->distance_m : 0; };
+  if (!shown && most_m(answer.b_largest) > most_m(answer.a_largest))
+    lookAt(model, state, actions, state.shown_b, of_b, clouds);
+  else if (!shown)
+    lookAt(model, state, actions, state.shown_a, of_a, clouds);
   if (ui::button(ICON_EYE "  A by distance to B###difference-a", {}, {0, 0}, "Shows the points of A in the view"))
     lookAt(model, state, actions, state.shown_a, of_a, clouds);
   ImGui::SameLine();

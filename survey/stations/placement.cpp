@@ -92,8 +92,9 @@ std::optional<Refusal> StationPlacement::tooNear(const Eigen::Vector3d& centre) 
       fmt::format("the instrument centre would be {:.0f} mm from {}, but needs {:.0f} mm of clearance",
                   near->distance_m * 1000, productText(product), stand_.clearance_m * 1000),
       fmt::format("move it {:.0f} mm away", std::ceil((stand_.clearance_m - near->distance_m) * 1000 - 0.01)),
-      // whole ones, so that 19.5 cm of the 20 that it needs do not read as 20
-      fmt::format("{:.0f} cm from {}", std::floor(near->distance_m * 100), plainKind(product))};
+      // whole ones, as 19.5 cm of the 20 that it needs shall not read as 20; 10 cm are 10 where they are stored
+      // as 9.99…
+      fmt::format("{:.0f} cm from {}", std::floor(near->distance_m * 100 + 0.05), plainKind(product))};
 }
 
 bool StationPlacement::worthTrying(const Eigen::Vector3d& centre) const {
