@@ -72,6 +72,8 @@ struct TimedScene::Asked {
   float nearest_m = 0;
   std::uint64_t* facets = nullptr;
   float* ranges_m = nullptr;  // of all sixteen
+  // That are asked about, as bits: where Embree (3.13) takes the sixteen in eights, it calls back for others, too.
+  std::uint32_t in_question = 0;
   std::vector<NearBody>* near = nullptr;
 
   void comeNear(std::uint32_t body, std::uint32_t lanes) const {
@@ -98,7 +100,7 @@ void TimedScene::meet(const RTCIntersectFunctionNArguments* arguments) {
   std::uint32_t asking = 0;
   for (unsigned i = 0; i < arguments->N; ++i)
     if (arguments->valid[i] != 0) asking |= 1U << RTCRayN_id(rays, arguments->N, i);
-  asking = window.reaching(arguments->primID, asked.rays, asking, asked.ranges_m);
+  asking = window.reaching(arguments->primID, asked.rays, asking & asked.in_question, asked.ranges_m);
   if (asking == 0) return;
   asked.of.meetBody(window.body(arguments->primID), asked, asking);
   // Boxes beyond what is met may still hold something in its cell of ranges, or be near a wide beam.
@@ -164,10 +166,12 @@ void TimedScene::ask(Asked& asked, int count) {
   static thread_local RTCRayHit16 query{};
   for (std::uint32_t left = (1U << static_cast<unsigned>(count)) - 1; left != 0;) {
     alignas(64) int valid[kPacket] = {};
+    const std::uint32_t before = left;
     const std::int64_t number = slotOf(asked.rays.time_s[std::countr_zero(left)], 1 / SweptWindow::kLength_s);
     forLanes(left, [&](std::uint32_t k) {
       if (slotOf(asked.rays.time_s[k], 1 / SweptWindow::kLength_s) == number) valid[k] = -1, left &= ~(1U << k);
     });
+    asked.in_question = before & ~left;
     const SweptWindow& window = windowOf(number);
     if (window.scene() == nullptr) continue;
     window.setPieces(asked.rays);

@@ -293,7 +293,8 @@ TEST(MoverVerb, KeepsTheWaysOfACrowdWithTheProject) {
   const auto bytesFrom = [&](const Document& document, const char* name) {
     json options = kQuick;
     options["output"] = (folder.path() / name).string();
-    EXPECT_TRUE(run("scan", document, options));
+    const auto ran = run("scan", document, options);
+    EXPECT_TRUE(ran) << describe(ran.error());
     return standpoint::testing::bytesOf(folder.path() / name);
   };
   const std::string of_memory = bytesFrom(made, "memory.e57");
