@@ -72,7 +72,7 @@ class Actions {
   virtual void chooseTrajectory(const std::string& name) = 0;  // likewise
   virtual void renameBegun() = 0;
   virtual void holdNewStation(const TypedStation& station) = 0;  // instead of under the pointer
-  virtual void typingBegun() = 0;                                  // of its numbers
+  virtual void typingBegun() = 0;                                // of its numbers
   virtual void set(const ScanChoice& scan) = 0;
   virtual void set(const CarriedScan& scan) = 0;
   virtual void set(const SeenLimits& limits) = 0;

@@ -62,8 +62,7 @@ void startDrag(Editor& editor, ImVec2 origin) {
   if (view.hover)
     under = view.hover->position;
   else if (editor.cloud() || !editor.session.document().hasModel())
-    if (const auto place = editor.measurableAt(pointer(origin), kReach_px))
-      under = place->position;
+    if (const auto place = editor.measurableAt(pointer(origin), kReach_px)) under = place->position;
   view.pivot = under.value_or(view.camera.target);
   view.pivot_depth_m = std::max(0.1, (view.pivot - view.camera.eye()).dot(view.camera.forward()));
 }
