@@ -129,10 +129,12 @@ std::vector<Corner> cornersOf(const std::vector<Edge>& edges) {
       corner.normals.insert(corner.normals.end(), edge.normals.begin(), edge.normals.end());
     }
   std::vector<Corner> corners;
-  for (auto& [key, corner] : all)
+  for (auto& [key, corner] : all) {
+    const Vector3d first = corner.ways.front();
     if (std::any_of(corner.ways.begin(), corner.ways.end(),
-                    [&](const Vector3d& way) { return std::abs(way.dot(corner.ways.front())) < kFlat; }))
+                    [&first](const Vector3d& way) { return std::abs(way.dot(first)) < kFlat; }))
       corners.push_back(std::move(corner));
+  }
   return corners;
 }
 

@@ -70,11 +70,11 @@ double shareWithPoints(const Cloud& cloud, const Camera& camera, const Vector2d&
 }
 
 Bounds boundsOfMost(const Cloud& cloud, const KeptPlace& kept) {
-  constexpr double kLeftOut = 0.03;  // at either end of each axis
+  constexpr double kStray = 0.03;  // at either end of each axis
   auto places = someOf(cloud, kept);
   Bounds most;
   if (places.empty()) return most;
-  const auto few = static_cast<std::ptrdiff_t>(kLeftOut * static_cast<double>(places.size()));
+  const auto few = static_cast<std::ptrdiff_t>(kStray * static_cast<double>(places.size()));
   for (int axis = 0; axis < 3; ++axis) {
     const auto at = [&](std::ptrdiff_t index) {
       const auto nth = places.begin() + index;
