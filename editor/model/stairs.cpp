@@ -58,7 +58,7 @@ void take(Model& model, const StairAhead& stair) {
 }  // namespace
 
 std::vector<StairAhead> stairsAhead(const Model& model, const ViewState& state) {
-  constexpr double kFarthest_m = 15, kChest_m = 1.2, kBefore_m = 0.05, kWithin_m = 0.3;
+  constexpr double kFarthest_m = 15, kChest_m = 1.2, kOff_m = 0.05, kWithin_m = 0.3;
   std::vector<StairAhead> ahead;
   if (!model.walk.active() || model.walk.goesByItself()) return ahead;
   const Eigen::Vector3d eye = model.view.camera.eye(), feet = model.walk.feet();
@@ -72,7 +72,7 @@ std::vector<StairAhead> stairsAhead(const Model& model, const ViewState& state) 
     const auto entry = entryOf(box, eye, anchor);
     if (!entry || (*entry - eye).norm() > kFarthest_m) continue;
     if ((anchor - eye).dot(model.view.camera.forward()) <= 0) continue;
-    const Eigen::Vector3d before = *entry - kBefore_m * (*entry - eye).normalized();
+    const Eigen::Vector3d before = *entry - kOff_m * (*entry - eye).normalized();
     const auto& name = model.environment()->spatial[static_cast<std::size_t>(storey->node)].name;
     if (name.empty() || !model.picker.sees(eye, before, state)) continue;
     ahead.push_back({product, box, name, storey->elevation_m, up, anchor, (*entry - eye).norm()});
