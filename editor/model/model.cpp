@@ -214,9 +214,11 @@ void Model::update() {
   }
   followCloud();
   place_points.poll();
-  // A place is marked as long as there is what it is a place of.
-  const bool among_points = view.worst_place && view.worst_place->among_points;
-  if (among_points ? !cloud_ && !readingCloud() : inspectedClouds(session.document()).empty()) view.worst_place.reset();
+  if (view.worst_place) {  // marked as long as there is what it is a place of
+    const bool among_points = view.worst_place->among_points;
+    if (among_points ? !cloud_ && !readingCloud() : inspectedClouds(session.document()).empty())
+      view.worst_place.reset();
+  }
   if (!view.worst_place) place_points.drop();
   if (session.revision() != seen_revision_) {
     seen_revision_ = session.revision();

@@ -289,13 +289,13 @@ std::string ptxAt(const Eigen::Vector3d& place) {
 TEST_F(Inspect, ThePointsOfTheChosenStationAreExported) {
   Document document = editor.session.document();
   Job job = *document.job;
-  for (auto& station : job.stations) station.scans = {{.file = "/tmp/" + station.name + ".e57", .points = 2}};
+  for (auto& station : job.stations) station.scans = {{.file = "/scans/" + station.name + ".e57", .points = 2}};
   document.job = std::make_shared<const Job>(job);
   ASSERT_TRUE(editor.session.adopt({document, {}, {}, "scanned"}));
   for (const int station : {0, 1}) {
     editor.survey.station = station;
     ASSERT_TRUE(invoke(editor, "export-points"));
-    EXPECT_EQ(editor.dialogs.verb.form.find("in")->text, "/tmp/S" + std::to_string(station + 1) + ".e57");
+    EXPECT_EQ(editor.dialogs.verb.form.find("in")->text, "/scans/S" + std::to_string(station + 1) + ".e57");
     editor.dialogs.verb.open = false;
   }
 }
