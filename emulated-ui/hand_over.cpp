@@ -45,7 +45,7 @@ Result<void> copyLinked(const fs::path& from, const fs::path& to, const Pose& mo
 }
 
 Result<void> convert(const fs::path& from, const fs::path& to, Report& report, Progress& progress) {
-  TRY(convertCloud(from, to, "", report, progress));
+  TRY(convertCloud({from}, to, "", report, progress));
   return {};
 }
 

@@ -159,25 +159,34 @@ Result<CloudExtent> measureCloud(const std::filesystem::path& file, Progress& pr
   return extent;
 }
 
-Result<std::vector<std::filesystem::path>> convertCloud(const std::filesystem::path& in,
+Result<std::vector<std::filesystem::path>> convertCloud(const std::vector<std::filesystem::path>& in,
                                                         const std::filesystem::path& out, const std::string& as,
                                                         Report& report, Progress& progress, const SinkBefore& through) {
-  TRY_ASSIGN(const auto from, readable(in));
+  std::vector<const CloudFormat*> from;
+  for (const auto& file : in) {
+    TRY_ASSIGN(const auto format, readable(file));
+    from.push_back(format);
+  }
   TRY_ASSIGN(const auto to, known(out));
   if (!to->writer) return failure(ErrorKind::usage, std::string(to->name) + " files can only be read", out.string());
   TRY_ASSIGN(const auto writer, writerOf(*to, as));
-  bool one_each = false;
-  if (!to->many_scans) {
-    TRY_ASSIGN(const auto info, from->info(in));
+  bool one_each = !to->many_scans && in.size() > 1;
+  if (!to->many_scans && in.size() == 1) {
+    TRY_ASSIGN(const auto info, from.front()->info(in.front()));
     one_each = info.scans.size() > 1;
   }
   Distributor distributor(writer, out, one_each);
   if (!one_each) TRY(distributor.open(out));
   const std::unique_ptr<PointSink> before = through ? through(distributor) : nullptr;
   PointSink& sink = before ? *before : distributor;
-  TRY_ASSIGN(const auto lost, from->read(in, sink, progress));
+  const auto files = static_cast<double>(in.size());
+  for (std::size_t i = 0; i < in.size(); ++i) {
+    const auto done = static_cast<double>(i);
+    if (in.size() > 1) progress.stage("Convert " + in[i].filename().string(), done / files, (done + 1) / files);
+    TRY_ASSIGN(const auto lost, from[i]->read(in[i], sink, progress));
+    report.append(lost);
+  }
   TRY(sink.close());
-  report.append(lost);
   report.append(distributor.report);
   return distributor.files;
 }

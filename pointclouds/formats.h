@@ -40,11 +40,12 @@ Result<CloudExtent> measureCloud(const std::filesystem::path& file, Progress& pr
 
 // Writers make the file by PartFile, so a full disk or a crash leaves the old one as it was.
 
-// Copies all scans of IN to OUT; OUT's format must be writable. When OUT cannot hold many scans and IN has several,
-// each gets its own file: name-<station>.ext. `as` names a variant of OUT's format, or is empty. `through` may put a
-// sink of its own before the writer's, which passes on what it wants. Returns the files written.
+// Copies all scans of the files IN (one at least), in this order, to OUT; OUT's format must be writable. When OUT
+// cannot hold many scans and there are several, each gets its own file: name-<station>.ext. `as` names a variant of
+// OUT's format, or is empty. `through` may put a sink of its own before the writer's, which passes on what it wants.
+// Returns the files written. Of one file the caller's stage of `progress` advances; of several each is a stage.
 using SinkBefore = std::function<std::unique_ptr<PointSink>(PointSink& writer)>;
-Result<std::vector<std::filesystem::path>> convertCloud(const std::filesystem::path& in,
+Result<std::vector<std::filesystem::path>> convertCloud(const std::vector<std::filesystem::path>& in,
                                                         const std::filesystem::path& out, const std::string& as,
                                                         Report& report, Progress& progress,
                                                         const SinkBefore& through = {});

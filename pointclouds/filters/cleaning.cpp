@@ -205,7 +205,7 @@ Result<Cleaning> cleanCloud(const std::filesystem::path& in, const std::filesyst
   }
   progress.stage("Write " + out.filename().string(), 1 - each, 1);
   const auto through = [&](PointSink& writer) { return std::make_unique<LastSink>(writer, fates, cleaning); };
-  TRY_ASSIGN(auto files, convertCloud(in, out, "", cleaning.report, progress, through));
+  TRY_ASSIGN(auto files, convertCloud({in}, out, "", cleaning.report, progress, through));
   cleaning.files = std::move(files);
   return cleaning;
 }

@@ -141,6 +141,7 @@ const Fields<ConvertOptions>& convertFields() {
        "file to write: .e57, .ptx and .las hold all scans; of .ply, .pcd, .pts, .xyz and .csv each scan gets its own "
        "file",
        {.positional = true, .required = true, .label = "File"}},
+      {"with", &O::with, "more scans or point clouds, whose scans follow those of IN in OUT"},
       {"as",
        &O::as,
        "an E57 of integers of 0.1 mm, or of range and angles; a PCD as a list of points instead of a grid; a LAS of "
@@ -168,6 +169,9 @@ Result<Answered<ConvertAnswer>> runConvert(const Document& document, const Conve
                                            Progress& progress) {
   const fs::path& in = options.in;
   TRY(mustExist(in));
+  for (const auto& file : options.with) TRY(mustExist(file));
+  if (!options.with.empty() && !(options.dataset.empty() && options.to_trajectory.empty()))
+    return failure(ErrorKind::usage, "a labelled set and another trajectory take one file: leave --with out", "--with");
   progress.stage("Convert " + in.filename().string());
   Answered<ConvertAnswer> outcome{document};
   if (!options.dataset.empty()) return convertTo(options, std::move(outcome), progress);
@@ -185,7 +189,9 @@ Result<Answered<ConvertAnswer>> runConvert(const Document& document, const Conve
   }
   std::uint64_t points = 0;
   const auto counted = [&](PointSink& writer) { return std::make_unique<CountingSink>(writer, points); };
-  TRY_ASSIGN(outcome.answer.files, convertCloud(in, options.out, options.as, outcome.report, progress, counted));
+  std::vector<fs::path> all = {in};
+  all.insert(all.end(), options.with.begin(), options.with.end());
+  TRY_ASSIGN(outcome.answer.files, convertCloud(all, options.out, options.as, outcome.report, progress, counted));
   outcome.answer.points = points;
   outcome.answer.bytes = sizeOf(outcome.answer.files);
   const auto nameOf = [&files = outcome.answer.files](std::size_t i) { return fs::path(files[i]).filename().string(); };

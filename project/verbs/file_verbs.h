@@ -52,6 +52,7 @@ Result<Answered<ExportAnswer>> runExport(const Document& document, const ExportO
 
 struct ConvertOptions {
   std::filesystem::path in, out;
+  std::vector<std::filesystem::path> with;               // more files, whose scans follow those of `in`
   std::string as;                                        // variant of the format
   std::string dataset;                                   // name of the set; `out` is its folder
   std::filesystem::path classes;                         // of the set

@@ -59,7 +59,7 @@ class PosedSink final : public PointSink {
 Result<void> copyPosed(const fs::path& from, const fs::path& to, const PoseOf& pose_of, const std::string& by,
                        Report& report, Progress& progress) {
   const auto posed = [&](PointSink& writer) { return std::make_unique<PosedSink>(writer, pose_of, by); };
-  TRY(convertCloud(from, to, "", report, progress, posed));
+  TRY(convertCloud({from}, to, "", report, progress, posed));
   return {};
 }
 

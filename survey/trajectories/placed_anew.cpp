@@ -78,7 +78,7 @@ Result<std::vector<fs::path>> placeAnew(const fs::path& in, const fs::path& out,
   TRY_ASSIGN(const auto before, cloudPoses(was, report, progress));
   TRY_ASSIGN(const auto after, cloudPoses(is, report, progress));
   const auto anew = [&](PointSink& writer) { return std::make_unique<AnewSink>(writer, before, after, is); };
-  return convertCloud(in, out, as, report, progress, anew);
+  return convertCloud({in}, out, as, report, progress, anew);
 }
 
 }  // namespace standpoint

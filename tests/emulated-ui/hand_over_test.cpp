@@ -159,7 +159,7 @@ TEST_F(HandOver, ListsWhatAnotherFormatCannotHold) {
   Progress quiet;
   for (int i = 1; i <= 3; ++i)
     ASSERT_TRUE(
-        convertCloud(setup(i).file, folder_.path() / ("by-hand-" + std::to_string(i) + ".ptx"), "", wanted, quiet));
+        convertCloud({setup(i).file}, folder_.path() / ("by-hand-" + std::to_string(i) + ".ptx"), "", wanted, quiet));
   ASSERT_FALSE(wanted.issues.empty());
   ASSERT_EQ(report_.issues.size(), wanted.issues.size());
   EXPECT_EQ(report_.issues.front().message, wanted.issues.front().message);

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <csignal>
 #include <cstring>
+#include <fstream>
 #include <sys/resource.h>
+#include <utility>
 
 #include "tests/pointclouds/kept_scans.h"
 #include "tests/pointclouds/made_up_scan.h"
@@ -112,8 +114,8 @@ TEST(ConvertCloud, OfE57ToPtxAndBackKeepsPointsAndPoses) {
   writeThree(folder / "a.e57");
   Report report;
   Progress progress;
-  ASSERT_OK(convertCloud(folder / "a.e57", folder / "b.ptx", "", report, progress));
-  ASSERT_OK(convertCloud(folder / "b.ptx", folder / "c.e57", "", report, progress));
+  ASSERT_OK(convertCloud({folder / "a.e57"}, folder / "b.ptx", "", report, progress));
+  ASSERT_OK(convertCloud({folder / "b.ptx"}, folder / "c.e57", "", report, progress));
   EXPECT_EQ(report.losses(), 0u) << testing::said(report);
   EXPECT_THAT(testing::said(report), ::testing::HasSubstr("labels"));
   KeptScans before, after;
@@ -134,7 +136,7 @@ TEST(ConvertCloud, GivesEachStationItsOwnFileWhereAFormatHoldsOne) {
   writeThree(folder / "a.e57");
   Report report;
   Progress progress;
-  const auto files = convertCloud(folder / "a.e57", folder / "out.ply", "", report, progress);
+  const auto files = convertCloud({folder / "a.e57"}, folder / "out.ply", "", report, progress);
   ASSERT_OK(files);
   EXPECT_THAT(*files, ::testing::ElementsAre(folder / "out-A.ply", folder / "out-B_1_2.ply", folder / "out-C.ply"));
   // 24 bytes of coordinates, 4 of intensity, 3 of colour, 8 of labels, 8 of indices for each point.
@@ -150,19 +152,61 @@ TEST(ConvertCloud, GivesEachStationItsOwnFileWhereAFormatHoldsOne) {
   EXPECT_EQ(x, (header.file_from_scanner * Eigen::Vector3d(points.x_m[0], points.y_m[0], points.z_m[0])).x());
 }
 
+TEST(ConvertCloud, PutsTheScansOfSeveralFilesOneAfterTheOther) {
+  const TemporaryFolder folder;
+  writeThree(folder / "a.e57");
+  auto writer = kPtx.writer(folder / "b.ptx");
+  ASSERT_OK(writer);
+  ASSERT_OK(writeScan(**writer, madeUpHeader({10, 12, true, false, "D"})));
+  ASSERT_OK((*writer)->close());
+  Report report;
+  Progress progress;
+  double told = 0;
+  bool falls = false;
+  progress.onChange([&] { falls = falls || progress.fraction() < std::exchange(told, progress.fraction()); });
+  const auto files = convertCloud({folder / "a.e57", folder / "b.ptx"}, folder / "all.e57", "", report, progress);
+  ASSERT_OK(files);
+  EXPECT_THAT(*files, ::testing::ElementsAre(folder / "all.e57"));
+  KeptScans first, second, all;
+  ASSERT_OK(readAll(folder / "a.e57", first));
+  ASSERT_OK(readAll(folder / "b.ptx", second));
+  ASSERT_OK(readAll(folder / "all.e57", all));
+  ASSERT_EQ(all.scans.size(), 4u);
+  EXPECT_EQ(all.scans[2].header.name, "C");
+  EXPECT_EQ(all.scans[2].points.x_m, first.scans[2].points.x_m);
+  EXPECT_EQ(all.scans[3].points.x_m, second.scans[0].points.x_m);
+  EXPECT_EQ(all.scans[3].header.file_from_scanner.translation, second.scans[0].header.file_from_scanner.translation);
+
+  const auto single = convertCloud({folder / "a.e57", folder / "b.ptx"}, folder / "out.xyz", "", report, progress);
+  ASSERT_OK(single);
+  EXPECT_EQ(single->size(), 4u) << "one for each scan";
+}
+
+TEST(ConvertCloud, WritesNothingWhereOneOfSeveralFilesCannotBeRead) {
+  const TemporaryFolder folder;
+  writeThree(folder / "a.e57");
+  std::ofstream(folder / "b.ptx") << "2\n1\n";
+  Report report;
+  Progress progress;
+  const auto files = convertCloud({folder / "a.e57", folder / "b.ptx"}, folder / "all.e57", "", report, progress);
+  ASSERT_FALSE(files.has_value());
+  EXPECT_THAT(describe(files.error()), ::testing::HasSubstr("b.ptx"));
+  EXPECT_EQ(filesIn(folder).size(), 2u);
+}
+
 TEST(ConvertCloud, NamesWhatItCannotDo) {
   const TemporaryFolder folder;
   Report report;
   Progress progress;
-  const auto unknown = convertCloud(folder / "a.e57", folder / "b.xyzzy", "", report, progress);
+  const auto unknown = convertCloud({folder / "a.e57"}, folder / "b.xyzzy", "", report, progress);
   ASSERT_FALSE(unknown.has_value());
   EXPECT_EQ(unknown.error().kind, ErrorKind::usage);
   EXPECT_THAT(unknown.error().message, ::testing::HasSubstr(".ptx"));
-  EXPECT_EQ(convertCloud(folder / "a.e57", folder / "b.laz", "", report, progress).error().kind, ErrorKind::usage);
-  const auto variant = convertCloud(folder / "a.e57", folder / "b.e57", "short", report, progress);
+  EXPECT_EQ(convertCloud({folder / "a.e57"}, folder / "b.laz", "", report, progress).error().kind, ErrorKind::usage);
+  const auto variant = convertCloud({folder / "a.e57"}, folder / "b.e57", "short", report, progress);
   ASSERT_FALSE(variant.has_value());
   EXPECT_THAT(describe(variant.error()), ::testing::HasSubstr("available: scaled, spherical"));
-  EXPECT_EQ(convertCloud(folder / "none.e57", folder / "b.ptx", "", report, progress).error().kind,
+  EXPECT_EQ(convertCloud({folder / "none.e57"}, folder / "b.ptx", "", report, progress).error().kind,
             ErrorKind::file_system);
   EXPECT_TRUE(filesIn(folder).empty());
 }
@@ -173,7 +217,7 @@ TEST(ConvertCloud, CanBeCancelled) {
   Report report;
   Progress progress;
   progress.cancel();
-  const auto files = convertCloud(folder / "a.e57", folder / "b.ptx", "", report, progress);
+  const auto files = convertCloud({folder / "a.e57"}, folder / "b.ptx", "", report, progress);
   ASSERT_FALSE(files.has_value());
   EXPECT_EQ(files.error().kind, ErrorKind::cancelled);
   EXPECT_EQ(filesIn(folder).size(), 1u);

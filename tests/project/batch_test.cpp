@@ -109,7 +109,7 @@ TEST(Batch, WritesIntegersThatConvertWouldWrite) {
     scan("direct.e57", as);
     Report report;
     Progress progress;
-    ASSERT_TRUE(convertCloud(folder.path() / "float.e57", folder.path() / "converted.e57", as, report, progress));
+    ASSERT_TRUE(convertCloud({folder.path() / "float.e57"}, folder.path() / "converted.e57", as, report, progress));
     // The guid tells them apart, so the checksums of its pages do, too.
     const auto direct = measureCloud(folder.path() / "direct.e57", progress);
     const auto converted = measureCloud(folder.path() / "converted.e57", progress);
