@@ -261,15 +261,30 @@ void drawClean(const Model& model, CompareState& state, Actions& actions) {
   actions.openForm(options);
 }
 
+// As long as none is chosen: the first, and the first that is of another station.
+void chooseFirstTwo(const std::vector<InspectedCloud>& clouds, CompareState& state) {
+  if (!state.a.file.empty() || !state.b.file.empty()) return;
+  for (const auto& cloud : clouds) {
+    const auto& first = clouds.front();
+    if (cloud.station == first.station && cloud.underlay == first.underlay) continue;
+    state.a = partOf(clouds, first), state.b = partOf(clouds, cloud);
+    return;
+  }
+}
+
 void drawComparison(const Model& model, PanelStates& states, Actions& actions) {
   auto& state = states.of<CompareState>();
   const auto clouds = inspectedClouds(model.session.document());
-  // Half of what the two letters, the two buttons and the gaps between them leave.
+  chooseFirstTwo(clouds, state);
+  // Half of what the two letters and the gaps leave, and the two buttons where whole names have room beside them.
   const auto& style = ImGui::GetStyle();
-  float taken = ImGui::CalcTextSize("AB").x + 5 * style.ItemSpacing.x;
+  const float letters = ImGui::CalcTextSize("AB").x + 5 * style.ItemSpacing.x;
+  float buttons = 0;
   for (const ui::Label& button : {ui::Label(kCompare), ui::Label(kClean)})
-    taken += ImGui::CalcTextSize(button, nullptr, true).x + 2 * style.FramePadding.x;
-  const float width = std::clamp((ImGui::GetContentRegionAvail().x - taken) / 2, model.px(80), model.px(260));
+    buttons += ImGui::CalcTextSize(button, nullptr, true).x + 2 * style.FramePadding.x;
+  const float room = ImGui::GetContentRegionAvail().x - letters;
+  const bool one_row = (room - buttons) / 2 >= model.px(240);
+  const float width = std::clamp((one_row ? room - buttons : room) / 2, model.px(80), model.px(320));
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("A");
   ImGui::SameLine();
@@ -278,7 +293,7 @@ void drawComparison(const Model& model, PanelStates& states, Actions& actions) {
   ImGui::TextUnformatted("B");
   ImGui::SameLine();
   chooseCloud(width, actions, "###compare-b", clouds, state.b, states, false);
-  ImGui::SameLine();
+  if (one_row) ImGui::SameLine();
   if (ui::primaryButton(kCompare, whyNotCompare(model, state)) &&
       actions.start(CompareOptions{state.a.file, state.b.file, state.a.scan, state.b.scan}, "Compare two clouds")) {
     state.shown_a = state.a, state.shown_b = state.b;
