@@ -29,8 +29,10 @@ struct FileDialogState {
   std::vector<std::string> extensions;
   FileOrder order = FileOrder::name;
   bool descending = false;
+  std::string sought;  // what was typed of a name of something that is there: only rows with it are listed
   FileListing listing;
-  bool stale = true;  // the folder must be read again
+  std::vector<FileRow> listed;  // of it
+  bool stale = true;            // the folder must be read again
   bool confirm_overwrite = false;
   bool focus_name = false;  // the name takes the keyboard in the next frame
   std::function<void(const std::filesystem::path&)> done;

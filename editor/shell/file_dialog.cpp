@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <ctime>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include <imgui_stdlib.h>
 
 #include "editor/inspect/inspected_clouds.h"
+#include "editor/labels/alphabetical.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
@@ -37,6 +39,7 @@ void enter(FileDialogState& state, const std::filesystem::path& folder) {
   state.folder_text = folder.string();
   state.stale = true;
   state.confirm_overwrite = false;
+  state.sought.clear();
   if (state.purpose == Purpose::openFile) state.name.clear();
 }
 
@@ -71,9 +74,10 @@ std::string whyNotAccept(const FileDialogState& state) {
   return {};
 }
 
-// Why the name that was entered cannot be taken; an empty one only waits.
+// Why the name that was entered cannot be taken; an empty one, and a part of names that are listed, only wait.
 std::string typedProblem(const FileDialogState& state) {
-  return state.name.empty() ? std::string() : whyNotAccept(state);
+  const bool waits = state.name.empty() || (!state.sought.empty() && !state.listed.empty());
+  return waits ? std::string() : whyNotAccept(state);
 }
 
 bool wouldOverwrite(const FileDialogState& state) {
@@ -112,6 +116,27 @@ void drawPathLine(FileDialogState& state) {
       enter(state, typed);
     }
   }
+}
+
+// Of the folder's rows those that are sought.
+void listRows(FileDialogState& state) {
+  const auto sought = forSearch(state.sought);
+  state.listed.clear();
+  std::copy_if(state.listing.rows.begin(), state.listing.rows.end(), std::back_inserter(state.listed),
+               [&](const FileRow& row) { return forSearch(row.name).find(sought) != std::string::npos; });
+}
+
+// The row that is left of those, by Enter: a file is taken, a folder entered.
+void takeOnly(Editor& editor) {
+  auto& state = editor.dialogs.file;
+  const FileRow row = state.listed.front();
+  if (row.folder && !(row.project && state.purpose == Purpose::openFolder)) {
+    enter(state, state.folder / row.name);
+    state.name.clear();
+    return;
+  }
+  state.name = row.name;
+  accept(editor);
 }
 
 std::string dateText(std::filesystem::file_time_type time) {
@@ -166,15 +191,16 @@ void drawRows(Editor& editor, float height) {
     sort->SpecsDirty = false;
   }
   ImGuiListClipper clipper;
-  clipper.Begin(static_cast<int>(state.listing.rows.size()));
+  clipper.Begin(static_cast<int>(state.listed.size()));
   while (clipper.Step())
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd;
          ++i)  // every row: the clipper measures what it announced
-      drawRow(editor, FileRow(state.listing.rows[static_cast<std::size_t>(i)]));
-  if (state.listing.rows.empty() && state.listing.problem.empty()) {
+      drawRow(editor, FileRow(state.listed[static_cast<std::size_t>(i)]));
+  if (state.listed.empty() && state.listing.problem.empty()) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ui::dimText("No files of this kind in this folder");
+    ui::dimText(state.sought.empty() ? tr("No files of this kind in this folder")
+                                     : trf("No file in this folder has '{}' in its name", state.sought));
   }
   if (!state.listing.problem.empty()) {
     ImGui::TableNextRow();
@@ -195,13 +221,18 @@ void drawFooter(Editor& editor) {
   const bool untouched = state.name == state.offered;
   const bool entered = ImGui::InputText("###name", &state.name,
                                         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
-  if (ImGui::IsItemEdited()) state.confirm_overwrite = false;
+  if (ImGui::IsItemEdited()) {
+    state.confirm_overwrite = false;
+    state.sought = forWriting(state) || state.name.find('/') != std::string::npos ? "" : state.name;
+    listRows(state);
+  }
   // The field has the keyboard from the start: Esc leaves it, and the dialog, too, as long as nothing was typed.
   const bool left = untouched && ImGui::IsItemDeactivated() && keyboard::pressed(kKeyEscape);
   ImGui::SameLine();
   const std::string label = state.confirm_overwrite ? "Replace" : state.accept;
   const auto why = whyNotAccept(state);
   if (ui::primaryButton((label + "###accept").c_str(), why, {button, 0}) || (entered && why.empty())) accept(editor);
+  if (entered && state.open && state.listed.size() == 1 && !state.sought.empty()) takeOnly(editor);
   if (entered && state.open) state.focus_name = true;  // refused, or asked once more
   ImGui::SameLine();
   const bool typed = forWriting(state) && state.name != state.offered;
@@ -333,6 +364,12 @@ std::string whyNoPointsExport(const Editor& editor) {
   return editor.session.whyNot("convert");
 }
 
+nlohmann::json pointsOf(const std::vector<std::filesystem::path>& files) {
+  nlohmann::json options = {{"in", files.front().string()}};
+  for (std::size_t i = 1; i < files.size(); ++i) options["with"].push_back(files[i].string());
+  return options;
+}
+
 void askForPointsExport(Editor& editor, const std::filesystem::path& cloud) {
   const auto clouds = inspectedClouds(editor.session.document());
   if (clouds.empty()) return;
@@ -342,14 +379,20 @@ void askForPointsExport(Editor& editor, const std::filesystem::path& cloud) {
   });
   if (wanted.empty() && of_station != clouds.end()) wanted = of_station->file;
   if (wanted.empty() && editor.cloud()) wanted = editor.cloud()->file;
-  const auto* chosen = cloudOf(clouds, wanted);
-  const auto file = chosen != nullptr ? chosen->file : clouds.front().file;
+  auto files = newestOfStations(clouds);
+  if (cloudOf(clouds, wanted) != nullptr)
+    files = {wanted};
+  else if (files.empty())
+    files = {clouds.front().file};
   openVerbForm(editor, "convert");
-  for (const char* other : {"as", "dataset", "classes"}) editor.dialogs.verb.form.find(other)->shown = false;
+  for (const char* other : {"with", "as", "dataset", "classes"}) editor.dialogs.verb.form.find(other)->shown = false;
   const auto& job = editor.session.document().job;
   if (!job || job->trajectories.empty())  // nothing was placed by one
     for (const char* moved : {"from-trajectory", "to-trajectory"}) editor.dialogs.verb.form.find(moved)->shown = false;
-  fillExport(editor, {{"in", file.string()}, {"out", freeFileNamed(editor, file.stem().string() + " points", ".e57")}});
+  const auto name = files.size() > 1 ? editor.session.name() : files.front().stem().string();
+  auto options = pointsOf(files);
+  options["out"] = freeFileNamed(editor, name + " points", ".e57");
+  fillExport(editor, options);
 }
 
 void askWhereToSave(Editor& editor) {
@@ -367,6 +410,7 @@ void drawFileDialog(Editor& editor) {
   if (!ui::beginModal(editor, title.c_str(), state.open, 760, 520)) return;
   if (state.stale) {
     state.listing = listFolder(state.folder, state.extensions, state.order, state.descending);
+    listRows(state);
     state.stale = false;
   }
   drawPathLine(state);

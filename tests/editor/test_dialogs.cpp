@@ -89,6 +89,41 @@ TEST_F(Dialogs, OpensAModelByATypedPathWithoutAClickAndSaysWhereAFolderHasNone) 
   EXPECT_EQ(chosen, folder / "house.ifc");
 }
 
+TEST_F(Dialogs, ListsOnlyFilesWithWhatIsTypedAndEnterOpensTheOneThatIsLeft) {
+  const TemporaryFolder folder;
+  for (const char* file : {"Küche.ifc", "Bad.ifc", "Kueche.ifc"}) folder.write(file, "");
+  std::filesystem::create_directory(folder / "models");
+  editor.settings.last_folder = folder.path().string();
+  std::filesystem::path chosen;
+  askForFile(editor, FileDialogState::Purpose::openFile, "Import", "Open", {".ifc"}, "",
+             [&](const auto& path) { chosen = path; });
+  gui.frames(3);
+  const auto& state = editor.dialogs.file;
+  EXPECT_EQ(state.listed.size(), 4U);
+  gui.type("K");
+  gui.frames(2);
+  EXPECT_EQ(state.listed.size(), 2U) << "both kitchens";
+  EXPECT_FALSE(gui.says("File not found"));
+  gui.key(kKeyEnter);
+  EXPECT_TRUE(state.open) << "there are two";
+  gui.key('A', true);
+  gui.type("nothing");
+  gui.frames(2);
+  EXPECT_TRUE(gui.says("No file in this folder has 'nothing' in its name"));
+  gui.key('A', true);
+  gui.type("mod");
+  gui.key(kKeyEnter);
+  gui.frames(3);
+  EXPECT_EQ(state.folder, folder / "models");
+  EXPECT_TRUE(gui.says("No files of this kind in this folder")) << "what was typed is gone";
+  ASSERT_TRUE(gui.click("###up"));
+  ASSERT_TRUE(gui.click("###name"));
+  gui.type("kuche");
+  gui.key(kKeyEnter);
+  EXPECT_EQ(chosen, folder / "Küche.ifc");
+  EXPECT_FALSE(state.open);
+}
+
 TEST_F(Dialogs, AsksBeforeUnsavedChangesAreLost) {
   open();
   gui.key('N', true);
