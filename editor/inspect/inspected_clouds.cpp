@@ -2,6 +2,7 @@
 #include "editor/inspect/inspected_clouds.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace standpoint {
 
@@ -25,6 +26,16 @@ std::vector<InspectedCloud> inspectedClouds(const Document& document) {
     clouds.push_back({underlay.name, underlay.file, pose, -1, i});
   }
   return clouds;
+}
+
+std::vector<std::filesystem::path> newestOfStations(const std::vector<InspectedCloud>& clouds) {
+  std::vector<std::filesystem::path> files;
+  int station = -1;
+  for (const auto& cloud : clouds)
+    if (cloud.station >= 0 && std::exchange(station, cloud.station) != cloud.station &&
+        std::find(files.begin(), files.end(), cloud.file) == files.end())
+      files.push_back(cloud.file);
+  return files;
 }
 
 const InspectedCloud* cloudOf(const std::vector<InspectedCloud>& clouds, const std::filesystem::path& file) {

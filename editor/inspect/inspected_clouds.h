@@ -21,6 +21,8 @@ struct InspectedCloud {
 
 // The stations' scans, the newest of each first, then the underlays.
 std::vector<InspectedCloud> inspectedClouds(const Document& document);
+// The file of each station's newest scan, each file once.
+std::vector<std::filesystem::path> newestOfStations(const std::vector<InspectedCloud>& clouds);
 // Nothing where `file` is none of them.
 const InspectedCloud* cloudOf(const std::vector<InspectedCloud>& clouds, const std::filesystem::path& file);
 

@@ -28,11 +28,11 @@ std::span<const FileKind> pointKinds() {
       {"E57", ".e57", "With pose, intensity, colours and labels"},
       {"LAS", ".las", "With intensity, colours and labels"},
       {"PTX, text", ".ptx", "As a whole grid with its pose"},
-      {"PLY, binary", ".ply", "With labels as scalars"},
-      {"PCD, binary", ".pcd", "In the frame of its scanner"},
-      {"PTS, text", ".pts", "With the number of points first"},
-      {"XYZ, text", ".xyz", "A line for each point"},
-      {"CSV, text", ".csv", "With the names of the columns first"},
+      {"PLY, binary", ".ply", "One file per scan, with labels as scalars"},
+      {"PCD, binary", ".pcd", "One file per scan, in the frame of its scanner"},
+      {"PTS, text", ".pts", "One file per scan, with the number of points first"},
+      {"XYZ, text", ".xyz", "One file per scan, a line for each point"},
+      {"CSV, text", ".csv", "One file per scan, with the names of the columns first"},
   };
   return kKinds;
 }

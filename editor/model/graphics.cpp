@@ -192,9 +192,9 @@ std::string GraphicsPace::aboutMeasured(GraphicsChoice choice) const {
 
 std::string GraphicsPace::about(GraphicsChoice choice) const {
   if (choice == GraphicsChoice::automatic && choice_ == choice)
-    return trf("The highest level that keeps 25 frames per second, now {}", tr(graphicsName(level())));
+    return trf("The highest level that keeps 25 frames per second in motion, now {}", tr(graphicsName(level())));
   if (choice == GraphicsChoice::automatic)
-    return trf("The highest level that keeps 25 frames per second, starting at {}", tr(graphicsName(most())));
+    return trf("The highest level that keeps 25 frames per second in motion, starting at {}", tr(graphicsName(most())));
   const auto level = levelOf(choice);
   const GraphicsMeans means = means_.value_or(GraphicsMeans());
   std::string has, lacks;
@@ -217,7 +217,7 @@ std::string GraphicsPace::about(GraphicsChoice choice) const {
     list(means.no_shading, means.by_processor ? "ambient occlusion at rest" : "ambient occlusion");
   if (!lacks.empty()) has += trf("; without {}", lacks);
   if (const auto& cost_s = cost_s_[index(level)])
-    has += trf("; about {:.0f} ms per frame on this computer", *cost_s * 1000);
+    has += trf("; about {:.0f} ms for a full frame on this computer", *cost_s * 1000);
   return has;
 }
 

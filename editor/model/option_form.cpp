@@ -150,12 +150,12 @@ OptionField* OptionForm::find(const char* name) {
   return found == fields_.end() ? nullptr : &*found;
 }
 
-bool OptionForm::offers(const OptionField& field) const {
-  return field.shown && std::none_of(fields_.begin(), fields_.end(), [&](const OptionField& written) {
-           const auto* kind = kindOf(written.kinds, written.text);
-           return kind != nullptr && std::find(kind->unknown_options.begin(), kind->unknown_options.end(),
-                                               field.parameter->name) != kind->unknown_options.end();
-         });
+bool OptionForm::hasPlace(const OptionField& field) const {
+  return std::none_of(fields_.begin(), fields_.end(), [&](const OptionField& written) {
+    const auto* kind = kindOf(written.kinds, written.text);
+    return kind != nullptr && std::find(kind->unknown_options.begin(), kind->unknown_options.end(),
+                                        field.parameter->name) != kind->unknown_options.end();
+  });
 }
 
 void OptionForm::fill(const json& options) {
@@ -169,7 +169,7 @@ void OptionForm::fill(const json& options) {
 json OptionForm::options() const {
   json result = json::object();
   for (const auto& field : fields_) {
-    if (!field.given || !offers(field)) continue;
+    if (!field.given || !hasPlace(field)) continue;
     if (isText(field.parameter->kind) && field.text.empty()) continue;
     if (field.parameter->kind == ParameterKind::flag && !field.flag) continue;
     result[field.parameter->name] = valueOf(field);

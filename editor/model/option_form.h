@@ -17,9 +17,9 @@ namespace standpoint {
 struct OptionField {
   const Parameter* parameter = nullptr;
   bool given = false;  // an optional one that is not given is not sent
-  bool shown = true;
-  std::string text;   // text, path, choice; list and pairs: one item per line
-  double number = 0;  // number, integer
+  bool shown = true;   // one that is not keeps what it was filled with
+  std::string text;    // text, path, choice; list and pairs: one item per line
+  double number = 0;   // number, integer
   bool flag = false;
   std::array<double, 3> triple = {0, 0, 0};
   std::span<const FileKind> kinds = {};  // of a file that is written; none: its ending is not chosen from a list
@@ -32,14 +32,16 @@ class OptionForm {
 
   std::vector<OptionField>& fields() { return fields_; }
   OptionField* find(const char* name);
-  // It is shown, and the format of the file that is written has a place for it. What is not offered is not sent.
-  bool offers(const OptionField& field) const;
+  // It is shown, and the format of the file that is written has a place for it. What has no place is not sent.
+  bool offers(const OptionField& field) const { return field.shown && hasPlace(field); }
   void fill(const nlohmann::json& options);  // sets what it names, leaves the rest
   nlohmann::json options() const;
   // "" when it can be run, else the first thing that is missing or wrong.
   std::string problem() const;
 
  private:
+  bool hasPlace(const OptionField& field) const;
+
   std::vector<OptionField> fields_;
 };
 

@@ -68,19 +68,8 @@ void drawCloud(const Model& model, Actions& actions, const InspectedCloud& cloud
     actions.locate(cloud.file);
 }
 
-// The newest scan of each station.
-Files newestOf(const std::vector<InspectedCloud>& clouds) {
-  Files files;
-  int station = -1;
-  for (const auto& cloud : clouds)
-    if (cloud.station >= 0 && std::exchange(station, cloud.station) != cloud.station &&
-        std::find(files.begin(), files.end(), cloud.file) == files.end())
-      files.push_back(cloud.file);
-  return files;
-}
-
 void drawTogether(const Model& model, Actions& actions, const std::vector<InspectedCloud>& clouds) {
-  const auto files = newestOf(clouds);
+  const auto files = newestOfStations(clouds);
   if (files.size() < 2) return;
   std::error_code ignored;
   std::string gone;

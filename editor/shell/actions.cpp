@@ -560,10 +560,12 @@ void actionButton(Editor& editor, const char* id, const char* text, float width)
   const std::string keys = shortcutText(action.shortcut);
   const std::string tip = tr(action.title) + (keys.empty() ? "" : "  (" + keys + ")");
   const float wide = width < 0 ? ImGui::GetContentRegionAvail().x : width;
-  const bool ends = action.icon_on != nullptr && action.on(editor);
-  const char* const icon = ends ? action.icon_on : action.icon;
+  const bool on = action.on != nullptr && action.on(editor);
+  const char* const icon = on && action.icon_on != nullptr ? action.icon_on : action.icon;
+  ImGui::PushStyleColor(ImGuiCol_Button, on ? ui::kLit : ImGui::GetStyleColorVec4(ImGuiCol_Button));
   if (ui::button(ui::fittingLabel(icon, text, id, wide).c_str(), whyNot(action, editor), {width, 0}, tip.c_str()))
     action.run(editor);
+  ImGui::PopStyleColor();
 }
 
 void chooseLanguage(Editor& editor, const char* code) {

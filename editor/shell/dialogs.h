@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "editor/model/dialog_states.h"
 
@@ -16,8 +20,11 @@ void askForProject(Editor& editor);
 void askForModel(Editor& editor);
 void askForChangedModel(Editor& editor);
 void askForExport(Editor& editor);
-// Of a scan or underlay of the project; of the one that is shown, else of the newest scan, where none is said.
+// Of a scan or underlay of the project. Where none is said: of the chosen station's or the one that is shown, else of
+// the newest scans of all stations.
 void askForPointsExport(Editor& editor, const std::filesystem::path& cloud = {});
+// The options of `convert` that name these files, one at least.
+nlohmann::json pointsOf(const std::vector<std::filesystem::path>& files);
 std::string whyNoPointsExport(const Editor& editor);
 void askWhereToSave(Editor& editor);
 // A file that is missing, as filesOf() of the document has it, or a missing part of a project that could not be opened:

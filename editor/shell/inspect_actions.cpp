@@ -30,6 +30,11 @@ std::string whyWallNot(const Editor& e) {
 }
 
 template <MeasurementKind kind>
+bool measures(const Editor& e) {
+  return e.view.tool == Tool::measure && e.view.measuring.kind == kind;
+}
+
+template <MeasurementKind kind>
 void measureKind(Editor& e) {
   e.view.tool = Tool::measure;
   e.view.measuring = {kind, {}, {}};
@@ -97,31 +102,41 @@ void turnClip(Editor& e) {
 }
 
 const std::array kInspectActions = {
-    Action{"measure", "Measure distance", ICON_MEASURE, {'M'}, measureKind<MeasurementKind::distance>, whyMeasureNot},
+    Action{"measure",
+           "Measure distance",
+           ICON_MEASURE,
+           {'M'},
+           measureKind<MeasurementKind::distance>,
+           whyMeasureNot,
+           measures<MeasurementKind::distance>},
     Action{"measure-height",
            "Measure height difference",
            ICON_MEASURE,
            {'M', false, true},
            measureKind<MeasurementKind::height>,
-           whyMeasureNot},
+           whyMeasureNot,
+           measures<MeasurementKind::height>},
     Action{"measure-angle",
            "Measure angle at the second of three points",
            ICON_MEASURE,
            {'M', true},
            measureKind<MeasurementKind::angle>,
-           whyMeasureNot},
+           whyMeasureNot,
+           measures<MeasurementKind::angle>},
     Action{"measure-area",
            "Measure area of a polygon",
            ICON_MEASURE,
            {'M', true, true},
            measureKind<MeasurementKind::area>,
-           whyMeasureNot},
+           whyMeasureNot,
+           measures<MeasurementKind::area>},
     Action{"measure-plane",
            "Measure plane through points",
            ICON_MEASURE,
            {'M', false, false, true},
            measureKind<MeasurementKind::plane>,
-           whyMeasureNot},
+           whyMeasureNot,
+           measures<MeasurementKind::plane>},
     Action{"measurements",
            "Measurements in the view",
            "",
@@ -143,7 +158,13 @@ const std::array kInspectActions = {
            [](Editor& e) { e.view.place_points = !e.view.place_points; },
            [](const Editor& e) { return e.view.worst_place ? std::string() : "Go to a worst place first"; },
            [](const Editor& e) { return e.view.place_points; }},
-    Action{"pick-wall", "Measure a wall: plane, noise, roughness", ICON_CROSSHAIRS, {'N'}, pickWall, whyWallNot},
+    Action{"pick-wall",
+           "Measure a wall: plane, noise, roughness",
+           ICON_CROSSHAIRS,
+           {'N'},
+           pickWall,
+           whyWallNot,
+           [](const Editor& e) { return e.view.tool == Tool::pickWall; }},
     Action{"points-by-natural",
            "Colour points by RGB and intensity",
            ICON_PAINT,

@@ -159,8 +159,8 @@ bool movesByKey(const Editor& editor, int key) {
 
 void movingChips(Editor& editor) {
   if (!editor.walk.active()) return;
-  ImGui::NewLine();
   const auto field = [&](const char* id, double& value, const NumberFormat& format, const char* tip) {
+    beside(editor, editor.px(104));
     ImGui::SetNextItemWidth(editor.px(104));
     return ui::numberField(id, value, format, tip);
   };
@@ -169,7 +169,6 @@ void movingChips(Editor& editor) {
   double eyes = editor.walk.uprightEyes_m(), angle = editor.walk.viewAngle_deg();
   if (field("###eye-height", eyes, {.kind = kEyes, .decimals = 2, .drag = 0.01}, "Eye height, standing upright"))
     editor.walk.setUprightEyes(eyes);
-  ImGui::SameLine();
   if (field("###view-angle", angle, {.kind = kAngle, .decimals = 0, .drag = 0.5}, "Vertical angle of view"))
     editor.walk.setViewAngle(angle, editor.view.camera);
   walkingChips(editor);

@@ -62,6 +62,8 @@ void browse(Editor& editor, const OptionField& field) {
                  const bool bare = kind != nullptr && !chosen.has_extension();
                  again->text = bare ? chosen.string() + kind->extension : chosen.string();
                  again->given = true;
+                 auto* const with = name == "in" ? editor.dialogs.verb.form.find("with") : nullptr;
+                 if (with != nullptr) with->given = false;
                }
                editor.dialogs.verb.open = true;
              });
@@ -107,19 +109,28 @@ std::vector<CloudFile> cloudFilesOf(const Document& document) {
   return files;
 }
 
-// One of the project's scans and underlays, or another file.
-void drawCloudPath(Editor& editor, OptionField& field) {
+// One of the project's scans and underlays, another file, or the newest scans of all stations where the verb takes more
+// than one.
+void drawCloudPath(Editor& editor, OptionForm& form, OptionField& field) {
   const auto files = cloudFilesOf(editor.session.document());
   if (files.empty()) return drawPath(editor, field);
+  auto* const with = form.find("with");
+  const bool all = with != nullptr && with->given;
   std::string shown = std::filesystem::path(field.text).filename().string();
   for (const auto& f : files)
     if (f.file == field.text) shown = f.names + "   " + shown;
+  const auto newest = newestOfStations(inspectedClouds(editor.session.document()));
+  const auto every = trn("All stations: {} scan", "All stations: {} scans", newest.size());
   ImGui::SetNextItemWidth(-(ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x));
-  if (ui::beginDropDown("###value", shown.c_str())) {
+  if (ui::beginDropDown("###value", all ? every.c_str() : shown.c_str())) {
+    if (with != nullptr && newest.size() > 1 && ui::choice((every + "###all").c_str(), all))
+      form.fill(pointsOf(newest));
     for (std::size_t i = 0; i < files.size(); ++i)
       if (ui::choice(fmt::format("{}   {}###{}", files[i].names, files[i].file.filename().string(), i).c_str(),
-                     files[i].file == field.text))
+                     !all && files[i].file == field.text)) {
         field.text = files[i].file.string();
+        if (with != nullptr) with->given = false;  // those alone
+      }
     ui::endDropDown();
   }
   ui::tooltip(field.text);
@@ -134,7 +145,7 @@ std::string termsOf(const Parameter& p) {
   return option.empty() ? tr(p.term) : tr(p.term) + "\n" + option;
 }
 
-void drawValue(Editor& editor, OptionField& field) {
+void drawValue(Editor& editor, OptionForm& form, OptionField& field) {
   switch (field.parameter->kind) {
     case ParameterKind::text: ImGui::InputText("###value", &field.text); break;
     case ParameterKind::number:
@@ -142,7 +153,7 @@ void drawValue(Editor& editor, OptionField& field) {
     case ParameterKind::flag: ui::checkbox("###value", &field.flag); break;
     case ParameterKind::choice: drawChoice(field); break;
     case ParameterKind::path:
-      std::strcmp(field.parameter->name, "in") == 0 ? drawCloudPath(editor, field) : drawPath(editor, field);
+      std::strcmp(field.parameter->name, "in") == 0 ? drawCloudPath(editor, form, field) : drawPath(editor, field);
       break;
     case ParameterKind::triple:
       for (std::size_t i = 0; i < field.triple.size(); ++i) {
@@ -179,7 +190,7 @@ void drawOptionForm(Editor& editor, OptionForm& form) {
     }
     if (p.kind == ParameterKind::flag) field.given = true;
     ImGui::BeginDisabled(!field.given);
-    drawValue(editor, field);
+    drawValue(editor, form, field);
     ImGui::EndDisabled();
     if (editor.fonts.small != nullptr) ImGui::PushFont(editor.fonts.small);
     const auto* kind = kindOf(field.kinds, field.text);

@@ -176,6 +176,17 @@ void toggle(Editor& editor, const char* icon, const char* id, bool lit) {
   ImGui::SameLine(0, editor.px(2));
 }
 
+// They stay together.
+void drawToggles(Editor& editor) {
+  beside(editor, togglesWidth(editor));
+  drawPlate(editor, togglesWidth(editor));
+  toggle(editor, ICON_CUBE, "edges", editor.view.edges);
+  toggle(editor, ICON_GRID, "grid", editor.view.grid);
+  toggle(editor, ICON_WALK, "walkable", editor.view.walkable);
+  toggle(editor, ICON_CUBES, "shapes", editor.view.shapes);
+  toggle(editor, ICON_EYE, "show-all", false);
+}
+
 // Said among the chips.
 void textChip(const Editor& editor, const std::string& text) {
   const ImVec2 at = ImGui::GetCursorScreenPos(), pad = ImGui::GetStyle().FramePadding;
@@ -471,16 +482,11 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
     wavelengthChip(editor);
     sideChip(editor);
   }
-  cutChip(editor);
+  const bool on_foot = editor.walk.active();  // the building shall be in sight then, not what is lit over it
+  if (!on_foot || editor.visibility.cut_height_m) cutChip(editor);
   cloudChip(editor);
   locateChip(editor);
-  beside(editor, togglesWidth(editor));  // they stay together
-  drawPlate(editor, togglesWidth(editor));
-  toggle(editor, ICON_CUBE, "edges", editor.view.edges);
-  toggle(editor, ICON_GRID, "grid", editor.view.grid);
-  toggle(editor, ICON_WALK, "walkable", editor.view.walkable);
-  toggle(editor, ICON_CUBES, "shapes", editor.view.shapes);
-  toggle(editor, ICON_EYE, "show-all", false);
+  if (!on_foot) drawToggles(editor);
   if (!points) {
     expectedChips(editor);
     coverageChips(editor);

@@ -227,7 +227,7 @@ bool wideButton(const char* id, const Text& text, const std::string& why, const 
 }
 
 bool iconButton(const char* label, const char* tip, const std::string& why, bool lit) {
-  ImGui::PushStyleColor(ImGuiCol_Button, lit ? ImVec4(0.25F, 0.56F, 0.97F, 0.30F) : ImVec4(0, 0, 0, 0));
+  ImGui::PushStyleColor(ImGuiCol_Button, lit ? kLit : ImVec4(0, 0, 0, 0));
   ImGui::BeginDisabled(!why.empty());
   const bool pressed = ImGui::Button(Label(label));
   ImGui::EndDisabled();

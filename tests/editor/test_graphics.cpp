@@ -60,7 +60,7 @@ TEST(GraphicsPace, SaysOfNoLevelThatItCostsLessThanALowerOne) {
   pace.measured(GraphicsLevel::low, 0.020);
   pace.measured(GraphicsLevel::medium, 0.041);
   pace.measured(GraphicsLevel::high, 0.038);
-  EXPECT_TRUE(pace.about(GraphicsChoice::high).ends_with("about 41 ms per frame on this computer"))
+  EXPECT_TRUE(pace.about(GraphicsChoice::high).ends_with("about 41 ms for a full frame on this computer"))
       << pace.about(GraphicsChoice::high);
 }
 
@@ -189,15 +189,17 @@ TEST(GraphicsPace, BeginsAnewWithAnotherModel) {
 
 TEST(GraphicsPace, SaysWhatEachLevelHasAndCosts) {
   auto pace = paceOf(true);
-  EXPECT_EQ(pace.about(GraphicsChoice::automatic), "The highest level that keeps 25 frames per second, now Medium");
+  EXPECT_EQ(pace.about(GraphicsChoice::automatic),
+            "The highest level that keeps 25 frames per second in motion, now Medium");
   EXPECT_EQ(pace.about(GraphicsChoice::low),
             "Anti-aliasing 4× at rest, edges and grid at rest, fewer pixels in motion below 60 frames per second");
   pace.choose(GraphicsChoice::low);
   EXPECT_EQ(pace.about(GraphicsChoice::automatic),
-            "The highest level that keeps 25 frames per second, starting at Medium");
+            "The highest level that keeps 25 frames per second in motion, starting at Medium");
   pace.measured(GraphicsLevel::medium, 0.0123);
   EXPECT_EQ(pace.about(GraphicsChoice::medium),
-            "Anti-aliasing 4× at rest, by contrast in motion, sky and horizon; about 12 ms per frame on this computer");
+            "Anti-aliasing 4× at rest, by contrast in motion, sky and horizon; about 12 ms for a full frame on this "
+            "computer");
   EXPECT_EQ(pace.about(GraphicsChoice::high),
             "Anti-aliasing 4× at rest, by contrast in motion, sky and horizon, soft shadow on the ground, ambient "
             "occlusion at rest");

@@ -296,8 +296,40 @@ TEST_F(Inspect, ThePointsOfTheChosenStationAreExported) {
     editor.survey.station = station;
     ASSERT_TRUE(invoke(editor, "export-points"));
     EXPECT_EQ(editor.dialogs.verb.form.find("in")->text, "/scans/S" + std::to_string(station + 1) + ".e57");
+    EXPECT_FALSE(editor.dialogs.verb.form.options().contains("with"));
     editor.dialogs.verb.open = false;
   }
+}
+
+TEST_F(Inspect, ThePointsOfAllStationsAreExportedIntoOneFile) {
+  Document document = editor.session.document();
+  Job job = *document.job;
+  for (auto& station : job.stations)
+    station.scans = {{.file = "/scans/old-" + station.name + ".e57"}, {.file = "/scans/" + station.name + ".e57"}};
+  document.job = std::make_shared<const Job>(job);
+  ASSERT_TRUE(editor.session.adopt({document, {}, {}, "scanned"}));
+  editor.survey.station = 0;
+  ASSERT_TRUE(invoke(editor, "export-points"));
+  gui.frames(3);
+  const auto& form = editor.dialogs.verb.form;
+  const auto chooseOf = [&](const char* entry) {
+    ASSERT_TRUE(gui.click("###value"));
+    gui.frames(2);
+    ASSERT_TRUE(gui.click(entry));
+    gui.frames(2);
+  };
+  chooseOf("###all");
+  EXPECT_EQ(form.options()["in"], "/scans/S1.e57");
+  EXPECT_EQ(form.options()["with"], nlohmann::json({"/scans/S2.e57"}));
+  EXPECT_EQ(gui.find("###given"), nullptr) << "the files are not shown one by one";
+  chooseOf("###1");
+  EXPECT_EQ(form.options()["in"], "/scans/old-S1.e57");
+  EXPECT_FALSE(form.options().contains("with"));
+  editor.dialogs.verb.open = false;
+
+  editor.survey.station = -1;
+  ASSERT_TRUE(invoke(editor, "export-points"));
+  EXPECT_EQ(editor.dialogs.verb.form.options()["with"], nlohmann::json({"/scans/S2.e57"})) << "none is chosen";
 }
 
 TEST_F(Inspect, ScansAreShownTogetherAndWhereRegistrationBelievesThemToBe) {
