@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "core/environment.h"
 #include "editor/desktop/file_list.h"
 #include "editor/desktop/interface_scale.h"
 #include "editor/desktop/user_folders.h"
@@ -336,6 +337,13 @@ void chooseExport(Editor& editor) {
   ImGui::SameLine(0, editor.px(16));
   choice("Points of a scan###export-points", points, whyNoPointsExport(editor),
          [](Editor& e) { askForPointsExport(e); });
+  const auto& document = editor.session.document();
+  if (!points && document.simplified)
+    ui::dimText(trf("The simplified model: {} triangles",
+                    groupedDigits(sceneTriangleCount(*document.simplified->environment))));
+  else if (!points && document.imported)
+    ui::dimText(
+        trf("The model as it was imported: {} triangles", groupedDigits(sceneTriangleCount(*document.imported))));
   ui::gap(editor);
 }
 

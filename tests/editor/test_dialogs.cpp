@@ -154,6 +154,7 @@ TEST_F(Dialogs, NamesWhatTheExportWritesPlainlyAndSaysWhyThereAreNoPoints) {
     return std::any_of(itemProbe().texts.begin(), itemProbe().texts.end(),
                        [&](const auto& t) { return t.find(text) != std::string::npos; });
   };
+  EXPECT_TRUE(drawn("The model as it was imported: "));
   EXPECT_TRUE(drawn("Simpler versions"));
   EXPECT_TRUE(drawn("Collision shapes"));
   EXPECT_FALSE(drawn("Assigned materials")) << "this format has them always";
