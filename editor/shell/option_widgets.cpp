@@ -120,7 +120,7 @@ void drawCloudPath(Editor& editor, OptionForm& form, OptionField& field) {
   for (const auto& f : files)
     if (f.file == field.text) shown = f.names + "   " + shown;
   const auto newest = newestOfStations(inspectedClouds(editor.session.document()));
-  const auto every = trn("All stations: {} scan", "All stations: {} scans", newest.size());
+  const auto every = trn("All stations: {} scan", "All stations: {} scans", newest.size(), newest.size());
   ImGui::SetNextItemWidth(-(ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x));
   if (ui::beginDropDown("###value", all ? every.c_str() : shown.c_str())) {
     if (with != nullptr && newest.size() > 1 && ui::choice((every + "###all").c_str(), all))

@@ -57,7 +57,7 @@ bool radioButton(const char* label, bool chosen);
 // A menu's entry with its icon, or the room for one, before the text; `label` may have an id.
 bool menuItem(const char* icon, const std::string& label, const char* keys, const std::string& why);
 bool beginMenu(const char* icon, const char* label, bool enabled = true);
-inline constexpr ImVec4 kLit(0.25F, 0.56F, 0.97F, 0.30F);  // of a button whose switch or tool is on
+inline const ImVec4 kLit(0.25F, 0.56F, 0.97F, 0.30F);  // of a button whose switch or tool is on
 // An icon without a frame, for rows and bars.
 bool iconButton(const char* label, const char* tooltip, const std::string& why = {}, bool lit = false);
 // Shows or hides rows of one kind, and says how many there are. `list` tells apart those of several lists.
