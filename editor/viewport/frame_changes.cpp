@@ -141,7 +141,7 @@ bool FrameChanges::sameOwners(const ImDrawData& laid_out) const {
   return true;
 }
 
-std::vector<PixelRect> FrameChanges::next(const ImDrawData& laid_out, const std::vector<std::uint64_t>& repainted) {
+std::vector<PixelRect> FrameChanges::next(const ImDrawData& laid_out, const std::vector<Repainted>& repainted) {
   const PixelRect window = windowOf(laid_out);
   // A window that comes, goes or is raised may show what it had hidden.
   const bool known = std::exchange(known_, true), resized = !(std::exchange(window_, window) == window);
@@ -157,8 +157,9 @@ std::vector<PixelRect> FrameChanges::next(const ImDrawData& laid_out, const std:
       changed.push_back(list.covered);
     }
     for (const ImDrawCmd& command : now.CmdBuffer)
-      if (std::find(repainted.begin(), repainted.end(), reinterpret_cast<std::uintptr_t>(command.TextureId)) !=
-          repainted.end())
+      if (std::any_of(repainted.begin(), repainted.end(), [&](const Repainted& r) {
+            return r.texture == reinterpret_cast<std::uintptr_t>(command.TextureId);
+          }))
         changed.push_back(coveredBy(command, now, laid_out));
   }
   if (all) return {window};

@@ -16,6 +16,12 @@ struct PixelRect {
   bool operator==(const PixelRect&) const = default;
 };
 
+// A texture with other contents than in the frame before.
+struct Repainted {
+  std::uint64_t texture = 0;
+  bool opaque = false;  // every pixel of it: it hides what is drawn before it
+};
+
 bool empty(const PixelRect& r);
 PixelRect intersection(const PixelRect& a, const PixelRect& b);
 
@@ -29,8 +35,8 @@ ImVec4 clipRectOf(const PixelRect& pixels, const ImDrawData& laid_out);
 // that differs: all that the list covers, then and now.
 class FrameChanges {
  public:
-  // Rectangles without a pixel in common. `repainted`: textures with other contents than in the frame before.
-  std::vector<PixelRect> next(const ImDrawData& laid_out, const std::vector<std::uint64_t>& repainted);
+  // Rectangles without a pixel in common.
+  std::vector<PixelRect> next(const ImDrawData& laid_out, const std::vector<Repainted>& repainted);
   void forget() { known_ = false; }  // all of the next frame counts as changed
 
  private:

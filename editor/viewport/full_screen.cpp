@@ -132,7 +132,10 @@ bool DrawnTexture::bind(int width, int height) {
   if (width == width_ && height == height_) return true;
   glBindTexture(GL_TEXTURE_2D, texture_);
   const bool one_value = format_ == GL_R16F;
-  glTexImage2D(GL_TEXTURE_2D, 0, format_, width, height, 0, one_value ? GL_RED : GL_RGBA,
+  glTexImage2D(GL_TEXTURE_2D, 0, format_, width, height, 0,
+               one_value               ? GL_RED
+               : kAsWindows == format_ ? GL_BGRA
+                                       : GL_RGBA,
                one_value ? GL_FLOAT : GL_UNSIGNED_BYTE, nullptr);
   for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
     glTexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);

@@ -54,6 +54,8 @@ class FullScreenProgram {
 // A texture that is drawn to.
 class DrawnTexture {
  public:
+  // Four bytes a pixel in the order of a window's framebuffer, where the driver makes what it is told.
+  static constexpr GLint kAsWindows = GL_RGBA;
   explicit DrawnTexture(GLint format) : format_(format) {}
   ~DrawnTexture();
   DrawnTexture(const DrawnTexture&) = delete;

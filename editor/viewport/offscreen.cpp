@@ -149,7 +149,7 @@ class EglOffscreen : public Offscreen {
   float scale_;
   Fonts fonts_;
   std::unique_ptr<PaintedScene> scene_, beside_;
-  KeptFrame kept_;
+  KeptFrame kept_{KeptFrame::Rows::upwards};
   DisplayPicture display_;
   GLuint texture_ = 0, framebuffer_ = 0;
 };

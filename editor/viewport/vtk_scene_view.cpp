@@ -182,7 +182,7 @@ class VtkSceneView : public PaintedScene {
     return shown_;
   }
 
-  std::vector<std::uint64_t> takeRepainted() override { return std::exchange(repainted_, {}); }
+  std::vector<Repainted> takeRepainted() override { return std::exchange(repainted_, {}); }
 
   bool prepare(const ViewState& state, int width, int height) override {
     const int w = std::max(width, 8), h = std::max(height, 8);
@@ -269,14 +269,14 @@ class VtkSceneView : public PaintedScene {
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, picture->width, picture->height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
                  picture->rgba.data());
     glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(bound));
-    repainted_.push_back(shown->texture);
+    repainted_.push_back({shown->texture, false});
     return shown->texture;
   }
 
  private:
   void show(GLuint picture) {
     shown_ = picture;
-    repainted_.push_back(picture);
+    repainted_.push_back({picture, true});
   }
 
   // What is drawn larger than the picture is averaged, as the screen would.
@@ -618,7 +618,7 @@ class VtkSceneView : public PaintedScene {
   std::unique_ptr<Backdrop> backdrop_;
   std::unique_ptr<Finish> finish_;
   GLuint shown_ = 0;  // the picture
-  std::vector<std::uint64_t> repainted_;
+  std::vector<Repainted> repainted_;
   std::uint64_t moved_pictures_ = 0, worked_pictures_ = 0;
   int factor_ = 1;  // pixels that are drawn, for each of the picture, each way
   bool shading_ = false;
@@ -640,8 +640,8 @@ class VtkSceneView : public PaintedScene {
 
 std::unique_ptr<PaintedScene> makeVtkSceneView() { return std::make_unique<VtkSceneView>(); }
 
-std::vector<std::uint64_t> takeRepainted(std::initializer_list<PaintedScene*> scenes) {
-  std::vector<std::uint64_t> all;
+std::vector<Repainted> takeRepainted(std::initializer_list<PaintedScene*> scenes) {
+  std::vector<Repainted> all;
   for (PaintedScene* scene : scenes) {
     const auto some = scene->takeRepainted();
     all.insert(all.end(), some.begin(), some.end());

@@ -312,7 +312,7 @@ class Window {
   GLFWwindow* handle_;
   InputQueue input_;
   std::unique_ptr<PaintedScene> scene_, beside_;
-  KeptFrame kept_;
+  KeptFrame kept_{KeptFrame::Rows::downwards};
   GLFWcursor* cursors_[ImGuiMouseCursor_COUNT] = {};
   DisplayPicture display_;
   FramePacer& pacer_;

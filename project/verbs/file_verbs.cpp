@@ -141,7 +141,7 @@ const Fields<ConvertOptions>& convertFields() {
        "file to write: .e57, .ptx and .las hold all scans; of .ply, .pcd, .pts, .xyz and .csv each scan gets its own "
        "file",
        {.positional = true, .required = true, .label = "File"}},
-      {"with", &O::with, "more scans or point clouds, whose scans follow those of IN in OUT"},
+      {"with", &O::with, "more scans or point clouds, whose scans follow those of IN in OUT", {.label = "More points"}},
       {"as",
        &O::as,
        "an E57 of integers of 0.1 mm, or of range and angles; a PCD as a list of points instead of a grid; a LAS of "
