@@ -155,7 +155,7 @@ TEST(ConvertCloud, GivesEachStationItsOwnFileWhereAFormatHoldsOne) {
 TEST(ConvertCloud, PutsTheScansOfSeveralFilesOneAfterTheOther) {
   const TemporaryFolder folder;
   writeThree(folder / "a.e57");
-  auto writer = kPtx.writer(folder / "b.ptx");
+  auto writer = cloudFormatFor(folder / "b.ptx")->writer(folder / "b.ptx");
   ASSERT_OK(writer);
   ASSERT_OK(writeScan(**writer, madeUpHeader({10, 12, true, false, "D"})));
   ASSERT_OK((*writer)->close());
