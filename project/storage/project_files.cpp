@@ -14,6 +14,7 @@
 #include "importers/gltf/gltf_writer.h"
 #include "project/materials/verification_json.h"
 #include "project/model/bookmarks.h"
+#include "project/storage/file_places.h"
 #include "project/storage/project_json.h"
 #include "project/storage/project_lock.h"
 #include "project/survey/measure_verb.h"
@@ -155,6 +156,7 @@ Result<Document> fromJson(const json& project, const fs::path& folder, Report& r
   TRY_ASSIGN(const auto imported_file, partOf(geometry, project.at("imported")));
   TRY_ASSIGN(auto imported, loadEnvironment(imported_file, named, progress));
   Document d = documentFrom(project);
+  d.job = std::make_shared<const Job>(withPlaces(*d.job, folder));
   d.imported = std::make_shared<const Environment>(std::move(imported));
   TRY_ASSIGN(auto georeference, georeferenceFrom(project.at("georeference")));
   d.georeference = std::make_shared<const Georeference>(std::move(georeference));
@@ -233,7 +235,7 @@ Result<void> saveChanges(const Document& before, const Document& document, const
   fs::create_directories(geometry, error);
   if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), folder.string());
 
-  json project = documentToJson(document);
+  json project = documentToJson(document, folder);
   if (document.bookmarks) project["bookmarks"] = bookmarksToJson(*document.bookmarks);
   if (!document.underlays.empty()) project["underlays"] = underlaysToJson(document.underlays, folder);
   if (document.measurements && !document.measurements->empty())

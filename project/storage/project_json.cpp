@@ -9,6 +9,7 @@
 
 #include "project/materials/materials_json.h"
 #include "project/model/treatments.h"
+#include "project/storage/file_places.h"
 #include "project/storage/project_files.h"
 #include "project/survey/survey_verbs.h"
 
@@ -303,11 +304,11 @@ Severity severityFrom(const std::string& text) {
 
 }  // namespace
 
-json documentToJson(const Document& d) {
+json documentToJson(const Document& d, const std::filesystem::path& folder) {
   json project = {{"version", kProjectVersion},
                   {"sources", d.sources},
                   {"georeference", georeferenceToJson(*d.georeference)},
-                  {"job", jobToJson(*d.job)}};
+                  {"job", jobToJson(withStoredPlaces(*d.job, folder))}};
   if (d.import_report) project["import_report"] = toJson(*d.import_report);
   if (d.simplified) project["lightening"] = simplificationToJson(*d.simplified);
   if (d.treatments) project["treatments"] = treatmentsToJson(*d.treatments);

@@ -5,6 +5,7 @@
 // is missing or of the wrong kind; project_files.cpp turns that into an Error.
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -15,8 +16,8 @@
 
 namespace standpoint {
 
-// Everything but geometry and product records.
-nlohmann::json documentToJson(const Document& document);
+// Everything but geometry and product records; files of the job as storedPlace() has them for the project's folder.
+nlohmann::json documentToJson(const Document& document, const std::filesystem::path& folder);
 Document documentFrom(const nlohmann::json& project);
 
 nlohmann::json recordsToJson(const Environment& environment);  // products and spatial structure

@@ -233,7 +233,7 @@ Result<Answered<ScanAnswer>> runMovingScan(const Document& document, const ScanV
   for (CarriedTrajectory& of_job : job.trajectories)
     if (of_job.name == trajectory.name && of_job.file == trajectory.file)
       of_job.scans.push_back({.instrument = request.instrument.id,
-                              .file = file.string(),
+                              .file = fs::absolute(file).lexically_normal().string(),
                               .format = request.format->name,
                               .settings = request.settings.values,
                               .seed = request.options.seed,

@@ -35,7 +35,7 @@ Scan record(const ScanCount& count, const ScanRequest& request, const fs::path& 
             const std::vector<Target>& targets) {
   Scan s;
   s.instrument = request.instrument.id;
-  s.file = file.string();
+  s.file = fs::absolute(file).lexically_normal().string();
   s.format = request.format->name;
   s.settings = request.settings.values;
   s.seed = request.options.seed;

@@ -57,7 +57,7 @@ Result<CarriedTrajectory> newTrajectory(const RayScene& scene, const Georeferenc
   made.height_m = options.height_m.value_or(0);
   if (!options.file.empty()) {
     if (!options.through.empty()) return failure(ErrorKind::usage, "use either waypoints or a file", "--through");
-    made.file = options.file.string();
+    made.file = std::filesystem::absolute(options.file).lexically_normal().string();
     made.format = options.format;
     if (made.format.empty()) {
       TRY_ASSIGN(const auto* format, trajectoryFormatOf(options.file));

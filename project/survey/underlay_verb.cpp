@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "pointclouds/formats.h"
 #include "project/answers.h"
+#include "project/storage/file_places.h"
 #include "project/survey/underlays.h"
 #include "survey/registration/underlay_placing.h"
 
@@ -208,20 +209,16 @@ Result<Answered<UnderlayAnswer>> runUnderlay(const Document& document, const Und
 }
 
 json underlaysToJson(const Underlays& underlays, const fs::path& project_folder) {
-  const fs::path folder = fs::absolute(project_folder).lexically_normal();
   json rows = json::array();
-  for (const auto& u : underlays) {
-    const fs::path relative = fs::path(u->file).lexically_relative(folder);
-    const bool near = !relative.empty() && !relative.string().starts_with("../..");
+  for (const auto& u : underlays)
     rows.push_back({{"name", u->name},
-                    {"file", near ? relative.string() : u->file},
+                    {"file", storedPlace(u->file, project_folder)},
                     {"format", u->format},
                     {"points", u->points},
                     {"bounds", toJson(u->bounds_cloud_m)},
                     {"pose", poseToJson(u->file_from_cloud)},
                     {"crs", u->crs},
                     {"visible", u->visible}});
-  }
   return rows;
 }
 
@@ -230,8 +227,7 @@ Underlays underlaysFrom(const json& part, const fs::path& project_folder) {
   for (const auto& row : part) {
     Underlay u;
     u.name = row.at("name");
-    const fs::path file = row.at("file").get<std::string>();
-    u.file = (file.is_absolute() ? file : fs::absolute(project_folder) / file).lexically_normal().string();
+    u.file = placeOf(row.at("file").get<std::string>(), project_folder).string();
     u.format = row.at("format");
     u.points = row.at("points");
     u.bounds_cloud_m = {vectorFrom(row.at("bounds").at(0)), vectorFrom(row.at("bounds").at(1))};

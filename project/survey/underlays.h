@@ -17,8 +17,7 @@ namespace standpoint {
 
 using Underlays = std::vector<std::shared_ptr<const Underlay>>;
 
-// As they stand in project.json: a file that lies in the project's folder or beside it is named relative to it, so both
-// can move together. Readers throw nlohmann::json::exception.
+// As they stand in project.json, their files as storedPlace() has it. Readers throw nlohmann::json::exception.
 nlohmann::json underlaysToJson(const Underlays& underlays, const std::filesystem::path& project_folder);
 Underlays underlaysFrom(const nlohmann::json& part, const std::filesystem::path& project_folder);
 

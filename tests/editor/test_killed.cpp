@@ -48,7 +48,7 @@ const std::vector<ScriptStep>& script() {
 }
 
 std::string stateOf(const Document& document) {
-  auto state = documentToJson(document);
+  auto state = documentToJson(document, "/");
   state["excluded"] = 0;
   for (const auto& product : document.imported->products)
     if (product.excluded) state["excluded"] = state["excluded"].get<int>() + 1;

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "project/storage/file_places.h"
 #include "project/storage/session.h"
 #include "tests/project/support.h"
 
@@ -99,6 +100,33 @@ TEST(Project, SavedTwiceHasTheSameFiles) {
 }
 
 // A full disk, by the limit on the size of a file: writing fails in the middle with EFBIG.
+TEST(Project, FindsScansThatMoveWithItAndThoseThatStay) {
+  const TemporaryFolder folder, elsewhere;
+  Progress progress;
+  fs::create_directory(folder / "site");
+  Document d = fullDocument();
+  Job job = *d.job;
+  job.stations[0].scans = {{.file = (folder / "site" / "S1.e57").string()}, {.file = (elsewhere / "S1.e57").string()}};
+  job.trajectories = {{.name = "T1", .file = (folder / "site" / "p" / "T1.csv").string(), .format = "csv"}};
+  d.job = std::make_shared<const Job>(job);
+  ASSERT_TRUE(saveProject(d, folder / "site" / "p", progress));
+  fs::rename(folder / "site", folder / "moved");
+  const auto back = loadProject(folder / "moved" / "p", progress);
+  ASSERT_TRUE(back) << describe(back.error());
+  const auto& scans = back->job->stations[0].scans;
+  EXPECT_EQ(scans[0].file, (folder / "moved" / "S1.e57").string());
+  EXPECT_EQ(scans[1].file, (elsewhere / "S1.e57").string());
+  EXPECT_EQ(back->job->trajectories[0].file, (folder / "moved" / "p" / "T1.csv").string());
+}
+
+// As projects of before had them.
+TEST(Project, FindsAScanWhereTheCommandLineRanThatMadeIt) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(placeOf("S1.e57", folder.path()), folder / "S1.e57") << "it is nowhere";
+  const auto relative = fs::path(SOURCE_DIR).lexically_relative(fs::current_path()) / "README.md";
+  EXPECT_EQ(placeOf(relative.string(), folder.path()), fs::path(SOURCE_DIR) / "README.md");
+}
+
 TEST(Project, IsAsItWasBeforeWhenTheDiskIsFull) {
   const TemporaryFolder folder;
   Progress progress;
