@@ -148,11 +148,11 @@ void drawRow(const Model& model, const Row& row) {
 
 void drawTable(const Model& model, const std::vector<Row>& rows, const char* id) {
   if (!ImGui::BeginTable(id, 5, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
-  ImGui::TableSetupColumn(ui::Label("Figure"), ImGuiTableColumnFlags_WidthStretch, 2.2F);
+  ImGui::TableSetupColumn(ui::Label("Figure"), ImGuiTableColumnFlags_WidthStretch, 3.2F);
   ImGui::TableSetupColumn("A", ImGuiTableColumnFlags_WidthStretch, 0.8F);
   ImGui::TableSetupColumn("B", ImGuiTableColumnFlags_WidthStretch, 0.8F);
   ImGui::TableSetupColumn(ui::Label("B against A"), ImGuiTableColumnFlags_WidthStretch, 0.9F);
-  ImGui::TableSetupColumn(ui::Label("A blue, B orange"), ImGuiTableColumnFlags_WidthStretch, 1.6F);
+  ImGui::TableSetupColumn(ui::Label("A blue, B orange"), ImGuiTableColumnFlags_WidthStretch, 1.2F);
   ui::tableHead({1, 2, 3});
   for (const auto& row : rows) drawRow(model, row);
   ImGui::EndTable();

@@ -217,7 +217,8 @@ const std::array kOwn = {
            ICON_STATION,
            {'T', false, true},
            addStation,
-           whyStationNot},
+           whyStationNot,
+           [](const Editor& e) { return e.view.tool == Tool::placeStation; }},
     Action{"add-station-at",
            "Add station by coordinates",
            ICON_STATION,
@@ -257,7 +258,8 @@ const std::array kOwn = {
              e.view.tool = Tool::placeTarget;
              showWorkspace(e, Workspace::survey);
            },
-           whyTargetNot},
+           whyTargetNot,
+           [](const Editor& e) { return e.view.tool == Tool::placeTarget; }},
     Action{"add-trajectory",
            "Add trajectory by clicking waypoints",
            ICON_WALK,
@@ -551,7 +553,8 @@ void actionToolButton(Editor& editor, const char* id) {
   const auto why = whyNot(action, editor);
   std::string tip = titleNow(editor, action, why.empty());
   if (const auto keys = shortcutText(action.shortcut); !keys.empty()) tip += "  (" + keys + ")";
-  if (ui::iconButton((std::string(action.icon) + "###tool_" + id).c_str(), tip.c_str(), why)) action.run(editor);
+  const bool on = action.on != nullptr && action.on(editor);
+  if (ui::iconButton((std::string(action.icon) + "###tool_" + id).c_str(), tip.c_str(), why, on)) action.run(editor);
   ImGui::SameLine();
 }
 

@@ -335,7 +335,7 @@ void chooseExport(Editor& editor) {
   };
   choice("Model###export-model", !points, editor.session.whyNot("export"), askForExport);
   ImGui::SameLine(0, editor.px(16));
-  choice("Points of a scan###export-points", points, whyNoPointsExport(editor),
+  choice("Points of scans###export-points", points, whyNoPointsExport(editor),
          [](Editor& e) { askForPointsExport(e); });
   const auto& document = editor.session.document();
   if (!points && document.simplified)
