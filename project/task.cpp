@@ -7,9 +7,9 @@
 
 namespace standpoint {
 
-// Linux keeps niceness for each thread, and a thread begins with that of its starter. Five more are a quarter.
+// Linux keeps niceness for each thread, and a thread begins with that of its starter. Ten more are a tenth.
 void computeInBackground() {
-  constexpr int kNicer = 5;
+  constexpr int kNicer = 10;
   const auto thread = static_cast<id_t>(syscall(SYS_gettid));
   setpriority(PRIO_PROCESS, thread, getpriority(PRIO_PROCESS, thread) + kNicer);
 }

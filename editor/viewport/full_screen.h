@@ -54,7 +54,8 @@ class FullScreenProgram {
 // A texture that is drawn to.
 class DrawnTexture {
  public:
-  // Four bytes a pixel in the order of a window's framebuffer, where the driver makes what it is told.
+  // Four bytes a pixel in the order of a window's framebuffer, where the driver makes what it is told. To be copied
+  // from, not to be sampled: llvmpipe of Mesa 22.3 takes a path of its own for such textures, and draws them wrongly.
   static constexpr GLint kAsWindows = GL_RGBA;
   explicit DrawnTexture(GLint format) : format_(format) {}
   ~DrawnTexture();
