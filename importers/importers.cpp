@@ -65,10 +65,10 @@ const Importer* byContent(const std::string& head) {
   return nullptr;
 }
 
-// A binary STL has no magic bytes; its size is what its count of triangles says.
+// A binary STL has no magic bytes.
 bool hasSizeOfStl(const std::filesystem::path& file) {
   const auto bytes = FileBytes::open(file);
-  return bytes && bytes->size() > 84 && isBinaryStl(*bytes);
+  return bytes && hasSizeOfBinaryStl(*bytes);
 }
 
 const Importer* byExtension(const std::filesystem::path& file) {

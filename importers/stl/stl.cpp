@@ -122,14 +122,19 @@ constexpr const char* kStlExtensions[] = {".stl"};
 
 }  // namespace
 
-// Many binary files begin with "solid" too; what tells them is that their size is what their count says.
+bool hasSizeOfBinaryStl(const FileBytes& bytes) {
+  char head[kHeaderBytes];
+  return bytes.size() >= kHeaderBytes && bytes.read(0, head, kHeaderBytes) &&
+         bytes.size() == kHeaderBytes + kFacetBytes * std::uint64_t{littleEndian32(head + 80)};
+}
+
+// Many binary files begin with "solid" too.
 bool isBinaryStl(const FileBytes& bytes) {
+  if (hasSizeOfBinaryStl(bytes)) return true;
   char head[512];
   const auto got = static_cast<std::size_t>(std::min<std::uint64_t>(bytes.size(), sizeof head));
   if (!bytes.read(0, head, got)) return false;
   const std::string_view text(head, got);
-  if (got >= kHeaderBytes && bytes.size() == kHeaderBytes + kFacetBytes * std::uint64_t{littleEndian32(head + 80)})
-    return true;
   const auto first = text.find_first_not_of(" \t\r\n");
   const bool begins_as_text = first != std::string_view::npos &&
                               (text.substr(first).starts_with("solid") || text.substr(first).starts_with("SOLID"));

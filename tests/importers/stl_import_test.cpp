@@ -72,6 +72,14 @@ TEST(Stl, ABinaryFileIsKnownByItsSizeWhateverItIsCalled) {
   EXPECT_EQ(triangleCount(model->environment), 4U);
 }
 
+TEST(Stl, AFileOfAnotherKindIsNotTakenForOne) {
+  for (const auto& bytes : {std::string(500, 'x'), binary("nothing", kTetrahedron) + "more"}) {
+    const auto model = import(write(scratch() / "a.dat", bytes));
+    ASSERT_FALSE(model);
+    EXPECT_THAT(describe(model.error()), HasSubstr("a.dat: unsupported format; use IFC"));
+  }
+}
+
 TEST(Stl, SolidsOfATextBecomeProducts) {
   const auto model = stl(textSolid("one and a half") + textSolid("") + textSolid("three"));
   ASSERT_TRUE(model) << describe(model.error());
