@@ -81,6 +81,11 @@ TEST_P(Hands, ARegistrationThatFailsBeginsWhereNothingIsAndOnlyOnce) {
   EXPECT_EQ(link(d).shift_x_m, 0);
 }
 
+TEST(HandsOnATripod, AreTriedWithEachDeviceThatIsNotCarried) {
+  for (const auto& device : emulatedDevices())
+    EXPECT_EQ((*loadDevice(device))->instrument.moving.has_value(), isCarried(device)) << device.id;
+}
+
 INSTANTIATE_TEST_SUITE_P(Devices, Hands, testing::ValuesIn(everyTripod()), deviceName);
 
 }  // namespace
