@@ -237,7 +237,7 @@ const std::array kView = {
            {'W'},
            walk,
            whyWalkNot,
-           [](const Editor& e) { return e.view.tool == Tool::walk; }},
+           [](const Editor& e) { return e.view.tool == Tool::walk || e.wanted_walk != nullptr; }},
     Action{"fly",
            "Fly mode (again: walk)",
            ICON_PLANE,
