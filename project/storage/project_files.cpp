@@ -14,9 +14,9 @@
 #include "importers/gltf/gltf_writer.h"
 #include "project/materials/verification_json.h"
 #include "project/model/bookmarks.h"
-#include "project/storage/file_places.h"
 #include "project/storage/project_json.h"
 #include "project/storage/project_lock.h"
+#include "project/survey/file_places.h"
 #include "project/survey/measure_verb.h"
 #include "project/survey/underlays.h"
 

@@ -9,8 +9,8 @@
 
 #include "project/materials/materials_json.h"
 #include "project/model/treatments.h"
-#include "project/storage/file_places.h"
 #include "project/storage/project_files.h"
+#include "project/survey/file_places.h"
 #include "project/survey/survey_verbs.h"
 
 namespace standpoint {

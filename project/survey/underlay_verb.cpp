@@ -8,7 +8,7 @@
 #include "core/units.h"
 #include "pointclouds/formats.h"
 #include "project/answers.h"
-#include "project/storage/file_places.h"
+#include "project/survey/file_places.h"
 #include "project/survey/underlays.h"
 #include "survey/registration/underlay_placing.h"
 

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "project/storage/file_places.h"
 #include "project/storage/session.h"
+#include "project/survey/file_places.h"
 #include "tests/project/support.h"
 
 namespace standpoint {

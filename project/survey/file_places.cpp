@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "project/storage/file_places.h"
+#include "project/survey/file_places.h"
 
 #include <utility>
 
