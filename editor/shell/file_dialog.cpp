@@ -120,6 +120,10 @@ void drawPathLine(FileDialogState& state) {
 
 // Of the folder's rows those that are sought.
 void listRows(FileDialogState& state) {
+  if (state.sought.empty()) {
+    state.listed = state.listing.rows;
+    return;
+  }
   const auto sought = forSearch(state.sought);
   state.listed.clear();
   std::copy_if(state.listing.rows.begin(), state.listing.rows.end(), std::back_inserter(state.listed),

@@ -113,7 +113,10 @@ void KeptFrame::forget() {
 void KeptFrame::draw(const ImDrawData& laid_out, const std::vector<Repainted>& repainted) {
   const PixelRect window = windowOf(laid_out);
   const int width = window.right, height = window.bottom;
-  for (const auto& [texture, opaque] : repainted) opaque ? void(opaque_.insert(texture)) : void(opaque_.erase(texture));
+  for (const auto& [texture, opaque] : repainted) {
+    opaque_.erase(texture);
+    if (opaque) opaque_.insert(texture);
+  }
   const PlainDrawing plain;
   GLint shown = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &shown);

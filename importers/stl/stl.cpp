@@ -93,6 +93,19 @@ Result<void> readBinary(const FileBytes& bytes, const std::string& name, StlSoup
   return {};
 }
 
+// Of a file that is called .stl: binary, whole or not, and no text. Many binary files begin with "solid" too.
+bool isBinaryStl(const FileBytes& bytes) {
+  if (hasSizeOfBinaryStl(bytes)) return true;
+  char head[512];
+  const auto got = static_cast<std::size_t>(std::min<std::uint64_t>(bytes.size(), sizeof head));
+  if (!bytes.read(0, head, got)) return false;
+  const std::string_view text(head, got);
+  const auto first = text.find_first_not_of(" \t\r\n");
+  const bool begins_as_text = first != std::string_view::npos &&
+                              (text.substr(first).starts_with("solid") || text.substr(first).starts_with("SOLID"));
+  return got >= kHeaderBytes && (!begins_as_text || text.find('\0') != std::string_view::npos);
+}
+
 Result<ImportedModel> readImported(const std::filesystem::path& path, const ImportOptions& options,
                                    Progress& progress) {
   const std::string name = path.filename().string();
@@ -126,19 +139,6 @@ bool hasSizeOfBinaryStl(const FileBytes& bytes) {
   char head[kHeaderBytes];
   return bytes.size() >= kHeaderBytes && bytes.read(0, head, kHeaderBytes) &&
          bytes.size() == kHeaderBytes + kFacetBytes * std::uint64_t{littleEndian32(head + 80)};
-}
-
-// Many binary files begin with "solid" too.
-bool isBinaryStl(const FileBytes& bytes) {
-  if (hasSizeOfBinaryStl(bytes)) return true;
-  char head[512];
-  const auto got = static_cast<std::size_t>(std::min<std::uint64_t>(bytes.size(), sizeof head));
-  if (!bytes.read(0, head, got)) return false;
-  const std::string_view text(head, got);
-  const auto first = text.find_first_not_of(" \t\r\n");
-  const bool begins_as_text = first != std::string_view::npos &&
-                              (text.substr(first).starts_with("solid") || text.substr(first).starts_with("SOLID"));
-  return got >= kHeaderBytes && (!begins_as_text || text.find('\0') != std::string_view::npos);
 }
 
 const Importer kStlImporter = {"stl", "STL, binary and text", kStlExtensions, &readStl, UpAxis::z};
