@@ -48,7 +48,7 @@ TEST(Task, GivesWayToTheThreadThatStartedItAsDoWhatItStarts) {
   });
   const auto result = task.take();
   ASSERT_TRUE(result);
-  const int nicest = std::min(19, before + 5);
+  const int nicest = std::min(19, before + 10);
   EXPECT_EQ(result->first, nicest);
   EXPECT_EQ(result->second, nicest);
   EXPECT_EQ(niceness(), before);
