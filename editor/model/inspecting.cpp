@@ -129,7 +129,7 @@ std::optional<MeasurablePlace> Model::snappedAt(const Eigen::Vector2d& pixel, do
     constexpr double kBeside_m = 0.002;  // a line of sight along a face may meet it
     const Eigen::Vector3d way = met.front() - at;
     const Eigen::Vector3d beside = at + way * std::min(1.0, kBeside_m / std::max(way.norm(), 1e-9));
-    return picker.sees(view.camera.eyeOf(beside), beside, state);
+    return picker.isInSight(beside, state);
   };
   snapping_.follow(state.environment);
   const auto snap = snapping_.nearest(met, {view.camera, view.size, pixel, snap_px, sees});

@@ -34,6 +34,10 @@ class Picker {
   std::optional<RayHit> pick(const ViewRay& ray, const ViewState& view) const;
   // Is there nothing visible between the two points?
   bool sees(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const ViewState& view) const;
+  // Is there nothing visible before the place, from where the view's camera looks at it?
+  bool isInSight(const Eigen::Vector3d& place, const ViewState& view) const {
+    return sees(view.camera.eyeOf(place), place, view);
+  }
 
  private:
   std::shared_ptr<const Environment> environment_;

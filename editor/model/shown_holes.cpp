@@ -45,7 +45,7 @@ class Sight {
     }
     const Eigen::Vector3d before =
         middle + (shape.normal.dot(view_.camera.forward()) > 0 ? -kBefore_m : kBefore_m) * shape.normal;
-    return model_.picker.sees(view_.camera.eyeOf(before), before, view_);
+    return model_.picker.isInSight(before, view_);
   }
 
  private:

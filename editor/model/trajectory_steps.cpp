@@ -278,9 +278,8 @@ bool isMostlySeen(const Model& model, const std::vector<Eigen::Vector3d>& places
   constexpr double kMostly = 0.8;
   const Eigen::Vector3d above(0, 0, kOnFloor_m);
   const auto state = model.viewState();
-  const auto seen = std::count_if(places.begin(), places.end(), [&](const Eigen::Vector3d& p) {
-    return model.picker.sees(model.view.camera.eyeOf(p + above), p + above, state);
-  });
+  const auto seen = std::count_if(places.begin(), places.end(),
+                                  [&](const Eigen::Vector3d& p) { return model.picker.isInSight(p + above, state); });
   return static_cast<double>(seen) >= kMostly * static_cast<double>(places.size());
 }
 

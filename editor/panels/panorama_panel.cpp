@@ -46,13 +46,19 @@ void paint(PanoramaState& state, Actions& actions, const std::shared_ptr<const P
 void chooseCloud(const Model& model, Actions& actions) {
   const auto clouds = inspectedClouds(model.session.document());
   const auto& read = model.panorama.result();
+  const auto proposed = model.wallCloud();
+  const std::string name = read ? read->request.cloud : proposed ? proposed->label : tr("Choose a scan");
   ImGui::SetNextItemWidth(std::min(model.px(260), 0.36F * ImGui::GetWindowWidth()));
-  if (!ui::beginDropDown("###panorama-scan", (read ? read->request.cloud : tr("Choose a scan")).c_str())) return;
-  for (std::size_t i = 0; i < clouds.size(); ++i)
-    if (ui::choice((clouds[i].label + "###panorama" + std::to_string(i)).c_str(),
-                   read && read->request.file == clouds[i].file))
-      actions.showPanorama(clouds[i], {});
-  ui::endDropDown();
+  if (ui::beginDropDown("###panorama-scan", name.c_str())) {
+    for (std::size_t i = 0; i < clouds.size(); ++i)
+      if (ui::choice((clouds[i].label + "###panorama" + std::to_string(i)).c_str(),
+                     read && read->request.file == clouds[i].file))
+        actions.showPanorama(clouds[i], {});
+    ui::endDropDown();
+  }
+  if (read || !proposed || model.panorama.busy()) return;
+  ImGui::SameLine();
+  if (ui::primaryButton("Show panorama###panorama-show")) actions.showPanorama(*proposed, {});
 }
 
 std::string nameOf(const Panorama& panorama, std::size_t scan) {

@@ -106,7 +106,7 @@ Sight sightOf(const Editor& editor, const ViewState& state, const Measurement& m
   };
   if (std::all_of(m.points.begin(), m.points.end(), cutAway)) return Sight::cut_away;
   if (editor.cloud()) return Sight::clear;
-  const auto seen = [&](const Eigen::Vector3d& p) { return editor.picker.sees(editor.view.camera.eyeOf(p), p, state); };
+  const auto seen = [&](const Eigen::Vector3d& p) { return editor.picker.isInSight(p, state); };
   const bool any = std::any_of(m.points.begin(), m.points.end(), seen) || seen(labelPlace(m));
   return any ? Sight::clear : Sight::behind;
 }

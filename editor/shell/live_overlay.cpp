@@ -77,12 +77,6 @@ std::string warningText(const Editor& editor) {
                     pace.limits().turn_radps / kRadPerDeg);
 }
 
-// Behind what is drawn next: the points may be as light as letters and switches.
-void drawChipGround(const Editor& editor, float width) {
-  const ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + width, at.y + ImGui::GetFrameHeight());
-  ImGui::GetWindowDrawList()->AddRectFilled(at, end, tone::kOverlay, editor.px(4));
-}
-
 void instrumentChip(Editor& editor) {
   const Instrument* const chosen = carriedOnFoot(editor);
   const std::string label =
@@ -159,7 +153,7 @@ void drawWalkedRibbon(const Editor& editor, const ViewState& state, ImVec2 origi
   for (std::size_t i = first + 1; i < places.size(); ++i) {
     const Vector3d up(0, 0, kAbove_m), from = places[i - 1].feet + up, to = places[i].feet + up, leg = to - from;
     Vector3d side(-leg.y(), leg.x(), 0);
-    if (side.norm() < 1e-6 || !editor.picker.sees(editor.view.camera.eyeOf(to), to, state)) continue;
+    if (side.norm() < 1e-6 || !editor.picker.isInSight(to, state)) continue;
     side *= kHalf_m / side.norm();
     const auto a = pen.at(from + side), b = pen.at(to + side), c = pen.at(to - side), d = pen.at(from - side);
     const ImU32 tone = (places[i].hurried ? ImU32(tone::kBad) : ImU32(tone::kAccent)) & ~IM_COL32_A_MASK;

@@ -83,7 +83,7 @@ bool isDrawnAsBody(const Editor& editor, const ViewState& state, const Station& 
 
 // The model hides nothing where points are shown instead of it.
 bool isInSight(const Editor& editor, const ViewState& state, const Eigen::Vector3d& place) {
-  return state.cloud || editor.picker.sees(editor.view.camera.eyeOf(place), place, state);
+  return state.cloud || editor.picker.isInSight(place, state);
 }
 
 void drawStations(Editor& editor, Pen& pen, const ViewState& state) {
@@ -148,7 +148,7 @@ void drawRoomNames(Editor& editor, Pen& pen, const ViewState& state) {
     for (const auto& text : {room.number.empty() ? room.name : room.name + "\n" + room.number, room.name, room.number})
       if (!text.empty() && ImGui::CalcTextSize(text.c_str()).x < kLargestShare * width_px) texts.push_back(text);
     if (texts.empty()) continue;
-    if (editor.view.labels_through_walls || editor.picker.sees(camera.eyeOf(room.anchor), room.anchor, state))
+    if (editor.view.labels_through_walls || editor.picker.isInSight(room.anchor, state))
       pen.labels.around({LabelKind::room, room.product}, *place, std::move(texts), tone::kText);
   }
 }

@@ -163,12 +163,6 @@ float togglesWidth(const Editor& editor) {
   return width;
 }
 
-// Behind what is drawn next, as chips have it: what is behind may be as light as letters and switches.
-void drawPlate(const Editor& editor, float width) {
-  const ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + width, at.y + ImGui::GetFrameHeight());
-  ImGui::GetWindowDrawList()->AddRectFilled(at, end, tone::kOverlay, editor.px(4));
-}
-
 void toggle(Editor& editor, const char* icon, const char* id, bool lit) {
   const auto& action = *findAction(id);
   if (ui::iconButton(fmt::format("{}###view_{}", icon, id).c_str(), action.title, whyNot(action, editor), lit))
@@ -179,7 +173,7 @@ void toggle(Editor& editor, const char* icon, const char* id, bool lit) {
 // They stay together.
 void drawToggles(Editor& editor) {
   beside(editor, togglesWidth(editor));
-  drawPlate(editor, togglesWidth(editor));
+  drawChipGround(editor, togglesWidth(editor));
   toggle(editor, ICON_CUBE, "edges", editor.view.edges);
   toggle(editor, ICON_GRID, "grid", editor.view.grid);
   toggle(editor, ICON_WALK, "walkable", editor.view.walkable);
@@ -191,7 +185,7 @@ void drawToggles(Editor& editor) {
 void textChip(const Editor& editor, const std::string& text) {
   const ImVec2 at = ImGui::GetCursorScreenPos(), pad = ImGui::GetStyle().FramePadding;
   const float width = ImGui::CalcTextSize(text.c_str()).x + 2 * pad.x;
-  drawPlate(editor, width);
+  drawChipGround(editor, width);
   ImGui::GetWindowDrawList()->AddText({at.x + pad.x, at.y + pad.y}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
   ImGui::Dummy({width, ImGui::GetFrameHeight()});
 }
@@ -230,7 +224,7 @@ void placeChip(Editor& editor) {
   textChip(editor, place.where.empty() ? place.what : place.what + "   " + place.where);
   const float width = chipWidth(editor, ICON_DROP, 0);
   beside(editor, width);
-  drawPlate(editor, width);
+  drawChipGround(editor, width);
   toggle(editor, ICON_DROP, "place-points", editor.view.place_points);
   const std::string back = tr("Previous view");
   beside(editor, chipWidth(editor, back, 0));
@@ -446,6 +440,11 @@ float drawBanner(const Editor& editor, ImVec2 origin, ImVec2 size, const ui::Tex
   list.AddRectFilled({at.x - pad, at.y - pad / 2}, {at.x + text.x + pad, at.y + text.y + pad / 2}, ground, pad / 2);
   list.AddText(nullptr, 0, at, IM_COL32(255, 255, 255, 255), words.c_str(), nullptr, room);
   return text.y;
+}
+
+void drawChipGround(const Editor& editor, float width) {
+  const ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + width, at.y + ImGui::GetFrameHeight());
+  ImGui::GetWindowDrawList()->AddRectFilled(at, end, tone::kOverlay, editor.px(4));
 }
 
 void drawPlate(const Editor& editor, ImVec2 at, ImVec2 size) {

@@ -29,6 +29,8 @@ void beside(const Editor& editor, float width);
 ImVec2 bannerPlace(const Editor& editor, ImVec2 origin, ImVec2 size, ImVec2 text, float above_pt);
 // Words there, in as many lines as they need; their height, px.
 float drawBanner(const Editor& editor, ImVec2 origin, ImVec2 size, const ui::Text& words, float above_pt, ImU32 ground);
+// Behind the chip that is drawn next: what it lies on may be as light as letters and switches.
+void drawChipGround(const Editor& editor, float width);
 // A ground for words over the view.
 void drawPlate(const Editor& editor, ImVec2 at, ImVec2 size);
 // The lower right corner of the controls at the view's upper left one, as they were drawn last.

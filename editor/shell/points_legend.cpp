@@ -35,13 +35,17 @@ std::string clampText(const PointLegend& legend) {
   return text;
 }
 
+// In a low view colours and figures alone: the histogram and its shares would hide much of what they are about.
 void drawScale(const Editor& editor, const PointLegend& legend, ImVec2 origin, ImVec2 size) {
+  constexpr float kLow_pt = 320;
   auto& list = *ImGui::GetWindowDrawList();
-  const float line = ImGui::GetTextLineHeight(), width = editor.px(320), bar = editor.px(10), peaks = editor.px(26);
+  const bool low = size.y < editor.px(kLow_pt);
+  const float line = ImGui::GetTextLineHeight(), width = editor.px(low ? 220.0F : 320.0F), bar = editor.px(10);
+  const float peaks = low ? 0 : editor.px(26);
   const auto title = tr(legend.title) + (legend.unit.empty() ? "" : ", " + legend.unit);
-  const auto clamped = clampText(legend);
+  const auto clamped = low ? std::string() : clampText(legend);
   const float wide = std::max({width, ImGui::CalcTextSize(title.c_str()).x, ImGui::CalcTextSize(clamped.c_str()).x});
-  const float height = line + peaks + bar + editor.px(6) + 2 * line;
+  const float height = line + peaks + bar + editor.px(6) + (low ? 1.0F : 2.0F) * line;
   const ImVec2 at(origin.x + editor.px(18), origin.y + size.y - height - editor.px(18));
   drawGround(editor, {at.x, at.y}, {wide, height});
   list.AddText(at, tone::kText, title.c_str());

@@ -29,8 +29,7 @@ int stationAt(Editor& editor, ImVec2 origin) {
     if (!pixel) continue;
     const float away =
         std::hypot(p.x - origin.x - static_cast<float>(pixel->x()), p.y - origin.y - static_cast<float>(pixel->y()));
-    if (away < editor.px(kStationGrip_pt) && editor.picker.sees(editor.view.camera.eye(), centre, editor.viewState()))
-      return i;
+    if (away < editor.px(kStationGrip_pt) && editor.picker.isInSight(centre, editor.viewState())) return i;
   }
   return -1;
 }

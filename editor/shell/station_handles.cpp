@@ -124,14 +124,6 @@ std::string handleText(const HandledStation& s, StationHandle handle) {
   return {};
 }
 
-// Nothing stands before it. In a parallel projection the eye is nowhere: one looks from straight before it.
-bool isInSight(const Editor& editor, const Vector3d& centre) {
-  const auto& camera = editor.view.camera;
-  constexpr double kBefore_m = 200;
-  const Vector3d eye = camera.orthographic ? Vector3d(centre - kBefore_m * camera.forward()) : camera.eye();
-  return editor.picker.sees(eye, centre, editor.viewState());
-}
-
 // The chosen station, where handles of it are wanted.
 const Station* handledStation(const Editor& editor) {
   if (editor.view.tool != Tool::select || editor.view.dragged_station >= 0 || looksFromStation(editor) ||
@@ -139,7 +131,8 @@ const Station* handledStation(const Editor& editor) {
     return nullptr;
   const auto* station = chosenStation(editor);
   const bool held = editor.view.handle != StationHandle::none;
-  return station != nullptr && (held || isInSight(editor, station->true_pose.translation)) ? station : nullptr;
+  if (station == nullptr) return nullptr;
+  return held || editor.picker.isInSight(station->true_pose.translation, editor.viewState()) ? station : nullptr;
 }
 
 StationHandle handleUnderPointer(const Editor& editor, const ViewPen& pen, const HandledStation& s) {

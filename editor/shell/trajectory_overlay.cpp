@@ -174,7 +174,7 @@ void drawRibbon(const Editor& editor, const ViewState& state, const ViewPen& pen
       from = to, side_before = side;
       continue;
     }
-    const bool seen = editor.picker.sees(editor.view.camera.eyeOf(to), to, state);
+    const bool seen = editor.picker.isInSight(to, state);
     const bool drawn =
         quad(pen, {from + before, to + side, to - side, from - before},
              thinned(scale.toneOf(way, there), seen ? (chosen ? 215 : 150) : (chosen ? 70 : 40)), spared);

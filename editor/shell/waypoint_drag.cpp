@@ -32,7 +32,7 @@ std::optional<std::pair<int, int>> waypointAt(const Editor& editor, ImVec2 origi
       const float away =
           std::hypot(p.x - origin.x - static_cast<float>(pixel->x()), p.y - origin.y - static_cast<float>(pixel->y()));
       if (away > editor.px(kWaypointGrip_pt) || (found && editor.survey.trajectory != t) ||
-          !editor.picker.sees(editor.view.camera.eyeOf(place), place, state))
+          !editor.picker.isInSight(place, state))
         continue;
       found = {t, i};
     }

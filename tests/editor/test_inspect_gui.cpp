@@ -430,6 +430,27 @@ TEST_F(Inspect, AWallIsPickedOnlyWhereThereIsACloudAndElseSaysWhy) {
   }
 }
 
+TEST_F(Inspect, ThePanoramaOfTheChosenStationIsAPressAway) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(editor.session.start(ScanVerbOptions{.instrument = "faro-focus-s350",
+                                                   .settings = {{"resolution", "1/20"}, {"quality", "4x"}},
+                                                   .ideal = true,
+                                                   .output = folder / "scan.e57"}));
+  gui.settle();
+  editor.showClouds({});
+  editor.survey.station = 1;
+  editor.wanted_tab[2] = "panorama";
+  gui.frames(3);
+  EXPECT_EQ(editor.panorama.result(), nullptr) << "nothing is read unasked";
+  ASSERT_TRUE(gui.click("###panorama-show"));
+  editor.panorama.wait();
+  gui.frames(2);
+  ASSERT_NE(editor.panorama.result(), nullptr);
+  const auto& scans = editor.session.document().job->stations[1].scans;
+  EXPECT_EQ(editor.panorama.result()->request.file, scans.back().file);
+  EXPECT_EQ(gui.find("###panorama-show"), nullptr);
+}
+
 // A is chosen by keys, as a list is gone through.
 TEST_F(Inspect, ShowsWhereTwoCloudsDifferOnceTheyAreCompared) {
   const TemporaryFolder folder;
