@@ -31,6 +31,17 @@ void Visibility::isolate(std::span<const std::uint32_t> products) {
   alone_ = true;
 }
 
+void Visibility::cutForSight(std::optional<double> height_m) {
+  const bool goes_on = for_sight_ && for_sight_->made_m == cut_height_m;
+  for_sight_ = {height_m, goes_on ? for_sight_->before_m : cut_height_m};
+  cut_height_m = height_m;
+}
+
+void Visibility::endCutForSight() {
+  if (for_sight_ && for_sight_->made_m == cut_height_m) cut_height_m = for_sight_->before_m;
+  for_sight_.reset();
+}
+
 std::vector<StoreyLevel> storeyLevels(const Environment& environment, double shift_up_m) {
   std::vector<StoreyLevel> levels;
   std::set<double> distinct;

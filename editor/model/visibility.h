@@ -30,12 +30,20 @@ class Visibility {
 
   // What lies above is cut away, local frame.
   std::optional<double> cut_height_m;
+  // Cuts so that something is seen, which nobody has asked for; then the cut of before comes back, unless another has
+  // been chosen since.
+  void cutForSight(std::optional<double> height_m);
+  void endCutForSight();
 
  private:
+  struct CutForSight {
+    std::optional<double> made_m, before_m;
+  };
   void replace(HiddenProducts hidden);
   std::shared_ptr<const HiddenProducts> hidden_ = std::make_shared<const HiddenProducts>();
   std::size_t hidden_count_ = 0;
   bool alone_ = false;
+  std::optional<CutForSight> for_sight_;
 };
 
 // A storey is looked into from here above its floor: above tables and sills, below lintels.

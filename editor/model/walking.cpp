@@ -256,9 +256,22 @@ bool lookFromAbove(Model& model, const Eigen::Vector3d& place, const Bounds& aro
   return false;
 }
 
+void lookFromWithin(Model& model, const Eigen::Vector3d& at, const Bounds& around) {
+  auto& cut = model.visibility.cut_height_m;
+  if (cut && at.z() > *cut) cut.reset();
+  auto& camera = model.view.camera;
+  if (looksStraightDown(camera)) look(camera, StandardView::corner);
+  camera.orthographic = false;
+  model.bringIntoView(around);
+  if (model.picker.sees(camera.eye(), at - kOffSurface_m * camera.forward(), model.viewState())) return;
+  camera.view_angle_rad = Walk::kUsualViewAngle_rad;
+  backAway(model, camera, {kLookDown_rad, 0.0, -kLookDown_rad, 2.5 * kLookDown_rad, -2.5 * kLookDown_rad});
+}
+
 }  // namespace
 
 void showWorstPlace(Model& model, FigurePlace place) {
+  const auto cut_before = model.visibility.cut_height_m;
   auto before = viewNow(model);
   if (const auto& cloud = model.cloud(); cloud && !place.among_points) {
     before.clouds = cloud->files;
@@ -279,16 +292,8 @@ void showWorstPlace(Model& model, FigurePlace place) {
     model.place_points.start({scansOf(model, place), at, 2.5 * reach_m, model.shift_m()}, model.wake);
   place.where = placeName(model, at);
   model.view.worst_place = std::move(place);
-  if (lookFromAbove(model, at, around)) return;
-  auto& cut = model.visibility.cut_height_m;
-  if (cut && at.z() > *cut) cut.reset();
-  auto& camera = model.view.camera;
-  if (looksStraightDown(camera)) look(camera, StandardView::corner);
-  camera.orthographic = false;
-  model.bringIntoView(around);
-  if (model.picker.sees(camera.eye(), at - kOffSurface_m * camera.forward(), model.viewState())) return;
-  camera.view_angle_rad = Walk::kUsualViewAngle_rad;
-  backAway(model, camera, {kLookDown_rad, 0.0, -kLookDown_rad, 2.5 * kLookDown_rad, -2.5 * kLookDown_rad});
+  if (!lookFromAbove(model, at, around)) lookFromWithin(model, at, around);
+  model.visibility.cutForSight(std::exchange(model.visibility.cut_height_m, cut_before));
 }
 
 void flyTo(Model& model, const Eigen::Vector3d& place) {

@@ -44,7 +44,7 @@ class Actions {
   virtual void scrolled() = 0;                             // the outliner has brought its product into view
 
   // The view.
-  virtual void frameSelection() = 0;
+  virtual void showSelection() = 0;  // brings what is selected into sight
   virtual void bringIntoView(const Bounds& box) = 0;
   virtual void flyTo(const Eigen::Vector3d& place) = 0;     // on a floor, local frame: looks at it from near
   virtual void showWorstPlace(FigurePlace place) = 0;       // marks it and brings it into view
@@ -61,7 +61,8 @@ class Actions {
   virtual void showShapes(bool shown) = 0;
   // Their points, instead of the model; none: the model again.
   virtual void showScans(const std::vector<std::filesystem::path>& files) = 0;
-  virtual void showDifference(const CloudDistances& distances, const Pose& local_from_cloud) = 0;  // of a cloud
+  // Of a cloud; `title` is that of its legend.
+  virtual void showDifference(const CloudDistances& distances, const Pose& local_from_cloud, const char* title) = 0;
   virtual void drawScansAt(ScanPoses poses) = 0;
 
   // What several panels and the view share.

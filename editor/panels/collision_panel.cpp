@@ -33,7 +33,7 @@ void selectable(const Model& model, Actions& actions, std::uint32_t product) {
   if (ImGui::Selectable("###row", model.selection.contains(product),
                         ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap)) {
     actions.reveal(product);
-    actions.frameSelection();
+    actions.showSelection();
   }
   ImGui::SameLine(0, 0);
   ui::fitted(productLabel(model.environment()->products[product]), ImGui::GetContentRegionAvail().x);

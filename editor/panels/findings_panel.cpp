@@ -55,7 +55,7 @@ void choose(FindingsState& state, Actions& actions, const MaterialFinding& findi
 void look(Actions& actions, const MaterialFinding& finding) {
   actions.select(finding.products);
   actions.isolate(finding.products);
-  actions.frameSelection();
+  actions.showSelection();
 }
 
 void drawMark(const MaterialFinding& finding) {

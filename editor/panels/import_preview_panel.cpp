@@ -149,7 +149,7 @@ void drawIssue(const Model& model, Actions& actions, const LogEntry& issue, int 
   if (product && ImGui::Selectable("###issue", model.preview_selection.contains(*product),
                                    ImGuiSelectableFlags_AllowItemOverlap, {0, height})) {
     actions.selectInPreview(*product);
-    actions.frameSelection();
+    actions.showSelection();
   }
   ImGui::SetCursorPos(at);
   if (product) ImGui::PushStyleColor(ImGuiCol_Text, tone::kLink);

@@ -100,7 +100,7 @@ void drawEntry(const Model& model, Actions& actions, const LogEntry& entry, int 
       const auto source = ui::fittingMiddle(entry.source, ImGui::GetContentRegionAvail().x);
       if (ImGui::Selectable((source + "###log-source").c_str())) {
         actions.reveal(*product);
-        actions.frameSelection();
+        actions.showSelection();
       }
       ImGui::PopStyleColor();
       ui::tooltip(source == entry.source ? tr("Select product") : entry.source + "\n" + tr("Select product"));

@@ -128,7 +128,7 @@ void drawRow(const Model& model, OutlinerState& state, Actions& actions, const s
     if (room && twice && !on_arrow)
       goTo(model, actions, node);
     else if (product && twice)
-      actions.frameSelection();
+      actions.showSelection();
   }
   const bool hovered = ImGui::IsItemHovered();
   productMenu(model, state, actions, rows, index, chosen);

@@ -187,7 +187,7 @@ void drawProposal(const Model& model, Actions& actions, const VerifiedProposal& 
   ImGui::SameLine();
   if (ui::button(ICON_POINTER "  Select###select", {}, {0, 0})) {
     actions.select(p.products);
-    actions.frameSelection();
+    actions.showSelection();
   }
   ui::gap(model, 4);
   ImGui::PopID();

@@ -12,6 +12,7 @@
 #include "core/readable_name.h"
 #include "editor/labels/alphabetical.h"
 #include "editor/model/bookmark_steps.h"
+#include "editor/model/selection_view.h"
 #include "editor/panels/panels.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
@@ -156,11 +157,8 @@ std::vector<Entry> products(Editor& editor, const std::string& words) {
   for (const auto p : foundProducts(editor, words)) {
     const auto& product = editor.environment()->products[p];
     all.push_back({fmt::format("product-{}", p), ICON_CUBE, productLabel(product), product.storey, "", [&editor, p] {
-                     rememberView(editor);
-                     stopFlying(editor);
-                     stopWalking(editor);
                      editor.select(p, true);
-                     editor.frameSelection();
+                     showSelection(editor);
                    }});
   }
   return all;

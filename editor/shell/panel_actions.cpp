@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "editor/model/bookmark_steps.h"
+#include "editor/model/selection_view.h"
 #include "editor/model/trajectory_steps.h"
 #include "editor/panels/panels.h"
 #include "editor/shell/actions.h"
@@ -72,7 +73,7 @@ void PanelActions::showAll() { editor_.visibility.showAll(); }
 void PanelActions::expand(std::uint32_t node, bool open) { editor_.outliner.tree.expand(node, open); }
 void PanelActions::scrolled() { editor_.outliner.scroll_to.reset(); }
 
-void PanelActions::frameSelection() { editor_.frameSelection(); }
+void PanelActions::showSelection() { standpoint::showSelection(editor_); }
 void PanelActions::bringIntoView(const Bounds& box) { editor_.bringIntoView(box); }
 void PanelActions::flyTo(const Eigen::Vector3d& place) { standpoint::flyTo(editor_, place); }
 void PanelActions::showWorstPlace(FigurePlace place) { standpoint::showWorstPlace(editor_, std::move(place)); }
@@ -94,8 +95,8 @@ void PanelActions::showScans(const std::vector<std::filesystem::path>& files) {
   editor_.showClouds(files);
   editor_.points_sought = !files.empty();
 }
-void PanelActions::showDifference(const CloudDistances& distances, const Pose& local_from_cloud) {
-  editor_.showDifference(distances, local_from_cloud);
+void PanelActions::showDifference(const CloudDistances& distances, const Pose& local_from_cloud, const char* title) {
+  editor_.showDifference(distances, local_from_cloud, title);
 }
 void PanelActions::drawScansAt(ScanPoses poses) { editor_.view.poses = poses; }
 

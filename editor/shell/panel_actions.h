@@ -29,7 +29,7 @@ class PanelActions final : public Actions {
   void expand(std::uint32_t node, bool open) override;
   void scrolled() override;
 
-  void frameSelection() override;
+  void showSelection() override;
   void bringIntoView(const Bounds& box) override;
   void flyTo(const Eigen::Vector3d& place) override;
   void showWorstPlace(FigurePlace place) override;
@@ -45,7 +45,7 @@ class PanelActions final : public Actions {
   void showWalkable(bool shown) override;
   void showShapes(bool shown) override;
   void showScans(const std::vector<std::filesystem::path>& files) override;
-  void showDifference(const CloudDistances& distances, const Pose& local_from_cloud) override;
+  void showDifference(const CloudDistances& distances, const Pose& local_from_cloud, const char* title) override;
   void drawScansAt(ScanPoses poses) override;
 
   void choose(const SurveyChoice& choice) override;
