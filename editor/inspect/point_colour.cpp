@@ -325,7 +325,6 @@ ColouredDistances colourDistances(std::span<const float> distances_m) {
   legend.high = std::clamp(legend.high, kLeast_mm, kFar_mm);
   tick(legend);
   countScale(legend, figure);
-  legend.title = "Distance to the other cloud";
   legend.unit = "mm";
   auto colours = scaleColours(figure, legend);
   return {std::move(legend), std::move(colours)};

@@ -77,7 +77,8 @@ PointLegend legendOf(std::span<const CloudPoint> points, const CloudHeader& head
 std::vector<Rgba8> paintPoints(std::span<const CloudPoint> points, const CloudHeader& header, ColourBy colour,
                                const PointLegend& legend, std::span<const float> deviations_m = {});
 
-// Of a cloud's points from another cloud, from 0 to what nearly all have at most; 100 mm and more is far.
+// Of a cloud's points from another cloud, from 0 to what nearly all have at most; 100 mm and more is far. Its title is
+// for whoever knows which clouds they are.
 struct ColouredDistances {
   PointLegend legend;
   std::vector<Rgba8> colours;

@@ -74,9 +74,10 @@ void Model::showClouds(const std::vector<std::filesystem::path>& files) {
   cloud_loader_.start(files, underlay ? shiftOf(*underlay) : shift_m(), wake);
 }
 
-void Model::showDifference(const CloudDistances& distances, const Pose& local_from_cloud) {
+void Model::showDifference(const CloudDistances& distances, const Pose& local_from_cloud, const char* title) {
   showClouds({});
   difference_ = shownDifference(distances, local_from_cloud, shift_m());
+  difference_->legend.title = title;
   view.points_by = ColourBy::natural;  // its own colours
   view.worst_place.reset();
   show(difference_->cloud);

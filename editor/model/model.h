@@ -336,7 +336,7 @@ struct Model : Style {
   void showClouds(const std::vector<std::filesystem::path>& files);
   const std::shared_ptr<const Cloud>& cloud() const { return cloud_; }
   // Shows a compared cloud by its distances to the other one instead of the model.
-  void showDifference(const CloudDistances& distances, const Pose& local_from_cloud);
+  void showDifference(const CloudDistances& distances, const Pose& local_from_cloud, const char* title);
   // Looks at what proves a mistake, and back to where the camera was.
   void showProof(ShownProof shown);
   void endProof();

@@ -106,7 +106,10 @@ std::vector<Row> rowsOf(const CompareAnswer& answer) {
 std::string number(double value, int decimals) { return figures("{:.{}f}", value, decimals); }
 
 std::string changeText(const Row& row) {
-  if (row.unit == "%" || row.a == 0) return figures("{:+.{}f}", row.b - row.a, row.decimals);
+  constexpr double kManyTimes = 10;
+  if (row.unit == "%") return figures("{:+.{}f} pp", row.b - row.a, row.decimals);  // percentage points
+  if (row.a == 0) return figures("{:+.{}f}", row.b - row.a, row.decimals);
+  if (row.b / row.a >= kManyTimes) return figures("× {:.1f}", row.b / row.a);
   return figures("{:+.1f} %", (row.b / row.a - 1) * 100);
 }
 
@@ -171,12 +174,16 @@ std::vector<Row> materialRows(const Model& model, const CompareAnswer& answer) {
   return rows;
 }
 
-void lookAt(const Model& model, CompareState& state, Actions& actions, const ComparedPart& part,
-            const std::shared_ptr<const CloudDistances>& distances, const std::vector<InspectedCloud>& clouds) {
+constexpr const char *kOfA = "A by distance to B", *kOfB = "B by distance to A";
+
+void lookAt(const Model& model, CompareState& state, Actions& actions, const CompareAnswer& answer, bool of_b,
+            const std::vector<InspectedCloud>& clouds) {
+  const auto& part = of_b ? state.shown_b : state.shown_a;
+  const auto& distances = of_b ? answer.b_distances : answer.a_distances;
   Pose local_from_cloud;
   local_from_cloud.translation = -model.shift_m();
   if (const auto* cloud = cloudOf(clouds, part.file)) local_from_cloud = cloud->local_from_cloud;
-  actions.showDifference(*distances, local_from_cloud);
+  actions.showDifference(*distances, local_from_cloud, of_b ? kOfB : kOfA);
   state.looked_at = distances;
 }
 
@@ -204,16 +211,16 @@ void drawDifferences(const Model& model, CompareState& state, Actions& actions, 
   const bool shown = state.looked_at == of_a || state.looked_at == of_b;
   // First the one that has more to show: the points of A may all be near B, and not the other way round.
   const auto most_m = [](const auto& largest) { return largest ? largest->distance_m : 0; };
-  if (!shown && most_m(answer.b_largest) > most_m(answer.a_largest))
-    lookAt(model, state, actions, state.shown_b, of_b, clouds);
-  else if (!shown)
-    lookAt(model, state, actions, state.shown_a, of_a, clouds);
-  if (ui::button(ICON_EYE "  A by distance to B###difference-a", {}, {0, 0}, "Shows the points of A in the view"))
-    lookAt(model, state, actions, state.shown_a, of_a, clouds);
-  ImGui::SameLine();
-  if (ui::button(ICON_EYE "  B by distance to A###difference-b", {}, {0, 0}, "Shows the points of B in the view"))
-    lookAt(model, state, actions, state.shown_b, of_b, clouds);
-  ImGui::SameLine();
+  if (!shown) lookAt(model, state, actions, answer, most_m(answer.b_largest) > most_m(answer.a_largest), clouds);
+  const auto choice = [&](bool b, const std::string& label, const char* tooltip) {
+    const bool lit = model.cloud() && isOfB(state, answer) == b;
+    ImGui::PushStyleColor(ImGuiCol_Button, lit ? ui::kLit : ImGui::GetStyleColorVec4(ImGuiCol_Button));
+    if (ui::button(label.c_str(), {}, {0, 0}, tooltip)) lookAt(model, state, actions, answer, b, clouds);
+    ImGui::PopStyleColor();
+    ImGui::SameLine();
+  };
+  choice(false, std::string(ICON_EYE "  ") + tr(kOfA) + "###difference-a", "Shows the points of A in the view");
+  choice(true, std::string(ICON_EYE "  ") + tr(kOfB) + "###difference-b", "Shows the points of B in the view");
   const bool in_b = isOfB(state, answer);
   const bool any = (in_b ? answer.b_largest : answer.a_largest).has_value();
   const auto most = trf("The cubic metre where the points of {} are farthest from {}, taken together", in_b ? "B" : "A",

@@ -142,7 +142,7 @@ void drawCoverageLegend(Editor& editor, ImVec2 origin, ImVec2 size) {
 
 void coverageChips(Editor& editor) {
   if (!coverageQuantity(editor.view.colour)) return;
-  ImGui::NewLine();
+  nextRow();
   const std::string planned = tr("Stations as planned");
   const std::string made = tr("Completed scans");
   const auto label = fmt::format("{}  {}", ICON_STATION, editor.view.coverage_made ? made : planned);

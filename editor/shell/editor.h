@@ -50,6 +50,8 @@ struct Editor : Model {
   // rows from `beside_cube` on are.
   float overlay_end = 0, beside_cube = 0;
   Eigen::Vector2f cube_corner = {0, 0};
+  // Of the words over the view, and of the legend of points at its lower left from its edges, as drawn last.
+  Eigen::Vector2f banners_size = {0, 0}, legend_size = {0, 0};
 };
 
 }  // namespace standpoint

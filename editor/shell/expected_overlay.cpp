@@ -244,7 +244,7 @@ void expectedChips(Editor& editor) {
   if (!expectedQuantity(editor.view.colour)) return;
   auto& probe = editor.view.probe;
   const auto* instrument = editor.instrument(probe.instrument);
-  ImGui::NewLine();
+  nextRow();
   const auto label = fmt::format("{}  {}", ICON_TABLET, instrument != nullptr ? instrument->model : tr("Instrument"));
   ImGui::SetNextItemWidth(chipWidth(editor, label, 166));
   if (ui::beginDropDown("###probe-instrument", label.c_str(), ImGuiComboFlags_NoArrowButton)) {

@@ -28,8 +28,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr ImU32 kReadoutGround = IM_COL32(24, 26, 30, 220), kTooFastGround = IM_COL32(176, 42, 36, 240);
-constexpr float kLineGap_pt = 12, kBannerRims_pt = 32;
+constexpr float kBannerRims_pt = 32;
 
 std::string paceText(const WalkPace& pace) {
   return figures("{:.1f} m/s   {:.0f}°/s", pace.speed_mps(), pace.turn_radps() / kRadPerDeg);
@@ -162,11 +161,10 @@ void drawWalkedRibbon(const Editor& editor, const ViewState& state, ImVec2 origi
   list.Flags = flags;
 }
 
-void drawLiveReadout(const Editor& editor, ImVec2 origin, ImVec2 size, float above_pt) {
-  if (const auto text = readoutText(editor, size.x - editor.px(kBannerRims_pt)); !text.empty())
-    above_pt += drawBanner(editor, origin, size, text, above_pt, kReadoutGround) / editor.px(1) + kLineGap_pt;
-  if (const auto text = warningText(editor); !text.empty())
-    drawBanner(editor, origin, size, ICON_WARNING "  " + text, above_pt, kTooFastGround);
+std::vector<Banner> liveReadouts(const Editor& editor, float width) {
+  const auto warning = warningText(editor);
+  return {{readoutText(editor, width - editor.px(kBannerRims_pt))},
+          {warning.empty() ? warning : ICON_WARNING "  " + warning, banner::kTooFast}};
 }
 
 void walkingChips(Editor& editor) {
@@ -178,7 +176,7 @@ void walkingChips(Editor& editor) {
 void livePointChips(Editor& editor) {
   auto& live = editor.recording.live;
   if (live.empty()) return;
-  if (!editor.walk.active()) ImGui::NewLine();
+  if (!editor.walk.active()) nextRow();
   const std::string colours = ICON_PAINT "  " + tr(liveColourName(live.colour()));
   ImGui::SetNextItemWidth(chipWidth(editor, colours, 120));
   if (ui::beginDropDown("###live-colour", colours.c_str(), ImGuiComboFlags_NoArrowButton)) {

@@ -22,7 +22,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr float kHidden = 0.25F;  // how strong a mark is that something hides
+constexpr float kHidden = 0.25F, kHiddenChosen = 0.7F;  // how strong a mark is that something hides
 
 ImU32 faded(ImU32 packed, float alpha) {
   ImVec4 c = colour(packed);
@@ -98,7 +98,7 @@ void drawStations(Editor& editor, Pen& pen, const ViewState& state) {
     if (!place) continue;
     const bool seen = isInSight(editor, state, centre);
     const bool chosen = editor.survey.station == static_cast<int>(i);
-    const float strength = seen ? 1.0F : kHidden;
+    const float strength = seen ? 1.0F : chosen ? kHiddenChosen : kHidden;
     const ImU32 tone = faded(chosen ? tone::kAccent : tone::kStation, strength);
     if (seen && isDrawnAsBody(editor, state, station)) {
       if (chosen) pen.circle(*place, 6, IM_COL32(20, 22, 26, 60), tone);
@@ -227,7 +227,7 @@ void targetChip(Editor& editor) {
   const auto* kinds = editor.target_list.kinds();
   if (editor.view.tool != Tool::placeTarget || kinds == nullptr) return;
   const std::string label = ICON_TARGET "  " + tr(chosenArticle(editor, *kinds).label);
-  ImGui::NewLine();
+  nextRow();
   ImGui::SetNextItemWidth(chipWidth(editor, label, 150));
   const bool open = ui::beginDropDown("###target-article", label.c_str(), ImGuiComboFlags_NoArrowButton);
   if (!open) return ui::tooltip("Kind of target that the next click puts up");

@@ -65,6 +65,9 @@ void drawMarksOver(Editor& editor, const Camera& camera, PixelPicture& picture) 
     drawMarkers(editor, origin, labels);
     drawInspectMarks(editor, origin, labels);
     labels.draw(list, layout, std::nullopt);
+    const auto banners = std::exchange(editor.banners_size, {0, 0});  // a picture has none
+    drawColourLegend(editor, origin, size);
+    editor.banners_size = banners;
   }
   std::vector<ImDrawList*> lists = {&list};
   ImDrawData drawing;

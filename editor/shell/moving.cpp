@@ -233,13 +233,10 @@ std::optional<std::string> movingHint(const Editor& editor) {
   return walkingHint(editor);
 }
 
-float drawMovingLine(const Editor& editor, ImVec2 origin, ImVec2 size, float above_pt) {
-  std::string words;
-  if (editor.walk.active())
-    words = walkLine(editor);
-  else if (editor.view.tool == Tool::fly)
-    words = placeText(editor, editor.view.camera.eye()) + figures("   {:.1f} m/s", editor.fly.speed_mps(false));
-  return words.empty() ? 0 : drawBanner(editor, origin, size, words, above_pt, IM_COL32(24, 26, 30, 220));
+std::string movingLine(const Editor& editor) {
+  if (editor.walk.active()) return walkLine(editor);
+  if (editor.view.tool != Tool::fly) return {};
+  return placeText(editor, editor.view.camera.eye()) + figures("   {:.1f} m/s", editor.fly.speed_mps(false));
 }
 
 void drawTightPlaces(const Editor& editor, ImVec2 origin) {

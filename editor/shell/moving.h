@@ -23,8 +23,8 @@ void movingChips(Editor& editor);
 // What whoever walks clicks on.
 void clickWalking(Editor& editor);
 std::optional<std::string> movingHint(const Editor& editor);  // the keys; nothing when nobody does
-// Where whoever walks or flies is, in the frame of the file, and what stops them; its height, px, 0: nobody does.
-float drawMovingLine(const Editor& editor, ImVec2 origin, ImVec2 size, float above_pt);
+// Where whoever walks or flies is, in the frame of the file, and what stops them; "" while nobody does.
+std::string movingLine(const Editor& editor);
 // What keeps the agent out of rooms, as long as the walkable area is shown or one of them was flown to.
 void drawTightPlaces(const Editor& editor, ImVec2 origin);
 

@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+#include <imgui_internal.h>
 
 #include "editor/model/station_steps.h"
 #include "editor/panels/point_colours.h"
 #include "editor/shell/actions.h"
+#include "editor/shell/banners.h"
 #include "editor/shell/coverage_overlay.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/editor.h"
@@ -17,6 +21,7 @@
 #include "editor/shell/live_overlay.h"
 #include "editor/shell/moving.h"
 #include "editor/shell/navigation_cube_view.h"
+#include "editor/shell/points_legend.h"
 #include "editor/shell/row_overlay.h"
 #include "editor/shell/teleport.h"
 #include "editor/shell/trajectory_overlay.h"
@@ -30,8 +35,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr float kMargin = 10, kBannerPad_pt = 8;
-constexpr float kBannerAbove_pt = 26;  // of the hint, over the view's edge
+constexpr float kMargin = 10;
 const char* colourName(ColourMode mode) {
   switch (mode) {
     case ColourMode::model: return "Model colours";
@@ -207,6 +211,7 @@ void cloudChip(Editor& editor) {
   } else if (ImGui::Button(document.hasModel() ? trf("{}  Return to model###cloud", ICON_CUBE).c_str()
                                                : trf("{}  Return to all clouds###cloud", ICON_CUBE).c_str())) {
     editor.showClouds({});
+    editor.visibility.endCutForSight();
     return;
   }
   ui::tooltip(
@@ -219,7 +224,7 @@ void cloudChip(Editor& editor) {
 // The worst place that is marked, what was measured around it, and the way back.
 void placeChip(Editor& editor) {
   if (!editor.view.worst_place) return;
-  ImGui::NewLine();
+  nextRow();
   const auto& place = *editor.view.worst_place;
   textChip(editor, place.where.empty() ? place.what : place.what + "   " + place.where);
   const float width = chipWidth(editor, ICON_DROP, 0);
@@ -256,11 +261,6 @@ std::string cloudTrouble(const Editor& editor) {
                missing.front().filename().string());
   const std::string why = editor.scene != nullptr ? editor.scene->trouble() : "";
   return why.empty() ? why : trf("Some points cannot be read: {}. What has been read stays on view.", why);
-}
-
-void drawCloudTrouble(const Editor& editor, ImVec2 origin, ImVec2 size) {
-  constexpr ImU32 kWarning = IM_COL32(150, 84, 16, 240);
-  if (const auto words = cloudTrouble(editor); !words.empty()) drawBanner(editor, origin, size, words, 80, kWarning);
 }
 
 // What the tool waits for; "" for nothing.
@@ -309,17 +309,15 @@ ui::Text toolHint(const Editor& editor) {
   return hint != nullptr ? hint : "";
 }
 
-// Of who moves, above it what it says of the place.
-void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
-  const auto hint = toolHint(editor);
-  float height = 0;
-  if (!hint.empty()) height = drawBanner(editor, origin, size, hint, kBannerAbove_pt, IM_COL32(38, 84, 148, 235));
-  if (editor.walk_ground.preparing()) return;
-  const auto above = [&](float height_px) {
-    return height_px > 0 ? height_px / editor.px(1) + 1.5F * kBannerPad_pt : 0;
-  };
-  const float line = kBannerAbove_pt + above(height);
-  drawLiveReadout(editor, origin, size, line + above(drawMovingLine(editor, origin, size, line)));
+// Of who moves, above it what it says of the place, and what is wrong.
+void drawWords(Editor& editor, ImVec2 origin, ImVec2 size) {
+  std::vector<Banner> banners = {{toolHint(editor), banner::kHint}};
+  if (!editor.walk_ground.preparing()) {
+    banners.push_back({movingLine(editor)});
+    for (auto& readout : liveReadouts(editor, size.x)) banners.push_back(std::move(readout));
+  }
+  banners.push_back({cloudTrouble(editor), banner::kWarning});
+  drawBanners(editor, origin, size, banners);
 }
 
 void drawReflectanceLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
@@ -381,9 +379,21 @@ void drawDeviationLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
 
 }  // namespace
 
+void drawColourLegend(Editor& editor, ImVec2 origin, ImVec2 size) {
+  drawPointsLegend(editor, origin, size);
+  if (editor.cloud() != nullptr) return;
+  drawReflectanceLegend(editor, origin, size);
+  drawConfidenceLegend(editor, origin, size);
+  drawDeviationLegend(editor, origin, size);
+}
+
 float overlayEnd(const Editor& editor) {
   const float y = ImGui::GetCursorScreenPos().y;
   return y >= editor.beside_cube && y < editor.cube_corner.y() ? editor.cube_corner.x() : editor.overlay_end;
+}
+
+void nextRow() {
+  if (ImGui::GetCurrentWindow()->DC.CurrLineSize.y > 0) ImGui::NewLine();
 }
 
 void beside(const Editor& editor, float width) {
@@ -393,53 +403,6 @@ void beside(const Editor& editor, float width) {
 
 float chipWidth(const Editor& editor, const std::string& label, float least_pt) {
   return std::max(editor.px(least_pt), ImGui::CalcTextSize(label.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x);
-}
-
-ImVec2 bannerPlace(const Editor& editor, ImVec2 origin, ImVec2 size, ImVec2 text, float above_pt) {
-  const ImVec2 at(origin.x + (size.x - text.x) / 2, origin.y + size.y - text.y - editor.px(above_pt));
-  const ImVec2 pointer = ImGui::GetIO().MousePos;
-  const bool in_the_way = std::abs(pointer.x - origin.x - size.x / 2) < text.x / 2 + editor.px(48) &&
-                          pointer.y > at.y - editor.px(64) && pointer.y < origin.y + size.y;
-  if (!in_the_way) return at;
-  const float gap = editor.px(2 * kBannerPad_pt);
-  const ImVec2 cube = navigationCubeCorner(editor, origin, size);
-  float controls_end = controlsCorner(editor, origin).y;
-  if (at.x + text.x + gap > cube.x) controls_end = std::max(controls_end, cube.y);
-  return {at.x, std::max(controls_end - editor.px(kBannerAbove_pt) + gap, origin.y + gap) + editor.px(above_pt)};
-}
-
-namespace {
-
-// What is set apart by wide gaps goes to the next line as a whole.
-std::string brokenAtGaps(std::string_view words, float room) {
-  constexpr std::string_view kGap = "   ";
-  std::string text, line;
-  while (!words.empty()) {
-    const auto end = words.find(kGap);
-    const std::string part(words.substr(0, end));
-    const std::string longer = line.empty() ? part : line + std::string(kGap) + part;
-    if (!line.empty() && ImGui::CalcTextSize(longer.c_str()).x > room) {
-      text += line + "\n";
-      line = part;
-    } else {
-      line = longer;
-    }
-    words.remove_prefix(end == std::string_view::npos ? words.size() : end + kGap.size());
-  }
-  return text + line;
-}
-
-}  // namespace
-
-float drawBanner(const Editor& editor, ImVec2 origin, ImVec2 size, const ui::Text& all, float above_pt, ImU32 ground) {
-  const float pad = editor.px(kBannerPad_pt), room = size.x - 4 * pad;
-  const std::string words = brokenAtGaps(all.c_str(), room);
-  const ImVec2 text = ImGui::CalcTextSize(words.c_str(), nullptr, false, room);
-  const ImVec2 at = bannerPlace(editor, origin, size, text, above_pt);
-  auto& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled({at.x - pad, at.y - pad / 2}, {at.x + text.x + pad, at.y + text.y + pad / 2}, ground, pad / 2);
-  list.AddText(nullptr, 0, at, IM_COL32(255, 255, 255, 255), words.c_str(), nullptr, room);
-  return text.y;
 }
 
 void drawChipGround(const Editor& editor, float width) {
@@ -501,13 +464,8 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   editor.overlay_size = {drawn.x, drawn.y};
   ImGui::PopStyleColor();
   drawNavigationCube(editor, origin, size);
-  if (!points) {
-    drawReflectanceLegend(editor, origin, size);
-    drawConfidenceLegend(editor, origin, size);
-    drawDeviationLegend(editor, origin, size);
-  }
-  drawToolHint(editor, origin, size);
-  drawCloudTrouble(editor, origin, size);
+  drawColourLegend(editor, origin, size);
+  drawWords(editor, origin, size);
 }
 
 }  // namespace standpoint

@@ -20,15 +20,14 @@ void targetChip(Editor& editor);  // the kind of target that the next click puts
 // others.
 float chipWidth(const Editor& editor, const std::string& label, float least_pt);
 void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size);  // view controls, cut, cube, legend
+// How to read the colours of the model, or of the points that are shown instead of it.
+void drawColourLegend(Editor& editor, ImVec2 origin, ImVec2 size);
 // Where the row of controls must end in which the cursor is.
 float overlayEnd(const Editor& editor);
+// To the next row of chips, unless the cursor is at the beginning of one.
+void nextRow();
 // Behind the last chip where there is room for one of this width before that end, else below.
 void beside(const Editor& editor, float width);
-// Where words of this size stand over the lower edge of the view; at the upper one while the pointer is near them, so
-// that they never hide what is pointed at.
-ImVec2 bannerPlace(const Editor& editor, ImVec2 origin, ImVec2 size, ImVec2 text, float above_pt);
-// Words there, in as many lines as they need; their height, px.
-float drawBanner(const Editor& editor, ImVec2 origin, ImVec2 size, const ui::Text& words, float above_pt, ImU32 ground);
 // Behind the chip that is drawn next: what it lies on may be as light as letters and switches.
 void drawChipGround(const Editor& editor, float width);
 // A ground for words over the view.

@@ -14,16 +14,25 @@ namespace standpoint {
 namespace {
 
 constexpr std::size_t kMostClasses = 10;
+constexpr float kMargin_pt = 18, kPad_pt = 8;
 
 std::string shareText(std::uint64_t points, std::uint64_t all) {
   return figures("{:.1f} %",
                  100.0 * static_cast<double>(points) / static_cast<double>(std::max<std::uint64_t>(1, all)));
 }
 
-void drawGround(const Editor& editor, ImVec2 at, ImVec2 size) {
-  const float pad = editor.px(8);
+// At the lower left of the view, above the words there that it would lie on; where what stands on it begins.
+ImVec2 drawGround(Editor& editor, ImVec2 origin, ImVec2 view, ImVec2 size) {
+  constexpr float kBesideWords_pt = 16, kOverWords_pt = 40;
+  const float pad = editor.px(kPad_pt), margin = editor.px(kMargin_pt);
+  const auto& words = editor.banners_size;
+  const bool on_words = words.y() > 0 && margin + size.x + pad > (view.x - words.x()) / 2 - editor.px(kBesideWords_pt);
+  const float below = on_words ? words.y() + editor.px(kOverWords_pt) : margin;
+  const ImVec2 at(origin.x + margin, origin.y + view.y - size.y - below);
   ImGui::GetWindowDrawList()->AddRectFilled({at.x - pad, at.y - pad}, {at.x + size.x + pad, at.y + size.y + pad},
                                             tone::kOverlay, editor.px(4));
+  editor.legend_size = {margin + size.x + pad, below + size.y + pad};
+  return at;
 }
 
 // Which points the ends stand for, and which have no figure.
@@ -36,7 +45,7 @@ std::string clampText(const PointLegend& legend) {
 }
 
 // In a low view colours and figures alone: the histogram and its shares would hide much of what they are about.
-void drawScale(const Editor& editor, const PointLegend& legend, ImVec2 origin, ImVec2 size) {
+void drawScale(Editor& editor, const PointLegend& legend, ImVec2 origin, ImVec2 size) {
   constexpr float kLow_pt = 320;
   auto& list = *ImGui::GetWindowDrawList();
   const bool low = size.y < editor.px(kLow_pt);
@@ -46,8 +55,7 @@ void drawScale(const Editor& editor, const PointLegend& legend, ImVec2 origin, I
   const auto clamped = low ? std::string() : clampText(legend);
   const float wide = std::max({width, ImGui::CalcTextSize(title.c_str()).x, ImGui::CalcTextSize(clamped.c_str()).x});
   const float height = line + peaks + bar + editor.px(6) + (low ? 1.0F : 2.0F) * line;
-  const ImVec2 at(origin.x + editor.px(18), origin.y + size.y - height - editor.px(18));
-  drawGround(editor, {at.x, at.y}, {wide, height});
+  const ImVec2 at = drawGround(editor, origin, size, {wide, height});
   list.AddText(at, tone::kText, title.c_str());
   const float top = at.y + line, y = top + peaks;
   const auto most = std::max<std::uint32_t>(1, *std::max_element(legend.histogram.begin(), legend.histogram.end()));
@@ -79,7 +87,7 @@ std::string className(const Editor& editor, const std::string& name) {
   return found == materials.end() ? name : tr(found->label);
 }
 
-void drawClasses(const Editor& editor, const PointLegend& legend, ImVec2 origin, ImVec2 size) {
+void drawClasses(Editor& editor, const PointLegend& legend, ImVec2 origin, ImVec2 size) {
   auto& list = *ImGui::GetWindowDrawList();
   std::uint64_t all = legend.no_data, others = 0;
   for (std::size_t i = 0; i < legend.classes.size(); ++i) {
@@ -100,8 +108,7 @@ void drawClasses(const Editor& editor, const PointLegend& legend, ImVec2 origin,
   for (const auto& [colour, text] : rows)
     wide = std::max(wide, swatch + editor.px(6) + ImGui::CalcTextSize(text.c_str()).x);
   const float height = line * static_cast<float>(rows.size() + 1);
-  ImVec2 at(origin.x + editor.px(18), origin.y + size.y - height - editor.px(18));
-  drawGround(editor, at, {wide, height});
+  ImVec2 at = drawGround(editor, origin, size, {wide, height});
   list.AddText(at, tone::kText, title.c_str());
   for (const auto& [colour, text] : rows) {
     at.y += line;
@@ -112,7 +119,8 @@ void drawClasses(const Editor& editor, const PointLegend& legend, ImVec2 origin,
 
 }  // namespace
 
-void drawPointsLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
+void drawPointsLegend(Editor& editor, ImVec2 origin, ImVec2 size) {
+  editor.legend_size = {0, 0};
   const auto* legend = editor.pointLegend();
   if (legend == nullptr) return;
   if (legend->has_scale)

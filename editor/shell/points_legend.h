@@ -8,6 +8,6 @@ namespace standpoint {
 struct Editor;
 
 // How to read the colours of a scan's points: a scale with its histogram, or classes.
-void drawPointsLegend(const Editor& editor, ImVec2 origin, ImVec2 size);
+void drawPointsLegend(Editor& editor, ImVec2 origin, ImVec2 size);
 
 }  // namespace standpoint

@@ -8,6 +8,7 @@
 
 #include "editor/model/station_steps.h"
 #include "editor/shell/editor.h"
+#include "editor/shell/overlay.h"
 #include "editor/shell/place_ghost.h"
 #include "editor/shell/view_pen.h"
 #include "editor/widgets/number_field.h"
@@ -43,7 +44,7 @@ void rowChips(Editor& editor) {
   if (editor.view.tool != Tool::placeRow) return;
   auto& row = editor.view.row;
   double count = row.count.value_or(0), spacing = row.spacing_m.value_or(0);
-  ImGui::NewLine();
+  nextRow();
   ImGui::SetNextItemWidth(editor.px(150));
   if (ui::numberField(
           "###row-count", count,

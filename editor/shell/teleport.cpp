@@ -116,14 +116,14 @@ bool clickAfterTap(Editor& editor) {
   return true;
 }
 
-void drawTeleport(const Editor& editor, ImVec2 origin) {
+void drawTeleport(const Editor& editor, ImVec2 origin, bool over_view) {
   if (!editor.view.teleport.active()) return;
   const auto landing = landingUnderPointer(editor);
   const bool possible = landing && landing->why_not.empty();
   const AimPen pen{editor, origin, possible ? kCanStand : kCannot};
   if (!landing) {
     const bool ready = editor.walk_ground.of(editor.session.document(), editor.walker) != nullptr;
-    if (ready && ImGui::IsMousePosValid()) pen.text(ImGui::GetIO().MousePos, tr("no surface under the pointer"));
+    if (ready && over_view) pen.text(ImGui::GetIO().MousePos, tr("no surface under the pointer"));
     return;
   }
   const double radius = editor.walker.radius_m;

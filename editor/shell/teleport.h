@@ -15,6 +15,6 @@ bool aimTeleport(Editor& editor, bool hovered);
 bool clickAfterTap(Editor& editor);
 bool goesOnByClick(const Editor& editor);
 // Where one would stand, and towards where, or why not.
-void drawTeleport(const Editor& editor, ImVec2 origin);
+void drawTeleport(const Editor& editor, ImVec2 origin, bool over_view);
 
 }  // namespace standpoint

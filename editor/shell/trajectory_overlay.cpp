@@ -293,7 +293,7 @@ void ribbonChip(Editor& editor) {
   auto& choice = editor.panels.of<RibbonChoice>();
   const auto named = std::find_if(kRibbons.begin(), kRibbons.end(), [&](const auto& r) { return r.by == choice.by; });
   const std::string label = trf("Path: {}", tr(named->name));
-  ImGui::NewLine();
+  nextRow();
   ImGui::SetNextItemWidth(chipWidth(editor, label, 110));
   if (ui::beginDropDown("###ribbon-colour", label.c_str(), ImGuiComboFlags_NoArrowButton)) {
     for (const auto& ribbon : kRibbons)
@@ -381,7 +381,7 @@ void trajectoryChips(Editor& editor) {
   if (!lays) return;
   auto& draft = editor.view.draft;
   const Carrier* const own = carrierOf(draft.carrier);
-  ImGui::NewLine();
+  nextRow();
   const std::string label = ICON_WALK "  " + carrierName(draft.carrier);
   ImGui::SetNextItemWidth(chipWidth(editor, label, 110));
   if (ui::beginDropDown("###draft-carrier", label.c_str(), ImGuiComboFlags_NoArrowButton)) {
@@ -397,7 +397,7 @@ void trajectoryChips(Editor& editor) {
          "Height of the scanner above the floor; 0 is the carrier's usual one");
   figure(editor, "###draft-speed", draft.speed_mps, "m/s", 100, trf("usual, {:.1f} m/s", own->limits.speed_mps),
          "It is slower in bends; 0 is the carrier's usual one");
-  ImGui::NewLine();
+  nextRow();
   chipButton(editor, "end-trajectory", "Finish");
   ImGui::SameLine();
   chipButton(editor, "take-back-waypoint", "Take back");

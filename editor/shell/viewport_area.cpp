@@ -21,7 +21,6 @@
 #include "editor/shell/moving.h"
 #include "editor/shell/overlay.h"
 #include "editor/shell/place_ghost.h"
-#include "editor/shell/points_legend.h"
 #include "editor/shell/proof_view.h"
 #include "editor/shell/row_overlay.h"
 #include "editor/shell/scene_picture.h"
@@ -328,13 +327,15 @@ void drawViewport(Editor& editor) {
   if (previewed) return;
   drawExpectedLegend(editor, origin, size);
   drawCoverageLegend(editor, origin, size);
-  drawPointsLegend(editor, origin, size);
   LabelBoard labels(both ? right : origin, size, editor.scale);
   drawMarkers(editor, both ? right : origin, labels);
   drawHolesLegend(editor, both ? right : origin, size, hovered);
   drawClip(editor, both ? right : origin);
   drawInspectMarks(editor, both ? right : origin, labels);
   labels.keepFree(origin, controlsCorner(editor, origin));
+  const auto& legend = editor.legend_size;
+  if (legend.y() > 0)
+    labels.keepFree({origin.x, origin.y + size.y - legend.y()}, {origin.x + legend.x(), origin.y + size.y});
   const auto pointer = hovered ? std::optional(ImGui::GetIO().MousePos) : std::nullopt;
   editor.pointed_label = labels.draw(*ImGui::GetWindowDrawList(), editor.label_layout, pointer);
   if (editor.pointed_label && !view.dragging) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
@@ -343,7 +344,7 @@ void drawViewport(Editor& editor) {
   drawRow(editor, both ? right : origin);
   drawNextWaypoint(editor, both ? right : origin);
   drawPlaceGhost(editor, both ? right : origin, size);
-  drawTeleport(editor, both ? right : origin);
+  drawTeleport(editor, both ? right : origin, hovered);
   drawTightPlaces(editor, both ? right : origin);
   drawTour(editor, origin, whole);
   contextMenu(editor);

@@ -482,7 +482,7 @@ TEST_F(Inspect, ShowsWhereTwoCloudsDifferOnceTheyAreCompared) {
       << "the one that has more to show";
   ASSERT_NE(editor.pointLegend(), nullptr);
   EXPECT_EQ(editor.pointLegend()->unit, "mm");
-  EXPECT_TRUE(gui.says("Distance to the other cloud, mm"));
+  EXPECT_TRUE(gui.says(b_first ? "B by distance to A, mm" : "A by distance to B, mm"));
   ASSERT_TRUE(gui.click("###difference-a"));
   gui.frames(2);
   EXPECT_EQ(editor.cloud()->points.size(), answer->a_distances->place_m.size());

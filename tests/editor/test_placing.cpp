@@ -10,6 +10,7 @@
 #include "demo_verbs.h"
 #include "editor/model/station_steps.h"
 #include "editor/shell/actions.h"
+#include "editor/shell/banners.h"
 #include "editor/shell/overlay.h"
 #include "editor/shell/place_ghost.h"
 #include "editor/widgets/keyboard.h"
@@ -145,6 +146,21 @@ TEST_F(Placing, ATypedPlaceThatIsRefusedSaysSoAndAddsNothing) {
   EXPECT_TRUE(gui.find("###add-typed")->disabled);
 }
 
+TEST_F(Placing, APlaceThatIsTypedIntoAWallKeepsItsHeight) {
+  invoke(editor, "add-station-at");
+  gui.frames(4);
+  gui.type(fmt::format("{}", 0.1 + editor.shift_m().x()));
+  gui.key(kKeyTab);
+  gui.frames(3);
+  gui.type(fmt::format("{}", 2 + editor.shift_m().y()));
+  gui.key(kKeyEnter);
+  gui.frames(4);
+  ASSERT_TRUE(editor.view.typed_station);
+  EXPECT_NEAR((editor.view.typed_station->centre - Eigen::Vector3d(0.1, 2, 1.6)).norm(), 0, 1e-6)
+      << "not on the roof above it";
+  EXPECT_TRUE(gui.find("###add-typed")->disabled);
+}
+
 TEST_F(Placing, ANumberThatCannotBeReadTakesTheVerdictOfThePlaceBeforeAway) {
   invoke(editor, "add-station-at");
   gui.frames(4);
@@ -190,7 +206,7 @@ TEST_F(Placing, WordsOverTheViewGoUpWhereThePointerComesNearThem) {
   const ImVec2 origin(300, 60), size(600, 500), text(240, 16);
   const auto heightFor = [&](ImVec2 pointer) {
     ImGui::GetIO().MousePos = pointer;
-    return bannerPlace(editor, origin, size, text, 26).y;
+    return bannersPlace(editor, origin, size, text).y;
   };
   const float low = heightFor({400, 200});
   EXPECT_EQ(low, origin.y + size.y - 16 - editor.px(26));
