@@ -36,7 +36,7 @@ void drawBox(const Model& model, ClipBox box, Actions& actions) {
     double length = 2 * box.half[i];
     if (ui::numberField(fmt::format("###clip-{}", kSides[i]).c_str(), length, side)) box.half[i] = length / 2;
   }
-  ui::propertyLabel("Heading");
+  ui::propertyLabel("Heading from X");
   double heading_deg = box.yaw_rad / kRadPerDeg;
   if (ui::numberField("###clip-heading", heading_deg,
                       {.kind = {.unit = "°", .least = -360, .most = 360}, .decimals = 2, .drag = 0.5},

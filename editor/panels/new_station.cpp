@@ -2,6 +2,8 @@
 #include "editor/panels/new_station.h"
 
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <string>
 
 #include <imgui.h>
@@ -21,6 +23,8 @@ namespace standpoint {
 
 namespace {
 
+constexpr double kSameStorey_m = 1.5;  // from floor to floor, over steps and ramps
+
 struct NewStationState {
   bool shown = false;
   SurveyEdit edit;
@@ -38,15 +42,16 @@ Eigen::Vector3d usualPlace(const Model& model) {
   return (1000 * at.array()).round() / 1000;  // nobody types more than millimetres
 }
 
-// On the floor there that is nearest to the height that it has.
-void putOnFloor(const Model& model, Eigen::Vector3d& at) {
+// On the floor there that is nearest to the height that it has, if it is not farther up or down than this: whoever
+// types a place in a wall is told so, and not put on the roof.
+void putOnFloor(const Model& model, Eigen::Vector3d& at, double farthest_m) {
   const auto scene = model.picker.scene();
   if (!scene) return;
   const Eigen::Vector3d shift = model.shift_m();
   const double wanted = at.z() - shift.z() - kUsualHeight_m;
   std::optional<double> nearest;
   for (const double floor : floorsAt(*scene, at.x() - shift.x(), at.y() - shift.y(), kUsualHeight_m))
-    if (!nearest || std::abs(floor - wanted) < std::abs(*nearest - wanted)) nearest = floor;
+    if (std::abs(floor - wanted) < (nearest ? std::abs(*nearest - wanted) : farthest_m)) nearest = floor;
   if (nearest) at.z() = *nearest + kUsualHeight_m + shift.z();
 }
 
@@ -64,7 +69,7 @@ void drawNewStation(const Model& model, PanelStates& states, Actions& actions) {
   if (!std::exchange(state.shown, true)) {
     edit = {};
     edit.at = usualPlace(model);
-    putOnFloor(model, edit.at);
+    putOnFloor(model, edit.at, std::numeric_limits<double>::infinity());
   }
   takeRefusal(edit, actions);
   const Eigen::Vector3d shift = model.shift_m();
@@ -81,7 +86,7 @@ void drawNewStation(const Model& model, PanelStates& states, Actions& actions) {
     const bool typed = placeRows(edit, "###new-station", model.typing_wanted);
     if (model.typing_wanted) actions.typingBegun();
     if (typed) edit.problem.clear();
-    if (typed && edit.at.z() == before.z()) putOnFloor(model, edit.at);
+    if (typed && edit.at.z() == before.z()) putOnFloor(model, edit.at, kSameStorey_m);
     if (typed || edit.refused != was_refused) actions.holdNewStation({edit.at - shift, edit.refused});
     if (const auto storey = storeyNameAt(model, edit.at.z() - shift.z() - kUsualHeight_m); !storey.empty())
       ui::property("Storey", storey);

@@ -141,7 +141,7 @@ void drawWorst(const Model& model, Actions& actions, const SimplifiedModel& ligh
     ImGui::TableNextColumn();
     if (ImGui::Selectable("###worst", model.selection.contains(order[i]), ImGuiSelectableFlags_SpanAllColumns)) {
       actions.reveal(order[i]);
-      actions.frameSelection();
+      actions.showSelection();
     }
     ImGui::SameLine(0, 0);
     ui::fitted(productLabel(model.environment()->products[order[i]]), ImGui::GetContentRegionAvail().x);
@@ -160,6 +160,18 @@ SimplificationRequest requestOf(const Model& model, const OptimiseState& state, 
   return {.budget = state.only_lossless ? 0 : std::max<std::uint64_t>(1, budget),
           .max_deviation_m = state.max_deviation_mm / 1000,
           .by_view = state.by_view && model.session.document().collision};
+}
+
+// A project that is opened was simplified by its own request, not by this form's.
+void followProject(OptimiseState& state, const Document& document, std::uint64_t before) {
+  if (state.followed == document.simplified) return;
+  state.followed = document.simplified;
+  if (state.asked > 0 || !state.followed || before == 0) return;
+  const auto& request = state.followed->request;
+  if (request.budget) state.only_lossless = *request.budget == 0;
+  if (request.budget.value_or(0) > 0)
+    state.budget_fraction = std::min(1.0, static_cast<double>(*request.budget) / static_cast<double>(before));
+  state.max_deviation_mm = request.max_deviation_m * 1000;
 }
 
 // Asks for the model at the sliders' budget, and says what has come of it.
@@ -200,6 +212,7 @@ void draw(const Model& model, OptimiseState& state, Actions& actions) {
     return;
   }
   const auto before = sceneTriangleCount(*document.imported);
+  followProject(state, document, before);
   ui::dimText(trf("The imported model has {} triangles.", groupedDigits(before)));
   ui::gap(model, 2);
   ui::checkbox(ui::Label("Lossless only"), &state.only_lossless);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "project/document.h"
@@ -16,7 +17,8 @@ struct OptimiseState {
   bool by_view = false;  // what walkers see weighs more
   bool live = false;     // the view follows the sliders
   std::string engine = SimplificationRequest().engine;
-  bool budget_wanted = false;  // its field is to be edited
+  bool budget_wanted = false;                       // its field is to be edited
+  std::shared_ptr<const SimplifiedModel> followed;  // whose request the form has begun with
 };
 
 }  // namespace standpoint

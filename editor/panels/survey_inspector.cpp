@@ -41,7 +41,7 @@ struct SurveyInspectorState {
 const NumberFormat kHeading{.kind = {.unit = "°", .least = -360, .most = 360}, .decimals = 2, .drag = 0.5};
 
 bool headingRow(SurveyEdit& edit, const char* help) {
-  ui::propertyLabel("Heading");
+  ui::propertyLabel("Heading from X");
   return ui::numberField("###inspected-heading", edit.heading_deg, kHeading, help);
 }
 

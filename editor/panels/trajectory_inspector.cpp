@@ -480,7 +480,8 @@ void drawPathCoverage(const Model& model, Actions& actions, const CarriedTraject
   if (ui::button(ICON_EYE "  Compute coverage###coverage-along", why, {-FLT_MIN, 0},
                  "What is covered along this trajectory, and why the rest is blind"))
     actions.start(coverageOf(model, trajectory), trf("Coverage along {}", trajectory.name));
-  if (instrument != nullptr) ui::dimText(trf("{} {}, as set in the Scan panel", instrument->maker, instrument->model));
+  if (instrument != nullptr)
+    ui::dimText(trf("{} {}, as chosen for scans along trajectories", instrument->maker, instrument->model));
   const auto* last = model.session.lastOf("coverage");
   const auto* answer = last == nullptr ? nullptr : answerAs<CoverageAnswer>(last->answer);
   if (answer == nullptr || answer->trajectories.size() != 1 || answer->trajectories[0].trajectory != trajectory.name)

@@ -39,9 +39,7 @@ bool editsText(const Editor& editor) {
 }
 
 // A bar or a button that is held: the widget itself sees Esc, and puts back what it moved.
-bool holdsWidget() {
-  return ImGui::GetCurrentContext()->ActiveId != 0 && ImGui::IsAnyMouseDown() && topPopup() == nullptr;
-}
+bool holdsWidget() { return ImGui::GetCurrentContext()->ActiveId != 0 && ImGui::IsAnyMouseDown(); }
 
 bool dragsInView(const Editor& editor) {
   const auto& view = editor.view;
@@ -97,8 +95,9 @@ void askForClick() {
 
 EscapeLayer escapeLayer(const Editor& editor) {
   if (editsText(editor)) return EscapeLayer::text;
-  if (ImGui::GetCurrentContext()->DragDropActive || dragsInView(editor) || holdsWidget()) return EscapeLayer::drag;
+  if (ImGui::GetCurrentContext()->DragDropActive) return EscapeLayer::drag;
   if (const auto* top = topPopup()) return isModal(*top) ? EscapeLayer::modal : EscapeLayer::popup;
+  if (dragsInView(editor) || holdsWidget()) return EscapeLayer::drag;
   if (editor.preview.isOpen()) return EscapeLayer::preview;
   if (editor.proof) return EscapeLayer::proof;
   if (editor.bearer_view.active()) return EscapeLayer::play;
@@ -134,6 +133,7 @@ void leaveTool(Editor& editor) {
   if (editor.walk_ground.preparing()) return giveUpWalk(editor);
   editor.view.refused_place.reset();
   editor.view.worst_place.reset();
+  editor.visibility.endCutForSight();
   if (editor.fieldwork.at_screen) return lookUp(editor);
   if (editor.view.row_from) return editor.view.row_from.reset();  // the first end is chosen anew
   if (editor.view.tool == Tool::measure && !editor.view.measuring.points.empty())

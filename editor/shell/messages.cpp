@@ -367,7 +367,8 @@ void drawVerbDialog(Editor& editor) {
   const bool edited = state.form.options() != state.begun_with;
   std::string why = editor.session.whyNot(state.verb);
   if (why.empty()) why = state.form.problem();
-  if (ui::primaryButton(state.exports ? "Export###run" : "Run###run", why, {editor.px(110), 0})) {
+  const bool accepted = why.empty() && ui::modalAccepted();
+  if (ui::primaryButton(state.exports ? "Export###run" : "Run###run", why, {editor.px(110), 0}) || accepted) {
     editor.session.startAndShow(state.verb, state.form.options(), taskTitle(state));
     state.open = false;
   }

@@ -145,7 +145,7 @@ void drawKinds(ShotDialog& dialog) {
     const bool chosen = row.kind == dialog.kind;
     if (ui::radioButton(fmt::format("{}###shot-{}", tr(row.title), row.id).c_str(), chosen) && !chosen)
       choose(dialog, row.kind);
-    ui::tooltip(row.help);
+    ui::tooltip(tr(row.title) + ": " + tr(row.help));
   }
 }
 
@@ -233,13 +233,6 @@ void askForFileThenBegin(Editor& editor) {
              [&editor](const std::filesystem::path& chosen) { begin(editor, chosen); });
 }
 
-// In the dialog itself: not in a field, which takes over what was typed, nor in an open list.
-bool enterPressed() {
-  return (keyboard::pressed(kKeyEnter) || keyboard::pressed(kKeyPadEnter)) && !ImGui::GetIO().WantTextInput &&
-         !ui::dropDownIsOpen() &&
-         ImGui::IsWindowFocused(ImGuiFocusedFlags_ChildWindows | ImGuiFocusedFlags_NoPopupHierarchy);
-}
-
 void drawSetup(Editor& editor) {
   auto& dialog = editor.shots;
   drawKinds(dialog);
@@ -249,7 +242,7 @@ void drawSetup(Editor& editor) {
   drawMade(editor, dialog);
   ui::gap(editor, 4);
   const auto why = whyNot(editor);
-  if (ui::primaryButton("Save as…###shot-make", why, {editor.px(110), 0}) || (why.empty() && enterPressed()))
+  if (ui::primaryButton("Save as…###shot-make", why, {editor.px(110), 0}) || (why.empty() && ui::modalAccepted()))
     askForFileThenBegin(editor);
   ImGui::SameLine();
   if (ImGui::Button(ui::Label("Close###shot-close"), {editor.px(110), 0}) || ui::modalCancelled()) dialog.open = false;

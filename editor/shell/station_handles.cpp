@@ -113,7 +113,7 @@ void setUp(Editor& editor, const Station& station, const HandledStation& s) {
 
 std::string handleText(const HandledStation& s, StationHandle handle) {
   switch (handle) {
-    case StationHandle::heading: return trf("Heading {:.0f}°", s.yaw_rad / kRadPerDeg);
+    case StationHandle::heading: return trf("Heading {:.0f}° from X", s.yaw_rad / kRadPerDeg);
     case StationHandle::height: return trf("Instrument height {:.2f} m", s.height_m);
     case StationHandle::tilt:
       return s.tilt.angle_rad > 0

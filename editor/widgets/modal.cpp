@@ -7,6 +7,8 @@
 #include <imgui_internal.h>
 
 #include "editor/model/style.h"
+#include "editor/widgets/drop_down.h"
+#include "editor/widgets/keyboard.h"
 #include "editor/widgets/widgets.h"
 
 namespace standpoint::ui {
@@ -68,6 +70,12 @@ bool modalCancelled(bool keeps_at_click) {
   if (!asked_to_go.click || !keeps_at_click) return true;
   shaken = {own, ImGui::GetTime()};
   return false;
+}
+
+bool modalAccepted() {
+  return (keyboard::pressed(kKeyEnter) || keyboard::pressed(kKeyPadEnter)) && !ImGui::GetIO().WantTextInput &&
+         !dropDownIsOpen() &&
+         ImGui::IsWindowFocused(ImGuiFocusedFlags_ChildWindows | ImGuiFocusedFlags_NoPopupHierarchy);
 }
 
 void askModalToGo(ImGuiID popup, bool click) { asked_to_go = {popup, ImGui::GetFrameCount(), click}; }

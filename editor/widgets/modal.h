@@ -17,6 +17,10 @@ bool beginModal(const Style& style, const char* english, bool wanted, float widt
 // entered, or asks what must be decided, shakes at a click instead; Esc always means Cancel.
 bool modalCancelled(bool keeps_at_click = false);
 
+// In an open modal: whether Enter was pressed in the dialog itself: not in a field, which takes over what was typed,
+// nor in an open list.
+bool modalAccepted();
+
 // What Esc (`click` false) or a click beside it asks the modal with this id. For the frame that begins now.
 void askModalToGo(ImGuiID popup, bool click);
 

@@ -125,18 +125,21 @@ bool hasRested(ImVec2 place) {
   return rested.shown;
 }
 
-// Where the tooltip covers no other control: beside the panel or dialog that the item is in, where that is narrow; else
-// below the item, or above it.
+// Where the tooltip covers no other control: beside the panel or dialog that the item is in, where that is narrow and
+// the item lies near that side; else below the item, or above it.
 void placeTooltip(ImVec2 size, bool above) {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax(), screen = ImGui::GetIO().DisplaySize;
   const auto* panel = ImGui::GetCurrentWindow()->RootWindow;
   const float gap = ImGui::GetFontSize() * 0.4F, left = panel->Pos.x, right = panel->Pos.x + panel->Size.x;
   ImVec2 at{low.x, high.y + gap};
+  constexpr float kNear = 16;  // heights of a line
+  const bool to_the_right = screen.x - right >= size.x + gap;
   const bool modal = (panel->Flags & ImGuiWindowFlags_Modal) != 0;
   if (above && size.y <= (low.y + high.y) / 2)  // of the item itself a part may be covered
     at.y = low.y - gap - size.y;
-  else if (panel->Size.x < screen.x * (modal ? 0.48F : 0.36F) && panel->Size.y > 4 * (high.y - low.y))
-    at = {screen.x - right >= size.x + gap ? right + gap : left - gap - size.x, low.y};
+  else if (panel->Size.x < screen.x * (modal ? 0.48F : 0.36F) && panel->Size.y > 4 * (high.y - low.y) &&
+           (to_the_right ? right - high.x : low.x - left) < kNear * ImGui::GetFontSize())
+    at = {to_the_right ? right + gap : left - gap - size.x, low.y};
   else if (at.y + size.y > screen.y)
     at.y = low.y - gap - size.y;
   ImGui::SetNextWindowPos({std::clamp(at.x, 0.0F, std::max(0.0F, screen.x - size.x)),
@@ -406,7 +409,7 @@ void tableHead(std::initializer_list<int> figures) {
   for (int column = 0; column < ImGui::TableGetColumnCount(); ++column) {
     if (!ImGui::TableSetColumnIndex(column)) continue;
     const char* name = ImGui::TableGetColumnName(column);
-    const float free = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(name).x;
+    const float free = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(name, nullptr, true).x;
     if (free > 0 && std::find(figures.begin(), figures.end(), column) != figures.end())
       ImGui::SetCursorPosX(ImGui::GetCursorPosX() + free);
     ImGui::PushID(column);

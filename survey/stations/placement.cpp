@@ -154,12 +154,11 @@ std::optional<Refusal> StationPlacement::badGround(const Eigen::Vector3d& centre
                     ground->modelled() ? ground->product : "the lowest level of the model", height, lowest_m()),
         fmt::format("raise it by {:.2f} m, or {}", lowest_m() - height, elsewhere),
         fmt::format("Only {:.2f} m above ground", height)};
-  if (ground->slope_rad > stand_.steepest_rad)
-    return Refusal{
-        fmt::format("the ground below is {} of {:.0f} degrees, {}, beyond the limit of {:.0f} degrees for a tripod",
-                    ground->slope_rad > stand_.wall_rad ? "a wall" : "a slope", ground->slope_rad / kRadPerDeg,
-                    ground->product, stand_.steepest_rad / kRadPerDeg),
-        elsewhere, steepText(ground->slope_rad, scene_.environment().products[*ground->index])};
+  if (ground->slope_rad >= stand_.steepest_rad)
+    return Refusal{fmt::format("the ground below is {} of {:.0f} degrees, {}; a tripod needs less than {:.0f} degrees",
+                               ground->slope_rad > stand_.wall_rad ? "a wall" : "a slope",
+                               ground->slope_rad / kRadPerDeg, ground->product, stand_.steepest_rad / kRadPerDeg),
+                   elsewhere, steepText(ground->slope_rad, scene_.environment().products[*ground->index])};
   return noFooting(centre, *ground);
 }
 
@@ -185,9 +184,9 @@ std::optional<Refusal> StationPlacement::noFooting(const Eigen::Vector3d& centre
 
 std::optional<Refusal> StationPlacement::whyNotOn(const RayHit& hit, double height_m) const {
   const double slope = slopeOf(hit);
-  if (slope > stand_.steepest_rad)
+  if (slope >= stand_.steepest_rad)
     return Refusal{
-        fmt::format("this is {} of {:.0f} degrees, {}, beyond the limit of {:.0f} degrees for a tripod",
+        fmt::format("this is {} of {:.0f} degrees, {}; a tripod needs less than {:.0f} degrees",
                     slope > stand_.wall_rad ? "a wall" : "a slope", slope / kRadPerDeg,
                     productText(scene_.environment().products[hit.product]), stand_.steepest_rad / kRadPerDeg),
         "choose a point on a floor", steepText(slope, scene_.environment().products[hit.product])};

@@ -165,6 +165,20 @@ TEST_F(Dialogs, NamesWhatTheExportWritesPlainlyAndSaysWhyThereAreNoPoints) {
   EXPECT_EQ(whyNot(*findAction("export-points"), Editor(verbsWithDemo(), [] {})), "Scan first, or add a point cloud");
 }
 
+TEST_F(Dialogs, EnterExports) {
+  open();
+  const TemporaryFolder folder;
+  editor.settings.last_folder = folder.path().string();
+  ASSERT_TRUE(invoke(editor, "export"));
+  gui.frames(3);
+  ASSERT_EQ(editor.dialogs.verb.form.problem(), "");
+  const std::filesystem::path file = editor.dialogs.verb.form.find("output")->text;
+  gui.key(kKeyEnter);
+  gui.settle();
+  EXPECT_FALSE(editor.dialogs.verb.open);
+  EXPECT_TRUE(std::filesystem::exists(file)) << file;
+}
+
 TEST_F(Dialogs, ExportsUnderTheProjectsNameWhereNothingIsYet) {
   open();
   const TemporaryFolder folder;

@@ -144,6 +144,20 @@ TEST_F(Escape, ClosesEveryMenu) {
   }
 }
 
+TEST_F(Escape, ClosesAMenuBeforeItEndsTheChoiceOfAPlaceBelowIt) {
+  layOut();
+  editor.view.teleport.by_click = true;
+  ASSERT_TRUE(gui.click("View"));
+  gui.frames(2);
+  gui.key(kKeyEscape);
+  gui.frames(3);
+  EXPECT_EQ(openPopups(), 0);
+  EXPECT_TRUE(editor.view.teleport.active());
+  gui.key(kKeyEscape);
+  gui.frames(2);
+  EXPECT_FALSE(editor.view.teleport.active());
+}
+
 TEST_F(Escape, AClickBesideClosesEveryMenu) {
   for (const char* menu : {"File", "Edit", "View", "Run", "Help"}) {
     layOut();

@@ -506,6 +506,22 @@ TEST_F(Gui, OptimisesByItsDefaultsWithoutALoss) {
   EXPECT_TRUE(gui.says("cannot be reached within this deviation"));
 }
 
+TEST_F(Gui, OptimisingBeginsWithTheRequestOfTheProjectThatIsOpened) {
+  open();
+  gui.settle();
+  ASSERT_TRUE(editor.session.start(SimplificationRequest{.budget = 40, .max_deviation_m = 0.03}));
+  gui.settle();
+  ASSERT_NE(editor.session.document().simplified, nullptr);
+  editor.workspace = Workspace::optimise;
+  editor.wanted_tab[1] = "optimise";
+  gui.frames(3);
+  const auto whole = static_cast<double>(sceneTriangleCount(*editor.session.document().imported));
+  const auto& form = editor.panels.of<OptimiseState>();
+  EXPECT_NEAR(form.budget_fraction * whole, static_cast<double>(*editor.session.document().simplified->request.budget),
+              1e-6);
+  EXPECT_NEAR(form.max_deviation_mm, 30, 1e-9);
+}
+
 TEST_F(Gui, TakesTheBudgetInTrianglesToo) {
   open();
   editor.workspace = Workspace::optimise;
