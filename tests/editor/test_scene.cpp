@@ -38,6 +38,22 @@ TEST(FeatureEdges, OfASheetAreItsRim) {
   EXPECT_EQ(featureEdges(sheet, 0.5).size(), 4U);
 }
 
+// A corner on the diagonal of a sheet, joined to one half of it by a triangle without area: nothing to draw. Folded
+// along the diagonal, that is drawn, in its two parts.
+TEST(FeatureEdges, TakeATriangleWithoutAreaForNoFace) {
+  for (const bool folded : {false, true}) {
+    Mesh sheet;
+    sheet.positions = {{0, 0, 0}, {1, 0, folded ? 0.5F : 0}, {1, 1, 0}, {0, 1, 0}, {0.25F, 0.25F, 0}};
+    sheet.triangles = {{0, 1, 4}, {1, 2, 4}, {0, 4, 2}, {0, 2, 3}};
+    sheet.surface_of_triangle = {0, 0, 0, 0};
+    const auto edges = featureEdges(sheet, 0.5);
+    EXPECT_EQ(edges.size(), folded ? 6U : 4U);
+    EXPECT_EQ(std::count(edges.begin(), edges.end(), EdgeLine{0, 4}), folded ? 1 : 0);
+    EXPECT_EQ(std::count(edges.begin(), edges.end(), EdgeLine{2, 4}), folded ? 1 : 0);
+    EXPECT_EQ(std::count(edges.begin(), edges.end(), EdgeLine{0, 2}), 0) << "its parts are drawn";
+  }
+}
+
 TEST(FeatureEdges, OfNothingAreNone) { EXPECT_TRUE(featureEdges(Mesh(), 0.5).empty()); }
 
 ViewState demoState(const Document& document) {
