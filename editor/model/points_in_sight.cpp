@@ -93,7 +93,7 @@ void bringPointsIntoView(Model& model) {
   const auto cloud = model.cloud();
   if (!cloud || cloud->points.empty() || model.proof || model.preview.isOpen()) return;
   auto& view = model.view;
-  auto& cut = model.visibility.cut_height_m;
+  const auto& cut = model.visibility.cut_height_m;
   const auto clipped_in = [&](const Vector3d& place) { return !view.clip.box || view.clip.box->contains(place); };
   const auto kept = [&](const Vector3d& place) { return (!cut || place.z() <= *cut) && clipped_in(place); };
   Bounds around = boundsOfMost(*cloud, clipped_in);
@@ -102,7 +102,7 @@ void bringPointsIntoView(Model& model) {
   rememberView(model);
   stopWalking(model);
   stopFlying(model);
-  cut = cutOver(model, stationsOf(model, *cloud));
+  model.visibility.cutForSight(cutOver(model, stationsOf(model, *cloud)));
   if (cut) around.max.z() = std::max(around.min.z(), std::min(around.max.z(), *cut));
   view.camera.orthographic = false;
   view.camera.view_angle_rad = Camera().view_angle_rad;

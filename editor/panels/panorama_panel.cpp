@@ -181,11 +181,12 @@ void draw(const Model& model, PanoramaState& state, Actions& actions) {
   chooseChannel(read->panorama, state);
   paint(state, actions, read);
   if (state.channel != PanoramaChannel::colour) {
-    ImGui::SameLine();
     const auto scale = state.channel == PanoramaChannel::range
                            ? trf("{:.2f} m (dark) to {:.2f} m (yellow)", state.shades.low, state.shades.high)
                            : trf("{:.3g} (dark) to {:.3g} (light)", state.shades.low, state.shades.high);
-    ui::fitted(scale, ImGui::GetContentRegionAvail().x);
+    ImGui::SameLine();
+    if (ImGui::CalcTextSize(scale.c_str()).x > ImGui::GetContentRegionAvail().x) ImGui::NewLine();
+    ui::dimText(scale);
   }
   drawPicture(model, state, actions, *read);
 }

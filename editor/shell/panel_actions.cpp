@@ -97,6 +97,7 @@ void PanelActions::showScans(const std::vector<std::filesystem::path>& files) {
 }
 void PanelActions::showDifference(const CloudDistances& distances, const Pose& local_from_cloud, const char* title) {
   editor_.showDifference(distances, local_from_cloud, title);
+  editor_.points_sought = true;
 }
 void PanelActions::drawScansAt(ScanPoses poses) { editor_.view.poses = poses; }
 

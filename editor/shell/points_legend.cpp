@@ -46,7 +46,7 @@ std::string clampText(const PointLegend& legend) {
 
 // In a low view colours and figures alone: the histogram and its shares would hide much of what they are about.
 void drawScale(Editor& editor, const PointLegend& legend, ImVec2 origin, ImVec2 size) {
-  constexpr float kLow_pt = 320;
+  constexpr float kLow_pt = 440;
   auto& list = *ImGui::GetWindowDrawList();
   const bool low = size.y < editor.px(kLow_pt);
   const float line = ImGui::GetTextLineHeight(), width = editor.px(low ? 220.0F : 320.0F), bar = editor.px(10);
