@@ -57,7 +57,7 @@ Eigen::Vector3f normal(const Mesh& mesh, std::uint32_t triangle) {
   return (mesh.positions[t[1]] - mesh.positions[t[0]]).cross(mesh.positions[t[2]] - mesh.positions[t[0]]).normalized();
 }
 
-constexpr std::uint32_t kNone = 0xFFFFFFFF;
+constexpr std::uint32_t kNoNeighbour = 0xFFFFFFFF;
 
 // Triangles that are only there to join a corner to a side that it lies on: they have no plane. Two faces meet at one
 // as if it were not there: at each of its shorter sides with what lies beyond its longest one.
@@ -78,17 +78,17 @@ class Needles {
     const auto t = sides_[side].triangle;
     return thin_[t] && isSame(sides_[longest_[t]], sides_[side]);
   }
-  // The triangle that counts at this side; kNone where the surface ends there.
+  // The triangle that counts at this side; kNoNeighbour where the surface ends there.
   std::uint32_t behind(std::uint32_t side) const {
     constexpr int kMostInARow = 32;
     auto triangle = sides_[side].triangle;
     const Eigen::Vector3f middle = middleOf(sides_[side]);
     auto entered = side;
-    for (int i = 0; i < kMostInARow && triangle != kNone && thin_[triangle]; ++i) {
+    for (int i = 0; i < kMostInARow && triangle != kNoNeighbour && thin_[triangle]; ++i) {
       const bool by_longest = isSame(sides_[longest_[triangle]], sides_[entered]);
       const auto left_by = by_longest ? nearest(triangle, middle) : longest_[triangle];
       entered = beyond(left_by);
-      triangle = entered == kNone ? kNone : sides_[entered].triangle;
+      triangle = entered == kNoNeighbour ? kNoNeighbour : sides_[entered].triangle;
     }
     return triangle;
   }
@@ -101,7 +101,7 @@ class Needles {
   // The same side of another triangle.
   std::uint32_t beyond(std::uint32_t side) const {
     if (side + 1 < sides_.size() && isSame(sides_[side + 1], sides_[side])) return side + 1;
-    return side > 0 && isSame(sides_[side - 1], sides_[side]) ? side - 1 : kNone;
+    return side > 0 && isSame(sides_[side - 1], sides_[side]) ? side - 1 : kNoNeighbour;
   }
   // Of its two shorter sides the one that this place lies on.
   std::uint32_t nearest(std::uint32_t triangle, const Eigen::Vector3f& place) const {
@@ -148,7 +148,7 @@ std::vector<EdgeLine> featureEdges(const Mesh& mesh, double angle_rad) {
     const auto first = needles.behind(i);
     for (std::uint32_t j = i + 1; j < end && !sharp && !drawn_in_parts; ++j) {
       const auto other = needles.behind(j);
-      sharp = first == kNone || other == kNone ||
+      sharp = first == kNoNeighbour || other == kNoNeighbour ||
               (first != other && std::abs(normal(mesh, first).dot(normal(mesh, other))) < flat);
     }
     if (sharp && !drawn_in_parts) edges.push_back({all[i].low, all[i].high});
