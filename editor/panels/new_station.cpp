@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/panels/new_station.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "editor/panels/place_verdict_row.h"
 #include "editor/panels/survey_edit.h"
 #include "editor/widgets/icons.h"
+#include "editor/widgets/verdict_sign.h"
 #include "editor/widgets/widgets.h"
 #include "survey/stations/station_places.h"
 #include "survey/stations/storeys.h"
@@ -55,6 +57,17 @@ void putOnFloor(const Model& model, Eigen::Vector3d& at, double farthest_m) {
   if (nearest) at.z() = *nearest + kUsualHeight_m + shift.z();
 }
 
+// Whose tripod the new one would stand on; null: nobody's.
+const Station* tripodAt(const Job& job, const Eigen::Vector3d& centre) {
+  constexpr double kFeet_m = 0.5;
+  const auto& stations = job.stations;
+  const auto found = std::find_if(stations.begin(), stations.end(), [&](const Station& s) {
+    const Eigen::Vector3d away = s.true_pose.translation - centre;
+    return away.head<2>().norm() < kFeet_m && std::abs(away.z()) < 2 * kUsualHeight_m;
+  });
+  return found == stations.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 void drawNewStation(const Model& model, PanelStates& states, Actions& actions) {
@@ -92,13 +105,22 @@ void drawNewStation(const Model& model, PanelStates& states, Actions& actions) {
       ui::property("Storey", storey);
     ui::endProperties();
   }
-  if (!edit.refused && edit.problem.empty()) drawPlaceVerdict(model, edit.at - shift, true);
+  const auto job = model.session.document().job;  // a copy: the button changes it
+  const auto* there = tripodAt(*job, edit.at - shift);
+  const std::string taken = there != nullptr ? trf("{} stands there", there->name) : std::string();
+  if (!edit.refused && edit.problem.empty() && there == nullptr) {
+    drawPlaceVerdict(model, edit.at - shift, true);
+  } else if (there != nullptr) {
+    ui::verdict(Verdict::bad);
+    ui::wrapped(withVerdictWord(Verdict::bad, taken));
+  }
   drawProblem(edit);
   const auto* found = verdictOfStation(model, edit.at - shift, true);
   const bool bad = found != nullptr && found->verdict == Verdict::bad;
-  const auto why = edit.refused ? "Correct the number in the red frame first"
-                   : bad        ? found->brief
-                                : model.session.whyNot("station");
+  const auto why = edit.refused     ? "Correct the number in the red frame first"
+                   : !taken.empty() ? taken
+                   : bad            ? found->brief
+                                    : model.session.whyNot("station");
   if (ui::button(trf(ICON_CHECK "  Add {} here###add-typed", name).c_str(), why, {-FLT_MIN, 0},
                  "Add the station at these coordinates")) {
     actions.holdNewStation({edit.at - shift});

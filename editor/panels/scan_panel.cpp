@@ -224,10 +224,12 @@ void drawForecast(const Model& model, const ScanState& state, const ScanChoice& 
   }
   if (!ui::beginProperties("forecast", 0.46F)) return;
   const double seconds = settings.scan_seconds + settings.imaging_seconds;
-  ui::property("Instrument time", wanted.size() > 1 ? fmt::format("{} × {}  =  {}", wanted.size(),
-                                                                  durationText(seconds), durationText(count * seconds))
-                                                    : durationText(seconds));
   const std::string waiting = wanted.empty() ? tr("no stations") : "…";
+  ui::property("Instrument time",
+               wanted.empty() ? trf("{} each", durationText(seconds))
+               : wanted.size() > 1
+                   ? fmt::format("{} × {}  =  {}", wanted.size(), durationText(seconds), durationText(count * seconds))
+                   : durationText(seconds));
   ui::property("Points", outlook ? trf("about {:.1f} million", outlook->points / 1e6) : waiting);
   ui::tooltip("Estimated from some thousand rays in clear air");
   ui::property("As E57", outlook ? trf("about {}", readableSize(static_cast<std::uint64_t>(outlook->bytes))) : waiting);

@@ -68,10 +68,23 @@ bool placeRows(SurveyEdit& edit, const char* id, bool focus_first) {
   return changed;
 }
 
+namespace {
+
+// What a remedy says for the command line alone: " (--on 8,3,1.6)".
+std::string withoutOptions(std::string text) {
+  for (auto begin = text.find(" (--"); begin != std::string::npos; begin = text.find(" (--")) {
+    const auto end = text.find(')', begin);
+    text.erase(begin, end == std::string::npos ? end : end + 1 - begin);
+  }
+  return text;
+}
+
+}  // namespace
+
 void drawProblem(SurveyEdit& edit) {
   if (edit.problem.empty()) return;
   ImGui::PushStyleColor(ImGuiCol_Text, tone::kBad);
-  ui::wrapped(shownSentence(edit.problem));
+  ui::wrapped(withoutOptions(shownSentence(edit.problem)));
   ImGui::PopStyleColor();
   if (ui::button("Revert###revert-inspected")) edit = {};
 }

@@ -161,6 +161,20 @@ TEST_F(Placing, APlaceThatIsTypedIntoAWallKeepsItsHeight) {
   EXPECT_TRUE(gui.find("###add-typed")->disabled);
 }
 
+TEST_F(Placing, NoStationIsAddedWhereTheTripodOfAnotherStands) {
+  invoke(editor, "add-station-at");
+  gui.frames(4);
+  const Eigen::Vector3d taken = job().stations[0].true_pose.translation + editor.shift_m();
+  gui.type(fmt::format("{}", taken.x() + 0.1));
+  gui.key(kKeyTab);
+  gui.frames(3);
+  gui.type(fmt::format("{}", taken.y()));
+  gui.key(kKeyEnter);
+  gui.frames(4);
+  EXPECT_TRUE(gui.says("Bad: S1 stands there"));
+  EXPECT_TRUE(gui.find("###add-typed")->disabled);
+}
+
 TEST_F(Placing, ANumberThatCannotBeReadTakesTheVerdictOfThePlaceBeforeAway) {
   invoke(editor, "add-station-at");
   gui.frames(4);
