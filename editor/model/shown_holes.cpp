@@ -95,7 +95,7 @@ ShownHoles shownHoles(const Model& model) {
   const auto& session = model.session;
   const auto *plan = session.lastOf("plan"), *assess = session.lastOf("assess"), *walked = session.lastOf("coverage");
   for (const auto& task : session.finished()) {
-    if ((&task != plan && &task != assess && &task != walked) || task.revision != session.revision()) continue;
+    if ((&task != plan && &task != assess && &task != walked) || session.isOutOfDate(task)) continue;
     if (const auto* answer = answerAs<PlanAnswer>(task.answer)) return {&answer->patches, ShownHoles::Of::plan};
     if (const auto* answer = answerAs<AssessAnswer>(task.answer)) return {&answer->patches, ShownHoles::Of::scans};
     if (const auto* answer = answerAs<CoverageAnswer>(task.answer))

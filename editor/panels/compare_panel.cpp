@@ -107,7 +107,7 @@ std::string number(double value, int decimals) { return figures("{:.{}f}", value
 
 std::string changeText(const Row& row) {
   constexpr double kManyTimes = 10;
-  if (row.unit == "%") return figures("{:+.{}f} pp", row.b - row.a, row.decimals);  // percentage points
+  if (row.unit == "%") return trf("{} pp", figures("{:+.{}f}", row.b - row.a, row.decimals));  // percentage points
   if (row.a == 0) return figures("{:+.{}f}", row.b - row.a, row.decimals);
   if (row.b / row.a >= kManyTimes) return figures("× {:.1f}", row.b / row.a);
   return figures("{:+.1f} %", (row.b / row.a - 1) * 100);
@@ -200,7 +200,11 @@ void goToLargest(const CompareState& state, const CompareAnswer& answer, const M
     at = cloud->local_from_cloud * largest.at_m;
   const double d = largest.distance_m;
   const auto far = d < 1 ? figures("{:.0f} mm", d * 1000) : figures("{:.1f} m", d);
-  actions.showWorstPlace({at, trf("On average {} in one cubic metre of {}", far, of_b ? "B" : "A"), {}, true});
+  actions.showWorstPlace({at,
+                          trf("{} points of {} in one cubic metre, on average {} from {}",
+                              groupedDigits(largest.points), of_b ? "B" : "A", far, of_b ? "A" : "B"),
+                          {},
+                          true});
 }
 
 // Where they differ, in the view: at once when they have been compared.

@@ -110,7 +110,10 @@ void drawTypedStation(const Editor& editor, const ViewPen& pen, const TypedStati
   const HeldStation held{"", below ? centre.z() - below->position.z() : kUsualHeight_m, Eigen::Quaterniond::Identity()};
   const Vector3d floor = centre - Vector3d(0, 0, held.height_m);
   drawHeldStation(editor, pen, held, floor, verdict->verdict);
-  if (const auto place = pen.at(centre))
+  const auto pixel = project(editor.view.camera, centre, editor.view.size);
+  const Eigen::AlignedBox2d view(Eigen::Vector2d::Zero(), editor.view.size);
+  const auto place = pen.at(centre);
+  if (place && pixel && view.contains(*pixel))  // no words without their tripod
     pen.verdict({place->x + editor.px(20), place->y + editor.px(16)}, verdict->verdict, trSentence(verdict->brief));
 }
 

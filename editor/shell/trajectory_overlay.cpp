@@ -33,7 +33,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRibbonHalf_m = 0.16;
+constexpr double kRibbonHalf_m = 0.16, kOnFoot = 0.4;  // as wide for whoever stands on it
+constexpr double kLeastLeg_m = 0.05;
 constexpr double kRibbonAbove_m = 0.03;  // of the ribbon, so that the floor does not hide it
 constexpr std::size_t kSegments = 500, kSegmentsOfOthers = 160;
 constexpr double kArrowEvery_m = 2.5;
@@ -146,8 +147,8 @@ bool quad(const ViewPen& pen, const std::array<Vector3d, 4>& corners, ImU32 tone
 }
 
 // Which way it goes.
-void arrow(const ViewPen& pen, const Vector3d& at, const Vector3d& way, ImU32 tone) {
-  const Vector3d ahead = way.normalized() * 0.22, side = across(way) * 0.75;
+void arrow(const ViewPen& pen, const Vector3d& at, const Vector3d& way, double size, ImU32 tone) {
+  const Vector3d ahead = way.normalized() * size * 0.22, side = size * across(way) * 0.75;
   const auto tip = pen.at(at + ahead), left = pen.at(at - ahead * 0.4 + side), right = pen.at(at - ahead * 0.4 - side);
   if (tip && left && right) ImGui::GetWindowDrawList()->AddTriangleFilled(*tip, *left, *right, tone);
 }
@@ -164,12 +165,13 @@ void drawRibbon(const Editor& editor, const ViewState& state, const ViewPen& pen
   Vector3d from = onRibbon(way, samples.front());
   Vector3d side_before = Vector3d::Zero();
   double since_arrow = kArrowEvery_m / 2;
+  const double wide = editor.walk.active() ? kOnFoot : 1;
   std::vector<std::array<Vector3d, 2>> arrows;  // over the whole ribbon, which would cover parts of them
   for (std::size_t i = 0; i + 1 < samples.size(); i += step) {
     const std::size_t there = std::min(i + step, samples.size() - 1);
     const Vector3d to = onRibbon(way, samples[there]), leg = to - from;
-    if (leg.norm() < 1e-4) continue;  // it stands
-    const Vector3d side = across(leg), before = side_before.isZero() ? side : side_before;
+    if (leg.norm() < kLeastLeg_m) continue;  // it stands, or sways
+    const Vector3d side = wide * across(leg), before = side_before.isZero() ? side : side_before;
     if (!keeps(state, to, kMarkAboveFloor_m)) {
       from = to, side_before = side;
       continue;
@@ -186,7 +188,7 @@ void drawRibbon(const Editor& editor, const ViewState& state, const ViewPen& pen
     from = to, side_before = side;
   }
   list.Flags = flags;
-  for (const auto& [at, leg] : arrows) arrow(pen, at, leg, IM_COL32(20, 22, 26, chosen ? 235 : 150));
+  for (const auto& [at, leg] : arrows) arrow(pen, at, leg, wide, IM_COL32(20, 22, 26, chosen ? 235 : 150));
 }
 
 void drawObstacles(const ViewState& state, const ViewPen& pen, LabelBoard& labels, const TrajectoryWay& way,

@@ -436,7 +436,7 @@ const std::array kView = {
            nullptr,
            [](const Editor& e) { return e.settings.sounds; }},
     Action{"language-system",
-           "Language: as the system",
+           "Language: As the system",
            "",
            {},
            [](Editor& e) { chooseLanguage(e, ""); },

@@ -154,7 +154,7 @@ void click(Editor& editor) {
   if (hit && add)
     editor.selection.toggle(hit->product);
   else if (hit)
-    editor.select(hit->product, true);
+    editor.survey = {}, editor.select(hit->product, true);
   else if (!add)
     editor.selection.clear();
 }

@@ -85,7 +85,7 @@ std::optional<LargestDifference> largestOf(const CloudDistances& distances) {
   struct Sum {
     Eigen::Vector3d place = Eigen::Vector3d::Zero();
     double counted = 0, distance = 0;
-    std::size_t points = 0;
+    std::uint64_t points = 0;
   };
   std::map<std::array<std::int64_t, 3>, Sum> cells;
   for (std::size_t i = 0; i < distances.place_m.size(); ++i) {
@@ -102,7 +102,7 @@ std::optional<LargestDifference> largestOf(const CloudDistances& distances) {
       cells.begin(), cells.end(), [](const auto& a, const auto& b) { return a.second.counted < b.second.counted; });
   if (largest == cells.end() || !(largest->second.counted > 0)) return std::nullopt;
   const auto& sum = largest->second;
-  return LargestDifference{distances.origin_m + sum.place / sum.counted, sum.distance / sum.counted};
+  return LargestDifference{distances.origin_m + sum.place / sum.counted, sum.distance / sum.counted, sum.points};
 }
 
 }  // namespace

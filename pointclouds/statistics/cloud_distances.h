@@ -43,6 +43,7 @@ class PlaceSampler final : public PointSink {
 struct LargestDifference {
   Eigen::Vector3d at_m = Eigen::Vector3d::Zero();  // frame of the cloud's file
   double distance_m = 0;                           // mean of the points there
+  std::uint64_t points = 0;
 };
 
 // How far an even part of a cloud is from another cloud: from the plane through the points of the other one nearby,

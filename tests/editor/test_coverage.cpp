@@ -176,6 +176,9 @@ TEST_F(Gaps, AreThereOnceTheCoverageIsComputedAndGoWhenTheProjectChanges) {
   ASSERT_TRUE(editor.session.start(StationOptions{.remove = "S1"}));
   gui.settle();
   EXPECT_EQ(shownHoles(editor).patches, nullptr) << "nothing sees what it saw";
+  editor.session.undo();
+  gui.settle();
+  EXPECT_NE(shownHoles(editor).patches, nullptr) << "the station is back";
 }
 
 TEST_F(Gaps, SayUnderThePointerWhatTheyAreOf) {

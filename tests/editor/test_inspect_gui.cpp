@@ -491,7 +491,7 @@ TEST_F(Inspect, ShowsWhereTwoCloudsDifferOnceTheyAreCompared) {
   ASSERT_TRUE(editor.view.worst_place);
   EXPECT_LT((editor.view.worst_place->at - (answer->a_largest->at_m - editor.shift_m())).norm(), 1e-6);
   EXPECT_TRUE(editor.cloud()) << "among the points that differ";
-  EXPECT_TRUE(gui.says("in one cubic metre of A")) << "no distance of a single point";
+  EXPECT_TRUE(gui.says("points of A in one cubic metre, on average")) << "no distance of a single point";
   ASSERT_TRUE(gui.click("###difference-b"));
   gui.frames(2);
   EXPECT_EQ(editor.cloud()->points.size(), answer->b_distances->place_m.size());
