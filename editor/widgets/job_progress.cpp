@@ -10,8 +10,8 @@
 
 #include "core/progress.h"
 #include "editor/model/style.h"
-#include "editor/model/time_left.h"
 #include "editor/widgets/theme.h"
+#include "editor/widgets/time_left.h"
 #include "editor/widgets/widgets.h"
 #include "editor/words/sentences.h"
 

@@ -10,7 +10,7 @@
 #include "demo_verbs.h"
 #include "editor/desktop/frame_pacer.h"
 #include "editor/instrument/ticker.h"
-#include "editor/model/time_left.h"
+#include "editor/widgets/time_left.h"
 #include "item_probe.h"
 
 namespace standpoint {

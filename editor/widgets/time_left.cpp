@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/model/time_left.h"
+#include "editor/widgets/time_left.h"
 
 #include <algorithm>
 #include <cmath>
