@@ -152,7 +152,8 @@ struct ViewportState {
   bool room_names = true, labels_through_walls = false;
   bool holes = false;  // of the coverage that was computed last
   Tool tool = Tool::select;
-  std::optional<RayHit> hover;  // under the pointer
+  std::optional<RayHit> hover;       // under the pointer; through doors that open
+  std::optional<RayHit> door_hover;  // before that, a door as it stands; it faces the pointer
   Eigen::Vector3d pivot = Eigen::Vector3d::Zero();
   double pivot_depth_m = 1;
   Eigen::Vector2d size = {800, 600};  // of the picture, in interface points

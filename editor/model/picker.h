@@ -17,6 +17,9 @@ bool isShown(const ViewState& view, std::uint32_t product, const Eigen::Vector3d
 // The first surface of the scene that `view` shows: what is hidden or cut away lets the ray through.
 std::optional<RayHit> firstShown(const RayScene& scene, const ViewRay& ray, const ViewState& view);
 
+// Of doors that are drawn apart, as they stand, what the ray meets first, if it does within that range.
+std::optional<RayHit> firstDoor(const Environment& doors, const ViewRay& ray, double within_m);
+
 // Picks with the rays that the scanners use, so that what is clicked is what a beam would meet. The scene is built
 // beside the interface; until it is ready nothing can be picked.
 class Picker {

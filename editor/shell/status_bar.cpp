@@ -30,7 +30,7 @@ std::string hoverText(const Editor& editor) {
   const auto& view = editor.view;
   if (measures(editor) && view.measured && !view.measured->cloud.empty())
     return trf("Point of {}   {}", view.measured->cloud, placeText(view.measured->position + editor.shift_m()));
-  const auto& hover = view.hover;
+  const auto& hover = view.door_hover ? view.door_hover : view.hover;
   if (measures(editor) && (editor.cloud() || !view.measured)) return {};  // the model is not what is measured
   if (!hover || !editor.environment() || hover->product >= editor.environment()->products.size()) return {};
   const auto& product = editor.environment()->products[hover->product];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -187,9 +188,16 @@ void handleMouse(Editor& editor, ImVec2 origin, bool hovered) {
   const auto& io = ImGui::GetIO();
   if (!view.dragging && !ImGui::IsPopupOpen("###viewport-menu")) {
     view.hover.reset();
+    view.door_hover.reset();
     const bool hidden = editor.cloud() && view.tool == Tool::select;  // what is not seen is not chosen
-    if (hovered && !hidden && !editor.preview.isOpen() && !editor.proof)
-      view.hover = editor.picker.pick(rayThrough(view.camera, pointer(origin), view.size), editor.viewState());
+    if (hovered && !hidden && !editor.preview.isOpen() && !editor.proof) {
+      const auto ray = rayThrough(view.camera, pointer(origin), view.size);
+      const auto state = editor.viewState();
+      view.hover = editor.picker.pick(ray, state);
+      if (state.doors)
+        view.door_hover =
+            firstDoor(*state.doors, ray, view.hover ? view.hover->range_m : std::numeric_limits<double>::infinity());
+    }
   }
   followInspectTools(editor, origin, hovered && !editor.preview.isOpen() && !editor.proof);
   if (!view.dragging && !editor.proof && aimTeleport(editor, hovered)) return;

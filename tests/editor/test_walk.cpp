@@ -401,6 +401,32 @@ TEST_F(Walking, JumpsThoughTheShapesAreComputedWhileItsGroundIsPrepared) {
   EXPECT_TRUE(editor.walk.active());
 }
 
+TEST_F(Walking, TheStatusBarNamesTheClosedDoorUnderThePointer) {
+  walk();
+  ASSERT_TRUE(editor.walk.doors());
+  Bounds box;
+  for (const auto& instance : editor.walk.doors()->instances)
+    box.extend(bounds(*editor.walk.doors()->meshes[instance.mesh], instance.world_from_mesh));
+  auto& camera = editor.view.camera;
+  const Eigen::Vector3d eye = camera.eye();
+  Eigen::Vector3d middle = (box.min + box.max) / 2;
+  middle.z() = eye.z();
+  const Eigen::Vector3d way = middle - eye;
+  camera.azimuth_rad = std::atan2(-way.x(), way.y());
+  camera.elevation_rad = 0;
+  camera.target = eye + camera.forward() * camera.distance_m;
+  gui.frames(2);
+  editor.notice.text.clear();  // of how the walk began
+  gui.moveTo(pixelOf(middle));
+  gui.frames(2);
+  ASSERT_TRUE(editor.view.door_hover);
+  const auto& door = editor.environment()->products[editor.view.door_hover->product];
+  EXPECT_EQ(door.ifc_class, "IfcDoor");
+  EXPECT_TRUE(gui.says(productLabel(door)));
+  EXPECT_NEAR(editor.view.door_hover->range_m, way.norm(), 0.1);
+  EXPECT_NEAR((editor.view.door_hover->position - middle).head<2>().norm(), 0, 0.1);
+}
+
 TEST_F(Walking, OpensTheDoorAheadAndClosesItBehindWithoutChangingTheDocument) {
   walk();
   const auto revision = editor.session.revision();
