@@ -216,8 +216,9 @@ void drawDifferences(const Model& model, CompareState& state, Actions& actions, 
   // First the one that has more to show: the points of A may all be near B, and not the other way round.
   const auto most_m = [](const auto& largest) { return largest ? largest->distance_m : 0; };
   if (!shown) lookAt(model, state, actions, answer, most_m(answer.b_largest) > most_m(answer.a_largest), clouds);
+  const auto* legend = model.pointLegend();
   const auto choice = [&](bool b, const std::string& label, const char* tooltip) {
-    const bool lit = model.cloud() && isOfB(state, answer) == b;
+    const bool lit = legend != nullptr && legend->title == (b ? kOfB : kOfA);
     ImGui::PushStyleColor(ImGuiCol_Button, lit ? ui::kLit : ImGui::GetStyleColorVec4(ImGuiCol_Button));
     if (ui::button(label.c_str(), {}, {0, 0}, tooltip)) lookAt(model, state, actions, answer, b, clouds);
     ImGui::PopStyleColor();

@@ -309,7 +309,7 @@ ui::Text toolHint(const Editor& editor) {
   return hint != nullptr ? hint : "";
 }
 
-// Of who moves, above it what it says of the place, and what is wrong.
+// What can be done, above it where whoever moves is, how a live scan goes, and what is wrong.
 void drawWords(Editor& editor, ImVec2 origin, ImVec2 size) {
   std::vector<Banner> banners = {{toolHint(editor), banner::kHint}};
   if (!editor.walk_ground.preparing()) {
