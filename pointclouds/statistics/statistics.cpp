@@ -219,10 +219,10 @@ Result<CloudStatistics> measureCloud(const std::filesystem::path& file, const St
 Result<CloudComparison> compareClouds(const CloudPart& a, const CloudPart& b, const StatisticsOptions& options,
                                       Progress& progress) {
   CloudComparison comparison;
-  constexpr double kMeasured = 0.7;  // of the time
-  const double share = kMeasured * shareOf(a.file, b.file);
-  ProgressPart of_a(progress, 0, share), of_b(progress, share, kMeasured);
-  ProgressPart a_from_b(progress, kMeasured, (1 + kMeasured) / 2), b_from_a(progress, (1 + kMeasured) / 2, 1);
+  constexpr double kShareOfTime = 0.7;  // for each cloud by itself
+  const double share = kShareOfTime * shareOf(a.file, b.file);
+  ProgressPart of_a(progress, 0, share), of_b(progress, share, kShareOfTime);
+  ProgressPart a_from_b(progress, kShareOfTime, (1 + kShareOfTime) / 2), b_from_a(progress, (1 + kShareOfTime) / 2, 1);
   TRY_ASSIGN(auto first, measure(a, options, comparison.report, of_a));
   TRY_ASSIGN(auto second, measure(b, options, comparison.report, of_b));
   comparison.a = std::move(first.statistics);
