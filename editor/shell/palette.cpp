@@ -193,10 +193,10 @@ void drawEntry(Editor& editor, const Entry& entry, bool chosen, bool& done) {
   ImGui::BeginDisabled(!entry.why.empty());
   ImGui::TextDisabled("%s", entry.icon.c_str());
   ImGui::SameLine(editor.px(44));
-  ImGui::TextUnformatted(entry.title.c_str());
-  ImGui::EndDisabled();
   const float room = right - editor.px(44 + 24) - ImGui::CalcTextSize(entry.title.c_str()).x;
   const float width = std::min(ImGui::CalcTextSize(entry.detail.c_str()).x, std::max(room, editor.px(220)));
+  ui::fitted(entry.title, right - width - editor.px(44 + 12));
+  ImGui::EndDisabled();
   ImGui::SameLine(right - width);
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   ui::fitted(entry.detail, width);
