@@ -38,6 +38,19 @@ double Camera::metresPerPixel(double depth_m, double height_px) const {
   return 2 * depth * std::tan(view_angle_rad / 2) / std::max(height_px, 1.0);
 }
 
+double azimuthBeside(double before_rad, int i, int directions) {
+  const int aside = (i + 1) / 2 * (i % 2 == 0 ? 1 : -1);
+  return before_rad + 2 * kPi * aside / directions;
+}
+
+std::array<Eigen::Vector3d, 8> cornersOf(const Bounds& bounds) {
+  std::array<Eigen::Vector3d, 8> corners;
+  for (unsigned i = 0; i < corners.size(); ++i)
+    corners[i] = {(i & 1U) != 0 ? bounds.max.x() : bounds.min.x(), (i & 2U) != 0 ? bounds.max.y() : bounds.min.y(),
+                  (i & 4U) != 0 ? bounds.max.z() : bounds.min.z()};
+  return corners;
+}
+
 ViewRay rayThrough(const Camera& camera, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size) {
   const double scale = camera.metresPerPixel(camera.distance_m, size.y());
   const Eigen::Vector3d on_target_plane = camera.target + camera.right() * ((pixel.x() - size.x() / 2) * scale) +
@@ -83,11 +96,8 @@ void frame(Camera& camera, const Bounds& bounds, double aspect) {
   const double tangent_y = std::tan(camera.view_angle_rad / 2);
   const double tangent_x = tangent_y * std::max(aspect, 0.1);
   double distance = 0.2;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Vector3d p((corner & 1) != 0 ? bounds.max.x() : bounds.min.x(),
-                            (corner & 2) != 0 ? bounds.max.y() : bounds.min.y(),
-                            (corner & 4) != 0 ? bounds.max.z() : bounds.min.z());
-    const Eigen::Vector3d d = p - centre;
+  for (const auto& corner : cornersOf(bounds)) {
+    const Eigen::Vector3d d = corner - centre;
     const double nearer = camera.orthographic ? 0 : -d.dot(camera.forward());
     distance = std::max({distance, nearer + std::abs(d.dot(camera.right())) / tangent_x,
                          nearer + std::abs(d.dot(camera.up())) / tangent_y});

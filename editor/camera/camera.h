@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include <Eigen/Geometry>
@@ -30,6 +31,10 @@ struct Camera {
   double metresPerPixel(double depth_m, double height_px) const;
   double heightAtTarget_m() const;
 };
+
+// Of so many directions all around the i-th to look in: the one of before first, then those beside it by turns.
+double azimuthBeside(double before_rad, int i, int directions);
+std::array<Eigen::Vector3d, 8> cornersOf(const Bounds& bounds);
 
 struct ViewRay {
   Eigen::Vector3d origin;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <initializer_list>
 #include <iterator>
-#include <numbers>
 #include <optional>
 
 #include <Eigen/Geometry>
@@ -21,12 +20,8 @@ int raysOnSelection(const Model& model, const Bounds& box) {
   constexpr int kRays = 16;
   const auto& view = model.view;
   Eigen::AlignedBox2d part;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Vector3d p((corner & 1) != 0 ? box.max.x() : box.min.x(),
-                            (corner & 2) != 0 ? box.max.y() : box.min.y(),
-                            (corner & 4) != 0 ? box.max.z() : box.min.z());
-    if (const auto pixel = project(view.camera, p, view.size)) part.extend(*pixel);
-  }
+  for (const auto& corner : cornersOf(box))
+    if (const auto pixel = project(view.camera, corner, view.size)) part.extend(*pixel);
   part = part.intersection(Eigen::AlignedBox2d(Eigen::Vector2d::Zero(), view.size));
   if (part.isEmpty()) return 0;
   const auto state = model.viewState();
@@ -61,12 +56,11 @@ Sight bestAround(Model& model, const Bounds& box, const Camera& before, std::opt
   Sight best;
   for (const double elevation_rad : elevations_rad)
     for (int i = 0; i < kDirections; ++i) {
-      const int aside = (i + 1) / 2 * (i % 2 == 0 ? 1 : -1);
       Camera camera = before;
       camera.orthographic = false;
       camera.view_angle_rad = Camera().view_angle_rad;
       camera.elevation_rad = elevation_rad;
-      camera.azimuth_rad = before.azimuth_rad + 2 * std::numbers::pi * aside / kDirections;
+      camera.azimuth_rad = azimuthBeside(before.azimuth_rad, i, kDirections);
       const auto sight = sightFrom(model, box, camera, cut_height_m);
       if (sight.rays > best.rays) best = sight;
     }

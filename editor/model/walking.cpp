@@ -244,9 +244,8 @@ bool lookFromAbove(Model& model, const Eigen::Vector3d& place, const Bounds& aro
     const auto state = model.viewState();
     for (const double elevation_rad : kElevations_rad)
       for (int i = 0; i < kDirections; ++i) {
-        const int aside = (i + 1) / 2 * (i % 2 == 0 ? 1 : -1);
         camera.elevation_rad = elevation_rad;
-        camera.azimuth_rad = before.azimuth_rad + 2 * std::numbers::pi * aside / kDirections;
+        camera.azimuth_rad = azimuthBeside(before.azimuth_rad, i, kDirections);
         model.bringIntoView(around);
         if (model.picker.sees(camera.eye(), place - kOffSurface_m * camera.forward(), state)) return true;
       }

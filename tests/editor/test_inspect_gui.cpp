@@ -40,6 +40,15 @@ class Inspect : public ::testing::Test {
     gui.press();
     gui.settle();
   }
+  // From both stations.
+  void scanInto(const TemporaryFolder& folder) {
+    ASSERT_TRUE(editor.session.start(ScanVerbOptions{.instrument = "faro-focus-s350",
+                                                     .settings = {{"resolution", "1/20"}, {"quality", "4x"}},
+                                                     .ideal = true,
+                                                     .output = folder / "scan.e57"}));
+    gui.settle();
+    ASSERT_TRUE(editor.session.errors().empty()) << describe(editor.session.errors().front().error);
+  }
   std::size_t kept() const {
     const auto& measurements = editor.session.document().measurements;
     return measurements ? measurements->size() : 0;
@@ -432,11 +441,7 @@ TEST_F(Inspect, AWallIsPickedOnlyWhereThereIsACloudAndElseSaysWhy) {
 
 TEST_F(Inspect, ThePanoramaOfTheChosenStationIsAPressAway) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(editor.session.start(ScanVerbOptions{.instrument = "faro-focus-s350",
-                                                   .settings = {{"resolution", "1/20"}, {"quality", "4x"}},
-                                                   .ideal = true,
-                                                   .output = folder / "scan.e57"}));
-  gui.settle();
+  ASSERT_NO_FATAL_FAILURE(scanInto(folder));
   editor.showClouds({});
   editor.survey.station = 1;
   editor.wanted_tab[2] = "panorama";
@@ -454,12 +459,7 @@ TEST_F(Inspect, ThePanoramaOfTheChosenStationIsAPressAway) {
 // A is chosen by keys, as a list is gone through.
 TEST_F(Inspect, ShowsWhereTwoCloudsDifferOnceTheyAreCompared) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(editor.session.start(ScanVerbOptions{.instrument = "faro-focus-s350",
-                                                   .settings = {{"resolution", "1/20"}, {"quality", "4x"}},
-                                                   .ideal = true,
-                                                   .output = folder / "scan.e57"}));
-  gui.settle();
-  ASSERT_TRUE(editor.session.errors().empty()) << describe(editor.session.errors().front().error);
+  ASSERT_NO_FATAL_FAILURE(scanInto(folder));
   editor.wanted_tab[2] = "compare";
   gui.frames(3);
   for (const char* list : {"###compare-a", "###compare-b"}) {
